@@ -10,16 +10,23 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # bands of our own use the cores; threads of the library wait busily for small matrices
-gc.set_threshold(300_000, 20, 20)  # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
+os.environ.setdefault(
+    "OPENBLAS_NUM_THREADS", "1"
+)  # bands of our own use the cores; threads of the library wait busily for small matrices
+gc.set_threshold(
+    300_000, 20, 20
+)  # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
 
 from .cli.main import BAD_INPUT  # noqa: E402 (both first: importing makes most of the objects, and reads the environment)
 from .cli.main import main as command_line  # noqa: E402
 from .cli.output import say  # noqa: E402
 from .core.errors import shortened  # noqa: E402
 
-_LIBRARIES = "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 libxcb-icccm4 " \
+_LIBRARIES = (
+    "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 "
+    "libxcb-icccm4 "
     "libxcb-keysyms1 libxcb-shape0"
+)
 
 
 def main() -> int:
@@ -40,7 +47,9 @@ def main() -> int:
 
 
 def _hold_streams() -> None:
-    """Let what is closed of the three streams be nowhere, so that no file that is opened takes its number and gets what is said."""
+    """Let what is closed of the three streams be nowhere, so that no file that is opened takes its number and gets what
+    is said.
+    """
     for number in range(3):
         try:
             os.fstat(number)
@@ -70,12 +79,17 @@ def _open(files: list[str]) -> int:
 
 
 def _has_screen() -> bool:
-    return not sys.platform.startswith("linux") or any(os.environ.get(n) for n in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"))
+    return not sys.platform.startswith("linux") or any(
+        os.environ.get(n) for n in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+    )
 
 
 def _window(path: Path | None) -> int:
     if not _has_screen():
-        return _refuse("there is no screen here to open a window on; start it on a desktop, or use: hitofude make DRAWING -o OUT.ngc")
+        return _refuse(
+            "there is no screen here to open a window on; start it on a desktop, or use: hitofude make DRAWING -o "
+            "OUT.ngc"
+        )
     try:
         from .ui.shell.start import start
 
@@ -84,8 +98,10 @@ def _window(path: Path | None) -> int:
     except ImportError as error:
         if "PySide6" not in f"{error.name}{error.path}{error}" and ".so" not in str(error):
             raise
-        return _refuse(f"the window needs libraries that are missing here ({error}); install them, on Debian or Ubuntu with: "
-                       f"apt-get install {_LIBRARIES}")
+        return _refuse(
+            f"the window needs libraries that are missing here ({error}); install them, on Debian or Ubuntu with: "
+            f"apt-get install {_LIBRARIES}"
+        )
     return _end(start(path))
 
 

@@ -15,7 +15,9 @@ os.environ["LC_ALL"] = "C.UTF-8"  # the window speaks English, whatever the desk
 
 pytest_plugins = ("tests.parallel", "tests.exhaustive")
 
-settings.register_profile("quick", derandomize=True, max_examples=examples(100), deadline=None)  # a busy machine is no slow code
+settings.register_profile(
+    "quick", derandomize=True, max_examples=examples(100), deadline=None
+)  # a busy machine is no slow code
 settings.register_profile("full", derandomize=True, deadline=None)
 settings.load_profile(PROFILE)
 
@@ -24,7 +26,9 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @pytest.fixture(scope="session")
 def config_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """New folders for settings, numbered: the usual temporary ones are numbered by looking through all that there are."""
+    """New folders for settings, numbered: the usual temporary ones are numbered by looking through all that there
+    are.
+    """
     base = tmp_path_factory.mktemp("config")
     return (base / str(k) for k in itertools.count())
 

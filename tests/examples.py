@@ -6,7 +6,9 @@ import os
 
 QUICK_SHARE, FEWEST = 6, 4
 PROFILE = os.environ.get("HITOFUDE_HYPOTHESIS", "quick")
-"""`quick`: a share of the examples, the same each time; `full`: all, the same each time; `default`: all, searched for anew."""
+"""`quick`: a share of the examples, the same each time; `full`: all, the same each time; `default`: all, searched for
+anew.
+"""
 
 
 def examples(count: int) -> int:

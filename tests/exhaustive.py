@@ -1,6 +1,7 @@
 """Which tests run with `./hitofude test --all` only.
 
-A test carries the mark `exhaustive` where it stands, or, where only some members of a family do, by the table of families.
+A test carries the mark `exhaustive` where it stands, or, where only some members of a family do, by the table of
+families.
 """
 
 from __future__ import annotations
@@ -24,14 +25,18 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         if is_left_to_all(item.nodeid):
             item.add_marker("exhaustive")
     config.stash[COLLECTED] = {
-        item.nodeid: item.get_closest_marker("exhaustive") is not None for item in items if item.get_closest_marker("benchmark") is None
+        item.nodeid: item.get_closest_marker("exhaustive") is not None
+        for item in items
+        if item.get_closest_marker("benchmark") is None
     }
 
 
 def is_left_to_all(nodeid: str) -> bool:
     """Return whether the table of families leaves a test to `--all`."""
     family, member = nodeid.split("[")[0], parameters_of(nodeid)
-    return member not in FAMILIES["run_each_time"].get(family, (member,)) or member in FAMILIES["exhaustive"].get(family, ())
+    return member not in FAMILIES["run_each_time"].get(family, (member,)) or member in FAMILIES["exhaustive"].get(
+        family, ()
+    )
 
 
 def parameters_of(nodeid: str) -> str:

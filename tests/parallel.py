@@ -1,4 +1,6 @@
-"""How the tests are shared out among processes: a file's tests stay together, and so do all that want a screen of their own."""
+"""How the tests are shared out among processes: a file's tests stay together, and so do all that want a screen of their
+own.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ ON_A_SCREEN = ("tests/ui/real_mouse/", "tests/ui/cut/test_on_screen.py")
 
 
 COSTS = {"tests/ui/test_snapshots": 40, "tests/core/": 10, "tests/ui/": 6, "tests/test_cli": 6, "tests/workflow/": 3}
-"""How much longer a test takes here than elsewhere, about: what takes long begins early, so that the processes end together."""
+"""How much longer a test takes here than elsewhere, about: what takes long begins early, so that the processes end
+together.
+"""
 
 
 class _DearestFirst(OrderedDict[str, dict[str, bool]]):

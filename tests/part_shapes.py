@@ -10,8 +10,24 @@ from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Circle, Line, Point
 from app.model.part import Contour, Entity, Layer, Part
 
-FIG2_OUTER = [(6, 6, 0), (60, 6, 0), (68, 14, 0), (68, 30, 1.0), (68, 46, 0), (68, 60, 0), (60, 60, 0), (60, 70, 0), (44, 70, -1.0),
-              (28, 70, 0), (20, 76, 0), (6, 76, 0), (6, 50, 0), (14, 44, 0), (14, 34, 0), (6, 28, 0)]
+FIG2_OUTER = [
+    (6, 6, 0),
+    (60, 6, 0),
+    (68, 14, 0),
+    (68, 30, 1.0),
+    (68, 46, 0),
+    (68, 60, 0),
+    (60, 60, 0),
+    (60, 70, 0),
+    (44, 70, -1.0),
+    (28, 70, 0),
+    (20, 76, 0),
+    (6, 76, 0),
+    (6, 50, 0),
+    (14, 44, 0),
+    (14, 34, 0),
+    (6, 28, 0),
+]
 
 
 def square(size: float = 20.0, x: float = 0.0, y: float = 0.0) -> Contour:
@@ -71,7 +87,10 @@ def random_part(seed: int) -> tuple[list[Contour], bool]:
         case 1:
             return [random_steps(rng)], False
         case 2:
-            return [square(40), *(circle(float(rng.integers(1, 5)), 10 + 10 * i, 10 + 10 * j) for i in range(3) for j in range(3))], False
+            return [
+                square(40),
+                *(circle(float(rng.integers(1, 5)), 10 + 10 * i, 10 + 10 * j) for i in range(3) for j in range(3)),
+            ], False
         case 3:
             islands = [random_star(rng, (8 * i - 4, 8 * j - 4), (1, 3), 0.5) for i in range(2) for j in range(2)]
             return [random_star(rng, (0, 0), (20, 30), 0.2), *islands], True
@@ -81,6 +100,8 @@ def random_part(seed: int) -> tuple[list[Contour], bool]:
 
 def layered_part(layers: dict[str, list[Contour]], hidden: tuple[str, ...] = ()) -> Part:
     """A drawing with contours on layers, of which some are switched off."""
-    curves = [(curve, name) for name, contours in layers.items() for contour in contours for curve in contour.primitives]
+    curves = [
+        (curve, name) for name, contours in layers.items() for contour in contours for curve in contour.primitives
+    ]
     entities = tuple(Entity(number, curve, name) for number, (curve, name) in enumerate(curves, 1))
     return Part(entities, tuple(Layer(name, visible=name not in hidden) for name in layers))

@@ -49,7 +49,10 @@ def test_a_circle_in_a_function_is_seen(tmp_path: Path) -> None:
     (package / "high.py").write_text("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .low import f\n")
     contract = '[tool.importlinter]\nroot_package = "tall"\n[[tool.importlinter.contracts]]\nname = "none"\n'
     (tmp_path / "pyproject.toml").write_text(contract + 'type = "acyclic_siblings"\nancestors = ["tall"]\n')
-    code = "import sys; sys.path.insert(0, '.'); from importlinter.cli import lint_imports; sys.exit(lint_imports(no_cache=True))"
+    code = (
+        "import sys; sys.path.insert(0, '.'); from importlinter.cli import lint_imports; "
+        "sys.exit(lint_imports(no_cache=True))"
+    )
     done = subprocess.run([sys.executable, "-P", "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1
     assert ".high -> .low" in done.stdout or ".low -> .high" in done.stdout
@@ -62,16 +65,28 @@ def test_only_kernel_files_make_kernels() -> None:
 
 def test_public_things_say_what_they_are() -> None:
     def silent(path: Path) -> list[str]:
-        public = (node for node in tree_of(path).body if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"))
-        return [name for name, doc in [("the module", ast.get_docstring(tree_of(path))), *((n.name, ast.get_docstring(n)) for n in public)]
-                if not doc]
+        public = (
+            node
+            for node in tree_of(path).body
+            if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_")
+        )
+        return [
+            name
+            for name, doc in [
+                ("the module", ast.get_docstring(tree_of(path))),
+                *((n.name, ast.get_docstring(n)) for n in public),
+            ]
+            if not doc
+        ]
 
     assert not offenders(FILES, silent)
 
 
 def modules_after(statement: str) -> set[str]:
     code = f"{statement}\nimport sys\nprint(*sorted({{name.split('.')[0] for name in sys.modules}}))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60
+    )
     return set(done.stdout.split())
 
 
@@ -84,5 +99,8 @@ def test_the_window_opens_without_heavy_libraries() -> None:
 
 
 def test_kernel_modules_know_no_window() -> None:
-    code = "import app.core.jit.warm, importlib\nfor name in app.core.jit.warm.kernel_modules(): importlib.import_module(name)"
+    code = (
+        "import app.core.jit.warm, importlib\nfor name in app.core.jit.warm.kernel_modules(): "
+        "importlib.import_module(name)"
+    )
     assert not modules_after(code) & (QT | COMPILER)

@@ -1,4 +1,6 @@
-"""The launcher, run by a real shell in a checkout that is set up already: what it passes on, and from where it can be called."""
+"""The launcher, run by a real shell in a checkout that is set up already: what it passes on, and from where it can be
+called.
+"""
 
 import os
 import shutil
@@ -12,7 +14,9 @@ from tests.conftest import ROOT
 
 pytestmark = pytest.mark.skipif(shutil.which("sh") is None, reason="no POSIX shell on this machine")
 
-SAY_WHAT_CAME = "import os, sys\nprint(*sys.argv[1:], os.getcwd(), sep='|')\nsys.exit(3 if 'three' in sys.argv else 0)\n"
+SAY_WHAT_CAME = (
+    "import os, sys\nprint(*sys.argv[1:], os.getcwd(), sep='|')\nsys.exit(3 if 'three' in sys.argv else 0)\n"
+)
 
 
 @pytest.fixture
@@ -63,7 +67,10 @@ def test_a_folder_named_app_where_it_is_called_does_not_matter(checkout: Path, t
 
 def test_a_newer_pyproject_is_installed_again(checkout: Path, tmp_path: Path) -> None:
     python = checkout / ".venv" / "bin" / "python"
-    python.write_text(f'#!/bin/sh\ncase "$2" in pip) echo "pip $*" >&2;; *) PYTHONPATH="{checkout}" exec "{sys.executable}" "$@";; esac\n')
+    python.write_text(
+        f'#!/bin/sh\ncase "$2" in pip) echo "pip $*" >&2;; *) PYTHONPATH="{checkout}" exec "{sys.executable}" "$@";; '
+        "esac\n"
+    )
     newer = checkout.joinpath(".venv/installed").stat().st_mtime + 10
     os.utime(checkout / "pyproject.toml", (newer, newer))
     done = call(checkout / "hitofude", "make", folder=tmp_path)
@@ -74,5 +81,8 @@ def test_a_newer_pyproject_is_installed_again(checkout: Path, tmp_path: Path) ->
 def test_a_checkout_that_was_moved_is_set_up_again(checkout: Path, tmp_path: Path) -> None:
     (checkout / ".venv" / "installed").write_text("/somewhere/else\n")
     python = checkout / ".venv" / "bin" / "python"
-    python.write_text(f'#!/bin/sh\ncase "$2" in pip) echo "pip $*" >&2;; *) PYTHONPATH="{checkout}" exec "{sys.executable}" "$@";; esac\n')
+    python.write_text(
+        f'#!/bin/sh\ncase "$2" in pip) echo "pip $*" >&2;; *) PYTHONPATH="{checkout}" exec "{sys.executable}" "$@";; '
+        "esac\n"
+    )
     assert "setting up" in call(checkout / "hitofude", "make", folder=tmp_path).stderr

@@ -1,4 +1,6 @@
-"""Every test has one mark: it runs each time, or with `--all`; and no room of the house goes without tests that run each time."""
+"""Every test has one mark: it runs each time, or with `--all`; and no room of the house goes without tests that run
+each time.
+"""
 
 from collections import Counter
 from pathlib import PurePosixPath
@@ -14,7 +16,9 @@ FEWEST = 5
 
 @pytest.fixture
 def collected(pytestconfig: pytest.Config) -> dict[str, bool]:
-    """Every test of this run before any was left out, and whether it is exhaustive; of all tests where all are asked for."""
+    """Every test of this run before any was left out, and whether it is exhaustive; of all tests where all are asked
+    for.
+    """
     return pytestconfig.stash[COLLECTED]
 
 
@@ -22,7 +26,9 @@ def room_of(nodeid: str) -> str:
     return PurePosixPath(nodeid.split("::")[0]).parts[1]
 
 
-def test_default_and_exhaustive_tests_together_are_all(request: pytest.FixtureRequest, collected: dict[str, bool]) -> None:
+def test_default_and_exhaustive_tests_together_are_all(
+    request: pytest.FixtureRequest, collected: dict[str, bool]
+) -> None:
     chosen = {item.nodeid for item in request.session.items if item.get_closest_marker("benchmark") is None}
     if request.config.option.markexpr == "not exhaustive and not benchmark":
         assert chosen == {nodeid for nodeid, exhaustive in collected.items() if not exhaustive}
@@ -32,7 +38,10 @@ def test_default_and_exhaustive_tests_together_are_all(request: pytest.FixtureRe
 
 
 def test_every_room_has_tests_that_run_each_time(collected: dict[str, bool]) -> None:
-    every, quick = Counter(map(room_of, collected)), Counter(room_of(nodeid) for nodeid, exhaustive in collected.items() if not exhaustive)
+    every, quick = (
+        Counter(map(room_of, collected)),
+        Counter(room_of(nodeid) for nodeid, exhaustive in collected.items() if not exhaustive),
+    )
     slow = [room for room, count in every.items() if quick[room] < min(count, 1 if room.endswith(".py") else FEWEST)]
     assert slow in ([], ["test_wheel.py"]), "installing a wheel takes a minute; all others have something quick to say"
 
@@ -44,7 +53,9 @@ def test_every_family_that_is_named_is_there_and_keeps_members(collected: dict[s
     for nodeid in collected:
         members.setdefault(nodeid.split("[")[0], set()).add(parameters_of(nodeid))
     named = {family: set(some) for family, some in FAMILIES[table].items() if family.split("::")[0] in files}
-    assert {family: some - members.get(family, set()) for family, some in named.items()} == {family: set() for family in named}
+    assert {family: some - members.get(family, set()) for family, some in named.items()} == {
+        family: set() for family in named
+    }
     assert all(0 < len(some) < len(members[family]) for family, some in named.items())
 
 

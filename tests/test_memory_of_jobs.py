@@ -1,4 +1,6 @@
-"""What jobs take is what was asked for, within a factor of two; a budget is kept; what does not fit is refused before it is taken."""
+"""What jobs take is what was asked for, within a factor of two; a budget is kept; what does not fit is refused before
+it is taken.
+"""
 
 from __future__ import annotations
 
@@ -26,8 +28,14 @@ TOOLS = ("--contour-tool=6", "--pocket-tool=6")
 
 def child(*commands: list[str]) -> dict[str, float]:
     """Run commands one after the other in a process of their own; return what the last one took."""
-    done = subprocess.run([sys.executable, "-m", "tests.memory_child", json.dumps(commands)], cwd=ROOT, capture_output=True, text=True,
-                          timeout=300, check=True)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.memory_child", json.dumps(commands)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=True,
+    )
     told: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
     return told
 
@@ -58,7 +66,9 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("options", [[], ["--against", FIG2]], ids=["alone", "against"])
-def test_what_a_cut_asks_for_is_what_it_takes(program: str, options: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_a_cut_asks_for_is_what_it_takes(
+    program: str, options: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     def command(cells: int) -> list[str]:
         return ["cut", program, *options, f"--grid={cells}", "--quiet", "--engine=cpu"]
 
@@ -68,7 +78,9 @@ def test_what_a_cut_asks_for_is_what_it_takes(program: str, options: list[str], 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize(("name", "size"), [("make", 3000), ("stages", 1500)])
-def test_what_a_bitmap_asks_for_is_what_it_takes(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, size: int) -> None:
+def test_what_a_bitmap_asks_for_is_what_it_takes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, size: int
+) -> None:
     drawing = tmp_path / "a.draw"
     drawing.write_text(LARGE)
 
@@ -85,12 +97,17 @@ def test_what_a_bitmap_asks_for_is_what_it_takes(tmp_path: Path, capsys: pytest.
     found = re.search(r"would take (\S+ [MGT]B)", said)
     assert found is not None, said
     wanted = read_size(found[1])
-    assert wanted / 2 <= child(command(150, "a"), command(size, "b"))["grown"] <= 1.3 * wanted  # 1.3: stages hold the paths as well
+    assert (
+        wanted / 2 <= child(command(150, "a"), command(size, "b"))["grown"] <= 1.3 * wanted
+    )  # 1.3: stages hold the paths as well
 
 
 def test_a_program_of_many_lines_asks_before_it_is_read() -> None:
     text = b"G1 X1 Y2 F100\n" * 100_000
-    with within(10_000_000), pytest.raises(MemoryShortError, match=r"program of 100,001 lines would take 40 MB.*at most \d+ lines"):
+    with (
+        within(10_000_000),
+        pytest.raises(MemoryShortError, match=r"program of 100,001 lines would take 40 MB.*at most \d+ lines"),
+    ):
         read_program(text)
 
 
@@ -123,7 +140,9 @@ def test_the_grid_that_is_told_stays_within_the_budget(program: str, capsys: pyt
     assert told["grown"] <= 150e6
 
 
-def test_more_planes_than_memory_holds_are_refused_while_they_are_followed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_more_planes_than_memory_holds_are_refused_while_they_are_followed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     scene = tmp_path / "a.toml"
     scene.write_text("""
 name = "a"
@@ -146,15 +165,21 @@ pitch = 0.001
 """)
     assert main(["surface", str(scene), "-o", str(tmp_path / "a.ngc"), "--memory=60M", "--quiet"]) == 2
     said = capsys.readouterr().err
-    assert re.search(r"Passes on [\d,]+ planes would take .*set them 0\.\d+ mm apart or more \(pitch = 0\.\d+ in the scene\)", said)
+    assert re.search(
+        r"Passes on [\d,]+ planes would take .*set them 0\.\d+ mm apart or more \(pitch = 0\.\d+ in the scene\)", said
+    )
     assert said.count("\n") == 1 and not (tmp_path / "a.ngc").exists()
 
 
-def test_rest_machining_with_a_needle_is_refused_before_its_cells_are_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rest_machining_with_a_needle_is_refused_before_its_cells_are_made(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     drawing = tmp_path / "a.draw"
     drawing.write_text("rect 0,0 20,12\n")
     command = ["make", str(drawing), "--pocket-tool=6", "--contour-tool=0.02", "-o", str(tmp_path / "a.ngc"), "--quiet"]
     assert main([*command, "--memory=50M"]) == 2
     said = capsys.readouterr().err
-    assert re.search(r"Clearing what is left with a tool of 0\.02 mm would take \S+ [MG]B of memory.*\(--contour-tool 0\.\d+\)", said)
+    assert re.search(
+        r"Clearing what is left with a tool of 0\.02 mm would take \S+ [MG]B of memory.*\(--contour-tool 0\.\d+\)", said
+    )
     assert said.count("\n") == 1 and not (tmp_path / "a.ngc").exists()

@@ -1,4 +1,6 @@
-"""The wheel is the whole program: put into an empty environment it makes a program and opens a window, far from the source."""
+"""The wheel is the whole program: put into an empty environment it makes a program and opens a window, far from the
+source.
+"""
 
 import os
 import shutil
@@ -40,7 +42,9 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     source = folder / "source"
     shutil.copytree(ROOT, source, ignore=shutil.ignore_patterns(".*", "tests", "__pycache__"))
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "-q"]
-    made = subprocess.run([*pip, "wheel", "--no-deps", "-w", str(folder), str(source)], capture_output=True, text=True, timeout=300)
+    made = subprocess.run(
+        [*pip, "wheel", "--no-deps", "-w", str(folder), str(source)], capture_output=True, text=True, timeout=300
+    )
     if made.returncode and "No matching distribution" in made.stderr:
         pytest.skip("there is no package index to take the build back end from")
     assert made.returncode == 0, made.stderr
@@ -48,7 +52,9 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     shutil.rmtree(source)
     subprocess.run([sys.executable, "-m", "venv", str(folder / "venv")], check=True, timeout=120)
     python = folder / "venv" / "bin" / "python"
-    subprocess.run([str(python), "-m", "pip", "--disable-pip-version-check", "-q", "install", str(wheel)], check=True, timeout=600)
+    subprocess.run(
+        [str(python), "-m", "pip", "--disable-pip-version-check", "-q", "install", str(wheel)], check=True, timeout=600
+    )
     return folder / "venv" / "bin"
 
 

@@ -19,16 +19,37 @@ def add_bitmap_options(group: argparse._ArgumentGroup, bitmap_help: str) -> None
         bitmap_help: what --bitmap does for this command.
     """
     group.add_argument("--bitmap", metavar="N", type=_whole("bitmap", 1), help=bitmap_help)
-    group.add_argument("--pitch", metavar="MM", type=number("pitch"),
-                       help="size of a pixel; the bitmap of a drawing is then as large as it must be")
-    group.add_argument("--dpi", metavar="N", type=number("resolution", unit="dpi"), help="of a picture: pixels an inch, instead of --pitch")
-    group.add_argument("--threshold", metavar="N", type=_whole("threshold", 1),
-                       help="of a picture: what is darker is ink, 1 to 255 (default: Otsu's)")
+    group.add_argument(
+        "--pitch",
+        metavar="MM",
+        type=number("pitch"),
+        help="size of a pixel; the bitmap of a drawing is then as large as it must be",
+    )
+    group.add_argument(
+        "--dpi",
+        metavar="N",
+        type=number("resolution", unit="dpi"),
+        help="of a picture: pixels an inch, instead of --pitch",
+    )
+    group.add_argument(
+        "--threshold",
+        metavar="N",
+        type=_whole("threshold", 1),
+        help="of a picture: what is darker is ink, 1 to 255 (default: Otsu's)",
+    )
     group.add_argument("--invert", action="store_true", help="of a picture: the ink is light on dark")
-    group.add_argument("--despeckle", metavar="N", type=_whole("despeckle", 0),
-                       help="of a picture: spots of up to this many pixels are no ink (default 4)")
-    group.add_argument("--ink", choices=[each.value for each in Shows],
-                       help="of a picture: its ink is lines round what is machined, or the areas themselves (default: by how thin it is)")
+    group.add_argument(
+        "--despeckle",
+        metavar="N",
+        type=_whole("despeckle", 0),
+        help="of a picture: spots of up to this many pixels are no ink (default 4)",
+    )
+    group.add_argument(
+        "--ink",
+        choices=[each.value for each in Shows],
+        help="of a picture: its ink is lines round what is machined, or the areas themselves (default: by how thin it "
+        "is)",
+    )
 
 
 def _whole(what: str, least: int) -> type[int]:
@@ -38,7 +59,9 @@ def _whole(what: str, least: int) -> type[int]:
         try:
             value = int(text)
         except ValueError as error:
-            raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no whole number; write the {what} as one") from error
+            raise argparse.ArgumentTypeError(
+                f"is wrong: '{text}' is no whole number; write the {what} as one"
+            ) from error
         if value < least:
             raise argparse.ArgumentTypeError(f"is {value}; the {what} must be {least} or more")
         return value
@@ -71,12 +94,20 @@ def bitmap_options(arguments: argparse.Namespace) -> BitmapOptions:
     """
     picture = is_picture(arguments.drawing.name)
     if picture and arguments.bitmap is not None:
-        raise InputError("--bitmap: a picture has its own pixels; leave the option away, and give their size by --pitch or --dpi")
+        raise InputError(
+            "--bitmap: a picture has its own pixels; leave the option away, and give their size by --pitch or --dpi"
+        )
     for name in ("dpi", "threshold", "invert", "despeckle", "ink"):
         asked = getattr(arguments, name)
         if not picture and asked is not None and asked is not False:
             raise InputError(f"--{name}: {arguments.drawing.name} is no picture; leave the option away")
     size = BitmapSize(arguments.bitmap or (16 if arguments.pitch else POINTS), None if picture else arguments.pitch)
-    read = PictureOptions(arguments.threshold, arguments.invert, _or(arguments.despeckle, PictureOptions().despeckle), arguments.pitch,
-                          arguments.dpi, Shows(_or(arguments.ink, Shows.AUTO)))
+    read = PictureOptions(
+        arguments.threshold,
+        arguments.invert,
+        _or(arguments.despeckle, PictureOptions().despeckle),
+        arguments.pitch,
+        arguments.dpi,
+        Shows(_or(arguments.ink, Shows.AUTO)),
+    )
     return BitmapOptions(size, read)

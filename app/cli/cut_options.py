@@ -24,12 +24,13 @@ from .parser import OptionParser, join_tolerance, number, typed, with_equals
 from .reading_options import NAMES, add_reading_options
 
 EPILOG = """\
-Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the stock in
-the job file (with --against DRAWING), in the comments, or else it is a box round the cuts, which is said. A program that `make` has
-written tells everything. Coordinates are those of the program, tool lengths taken off. Several programs are cut one after the other.
-D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. Mills given by --tool have two flutes and cut at
-their centre; a job file tells of others. Exit status 0: done and clean; 1: with findings
-(gouge, metal left within reach, rapid, shank or holder in material, a start in the stock, …); 2: something cannot be used; 130: cancelled.
+Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the
+stock in the job file (with --against DRAWING), in the comments, or else it is a box round the cuts, which is said. A
+program that `make` has written tells everything. Coordinates are those of the program, tool lengths taken off. Several
+programs are cut one after the other. D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written.
+Mills given by --tool have two flutes and cut at their centre; a job file tells of others. Exit status 0: done and
+clean; 1: with findings (gouge, metal left within reach, rapid, shank or holder in material, a start in the stock, …);
+2: something cannot be used; 130: cancelled.
 """
 
 SHAPES = "flat:D, ball:D, bull:D:CORNER, v:D:ANGLE, drill:D or drill:D:ANGLE, taper:TIP:ANGLE:D"
@@ -37,10 +38,20 @@ HELD = "NUMBER=HOLDER:STICKOUT"
 Corners = list[float]
 """x0, y0, z0, x1, y1, z1, mm."""
 
-ENGINE_HELP = ("what computes the heights: cpu, the engine of record; gpu, within 1e-4 mm of it by the graphics system; patent, by facets "
-               "in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on graphics "
-               "hardware, else cpu)")  # fmt: skip
-_COUNT = {ToolKind.FLAT: (1,), ToolKind.BALL: (1,), ToolKind.BULL: (2,), ToolKind.V: (2,), ToolKind.DRILL: (1, 2), ToolKind.TAPER: (3,)}
+ENGINE_HELP = (
+    "what computes the heights: cpu, the engine of record; gpu, within 1e-4 mm of it by the graphics system; patent, "
+    "by facets "
+    "in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on graphics "
+    "hardware, else cpu)"
+)
+_COUNT = {
+    ToolKind.FLAT: (1,),
+    ToolKind.BALL: (1,),
+    ToolKind.BULL: (2,),
+    ToolKind.V: (2,),
+    ToolKind.DRILL: (1, 2),
+    ToolKind.TAPER: (3,),
+}
 
 
 class CutParser(OptionParser):
@@ -77,7 +88,9 @@ def tool_given(text: str) -> tuple[int, Tool]:
 
 def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
     if kind is ToolKind.TAPER:
-        return Tool(tool, length(values[2]), kind, tip_diameter=length(values[0]), tip_angle=math.radians(angle(values[1])))
+        return Tool(
+            tool, length(values[2]), kind, tip_diameter=length(values[0]), tip_angle=math.radians(angle(values[1]))
+        )
     diameter = length(values[0])
     if kind is ToolKind.BULL:
         return Tool(tool, diameter, kind, corner_radius=length(values[1]))
@@ -87,7 +100,8 @@ def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
 
 
 def holder_given(text: str) -> tuple[int, Held]:
-    """Return how a tool is held by a text such as `1=ER20:35`, holder and stick-out, or `1=0,10;25,15:35` by its outline.
+    """Return how a tool is held by a text such as `1=ER20:35`, holder and stick-out, or `1=0,10;25,15:35` by its
+    outline.
 
     Raises:
         InputError: it is not of that form, there is no such holder, or its numbers make none.
@@ -97,7 +111,11 @@ def holder_given(text: str) -> tuple[int, Held]:
         raise InputError(f"'{text}' is no holder; write {HELD}, such as 1=ER20:35")
     try:
         stick_out = length(match[3])
-        outline = tuple(_point(point, text) for point in match[2].split(";")) if "," in match[2] else outline_of(match[2].strip())
+        outline = (
+            tuple(_point(point, text) for point in match[2].split(";"))
+            if "," in match[2]
+            else outline_of(match[2].strip())
+        )
         tool = Tool(max(int(match[1]), 1), 1.0, stick_out=stick_out, holder=outline)
     except CommandError as error:
         raise InputError(f"'{text}': {error.reason}") from error
@@ -111,7 +129,9 @@ def holder_given(text: str) -> tuple[int, Held]:
 def _point(text: str, whole: str) -> HolderPoint:
     values = text.split(",")
     if len(values) != 2:
-        raise InputError(f"'{whole}' has {_counted(values)} in '{text}'; write height and radius of each point: 1=0,10;25,15:35")
+        raise InputError(
+            f"'{whole}' has {_counted(values)} in '{text}'; write height and radius of each point: 1=0,10;25,15:35"
+        )
     return length(values[0]), length(values[1])
 
 
@@ -168,9 +188,18 @@ def _cells(text: str) -> int:
 
 def cut_parser() -> CutParser:
     """Return the parser of `hitofude cut`."""
-    about = "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to the part."
+    about = (
+        "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to "
+        "the part."
+    )
     parser = CutParser("cut", ("program", "the NC program"), about, EPILOG)
-    parser.add_argument("programs", metavar="PROGRAM.ngc", type=Path, nargs="+", help="the NC program, or several in the order of cutting")
+    parser.add_argument(
+        "programs",
+        metavar="PROGRAM.ngc",
+        type=Path,
+        nargs="+",
+        help="the NC program, or several in the order of cutting",
+    )
     _program_options(parser.add_argument_group("program, tools and stock"))
     _look_options(parser.add_argument_group("how to look"))
     _part_options(parser.add_argument_group("the part that it is compared with"))
@@ -179,45 +208,102 @@ def cut_parser() -> CutParser:
 
 
 def _program_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--stock", metavar="BOX|FILE", type=typed(stock_given),
-                       help="X0,Y0,Z0,X1,Y1,Z1, or a closed SOLID.stl in mm, or HEIGHTS.npy with its .json beside it")
-    group.add_argument("--tool", metavar="N=SHAPE", type=typed(tool_given), action="append", default=[],
-                       help=f"a tool by its T number (0: that of a program that names none): {SHAPES}; full angles in degrees; repeat")
-    group.add_argument("--holder", metavar="N=HOLDER:STICKOUT", type=typed(holder_given), action="append", default=[],
-                       help="how a tool is held: a holder by name, such as ER20, or H,R;H,R; heights over its lower face and radii; repeat")
+    group.add_argument(
+        "--stock",
+        metavar="BOX|FILE",
+        type=typed(stock_given),
+        help="X0,Y0,Z0,X1,Y1,Z1, or a closed SOLID.stl in mm, or HEIGHTS.npy with its .json beside it",
+    )
+    group.add_argument(
+        "--tool",
+        metavar="N=SHAPE",
+        type=typed(tool_given),
+        action="append",
+        default=[],
+        help=f"a tool by its T number (0: that of a program that names none): {SHAPES}; full angles in degrees; repeat",
+    )
+    group.add_argument(
+        "--holder",
+        metavar="N=HOLDER:STICKOUT",
+        type=typed(holder_given),
+        action="append",
+        default=[],
+        help="how a tool is held: a holder by name, such as ER20, or H,R;H,R; heights over its lower face and radii; "
+        "repeat",
+    )
     group.add_argument("--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin, as for make")
     group.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
     group.add_argument("--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)")
     group.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
-    group.add_argument("--block-delete", choices=["on", "off"], default="on",
-                       help="leave out the blocks that begin with a slash, or do them (default on)")
+    group.add_argument(
+        "--block-delete",
+        choices=["on", "off"],
+        default="on",
+        help="leave out the blocks that begin with a slash, or do them (default on)",
+    )
 
 
 def _look_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--grid", metavar="N", type=typed(_cells), default=CELLS,
-                       help=f"square cells along the longer side (default {CELLS})")
-    group.add_argument("--window", metavar="X0,Y0,X1,Y1", type=typed(window_given),
-                       help="only this part of the stock, as finely; what goes wrong on the way is told of all of it")
-    group.add_argument("--engine", choices=[engine.value for engine in Engine], default=Engine.AUTO.value, help=ENGINE_HELP)
+    group.add_argument(
+        "--grid",
+        metavar="N",
+        type=typed(_cells),
+        default=CELLS,
+        help=f"square cells along the longer side (default {CELLS})",
+    )
+    group.add_argument(
+        "--window",
+        metavar="X0,Y0,X1,Y1",
+        type=typed(window_given),
+        help="only this part of the stock, as finely; what goes wrong on the way is told of all of it",
+    )
+    group.add_argument(
+        "--engine", choices=[engine.value for engine in Engine], default=Engine.AUTO.value, help=ENGINE_HELP
+    )
 
 
 def _part_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--against", metavar="PART", type=Path,
-                       help="a drawing (.hito .dxf .svg .draw), a closed solid (.stl), or a scene of surfaces (.toml)")
-    group.add_argument("--depth", metavar="Z", type=number("depth", least=LEAST_LENGTH),
-                       help="of a drawing: from the top of the stock down to the floor (default: as the header of make tells)")
-    group.add_argument("--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal that stays on purpose")
-    group.add_argument("--layer", metavar="NAME", action="append", default=[], help="only this layer of the drawing; may be repeated")
+    group.add_argument(
+        "--against",
+        metavar="PART",
+        type=Path,
+        help="a drawing (.hito .dxf .svg .draw), a closed solid (.stl), or a scene of surfaces (.toml)",
+    )
+    group.add_argument(
+        "--depth",
+        metavar="Z",
+        type=number("depth", least=LEAST_LENGTH),
+        help="of a drawing: from the top of the stock down to the floor (default: as the header of make tells)",
+    )
+    group.add_argument(
+        "--stock-to-leave", metavar="MM", type=number("stock to leave", least=0.0), help="metal that stays on purpose"
+    )
+    group.add_argument(
+        "--layer", metavar="NAME", action="append", default=[], help="only this layer of the drawing; may be repeated"
+    )
     add_reading_options(group)
-    group.add_argument("--units", metavar="mm|in", type=typed(read_units), help="units of a part that names none (default mm)")
+    group.add_argument(
+        "--units", metavar="mm|in", type=typed(read_units), help="units of a part that names none (default mm)"
+    )
     group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
-    group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance, help="join loose ends nearer than this, 0 to 10 mm")
-    group.add_argument("--tolerance", metavar="MM", type=number("tolerance", least=LEAST_LENGTH),
-                       help="metal within this of the part is neither gouged nor left (default 0.01)")
+    group.add_argument(
+        "--join-tolerance", metavar="MM", type=join_tolerance, help="join loose ends nearer than this, 0 to 10 mm"
+    )
+    group.add_argument(
+        "--tolerance",
+        metavar="MM",
+        type=number("tolerance", least=LEAST_LENGTH),
+        help="metal within this of the part is neither gouged nor left (default 0.01)",
+    )
 
 
 def _file_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--heights", metavar="OUT.npy", type=Path, help="what is left: float32 heights, and OUT.json with where they lie")
+    group.add_argument(
+        "--heights",
+        metavar="OUT.npy",
+        type=Path,
+        help="what is left: float32 heights, and OUT.json with where they lie",
+    )
     group.add_argument("--image", metavar="OUT.png", type=Path, help="a picture of what is left, from above")
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -241,9 +327,13 @@ def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
 
 def _ensure_part(arguments: argparse.Namespace) -> None:
     """Refuse options of a part that is not there, or that has no use for them."""
-    what = {".stl": "a solid", ".toml": "surfaces"}.get(arguments.against.suffix.lower(), "") if arguments.against else ""
+    what = (
+        {".stl": "a solid", ".toml": "surfaces"}.get(arguments.against.suffix.lower(), "") if arguments.against else ""
+    )
     solid = bool(what)
-    names = ["depth", "layer", "join_tolerance", *NAMES] + ([] if solid else ["stock_to_leave", "units", "origin", "tolerance"])
+    names = ["depth", "layer", "join_tolerance", *NAMES] + (
+        [] if solid else ["stock_to_leave", "units", "origin", "tolerance"]
+    )
     given = next((name for name in names if getattr(arguments, name) not in (None, [], False)), None)
     if given is not None and (solid or arguments.against is None):
         option = "--" + given.replace("_", "-")

@@ -22,22 +22,44 @@ def add_effective_options(parser: OptionParser) -> None:
     """Add the options to the parser of `smooth`."""
     about = "for programs made from a polyhedron: points inside its facets lie off the true shape"
     group = parser.add_argument_group("effective points", about)
-    group.add_argument("--method", choices=["tube", "effective-points"], default="tube",
-                       help="which points the curve goes by (default tube: all)")
-    group.add_argument("--epsilon", metavar="E", type=number("epsilon"),
-                       help="points so near to one segment belong to one facet (mm)")
-    group.add_argument("--ends", metavar="ratio:K|distance:D", type=_pair({"ratio": Ends.RATIO, "distance": Ends.DISTANCE}),
-                       help="points so near to the ends of a range are effective too: a share of it, or a length (default: the ends alone)")
-    group.add_argument("--embodiment", type=int, choices=[1, 2],
-                       help="1: other points are left out; 2: they are corrected first (default 1)")
-    group.add_argument("--before", metavar="N", type=int,
-                       help=f"effective points before a range for its correction (default {_DEFAULTS.before})")
-    group.add_argument("--after", metavar="N", type=int,
-                       help=f"effective points behind it (default {_DEFAULTS.after})")
-    group.add_argument("--move", choices=["nearest", "perpendicular"],
-                       help="where points go on the correction curve (default nearest)")
-    group.add_argument("--select", metavar="kr:R|ei:D", type=_pair({"kr": Select.RATIO, "ei": Select.DISTANCE}),
-                       help="which points are corrected: within a share of an end, or moving no farther than a length (default all)")
+    group.add_argument(
+        "--method",
+        choices=["tube", "effective-points"],
+        default="tube",
+        help="which points the curve goes by (default tube: all)",
+    )
+    group.add_argument(
+        "--epsilon", metavar="E", type=number("epsilon"), help="points so near to one segment belong to one facet (mm)"
+    )
+    group.add_argument(
+        "--ends",
+        metavar="ratio:K|distance:D",
+        type=_pair({"ratio": Ends.RATIO, "distance": Ends.DISTANCE}),
+        help="points so near to the ends of a range are effective too: a share of it, or a length (default: the ends "
+        "alone)",
+    )
+    group.add_argument(
+        "--embodiment",
+        type=int,
+        choices=[1, 2],
+        help="1: other points are left out; 2: they are corrected first (default 1)",
+    )
+    group.add_argument(
+        "--before",
+        metavar="N",
+        type=int,
+        help=f"effective points before a range for its correction (default {_DEFAULTS.before})",
+    )
+    group.add_argument("--after", metavar="N", type=int, help=f"effective points behind it (default {_DEFAULTS.after})")
+    group.add_argument(
+        "--move", choices=["nearest", "perpendicular"], help="where points go on the correction curve (default nearest)"
+    )
+    group.add_argument(
+        "--select",
+        metavar="kr:R|ei:D",
+        type=_pair({"kr": Select.RATIO, "ei": Select.DISTANCE}),
+        help="which points are corrected: within a share of an end, or moving no farther than a length (default all)",
+    )
 
 
 def effective_method(arguments: argparse.Namespace) -> EffectiveMethod | None:
@@ -52,7 +74,9 @@ def effective_method(arguments: argparse.Namespace) -> EffectiveMethod | None:
             raise InputError(f"--{given[0]} belongs to --method effective-points; give that too, or leave it out")
         return None
     if arguments.epsilon is None:
-        raise InputError("--method effective-points needs --epsilon E; half of the tolerance that the points were made with is usual")
+        raise InputError(
+            "--method effective-points needs --epsilon E; half of the tolerance that the points were made with is usual"
+        )
     ends, limit = arguments.ends or (Ends.OUTER, 0.0)
     choose = EffectiveOptions(arguments.epsilon, ends, limit)
     if arguments.embodiment != 2:
@@ -69,7 +93,9 @@ def _pair(kinds: dict[str, Kind]) -> Callable[[str], tuple[Kind, float]]:
     def read(text: str) -> tuple[Kind, float]:
         name, _, value = text.partition(":")
         if name not in kinds or not value:
-            raise argparse.ArgumentTypeError(f"is wrong: '{text}'; write {' or '.join(f'{kind}:0.25' for kind in kinds)}")
+            raise argparse.ArgumentTypeError(
+                f"is wrong: '{text}'; write {' or '.join(f'{kind}:0.25' for kind in kinds)}"
+            )
         return kinds[name], number("value", least=0.0)(value)
 
     return read

@@ -30,14 +30,17 @@ def read_input(path: Path) -> bytes:
     except FileNotFoundError as error:
         raise InputError(f"{path} does not exist; check the name") from error
     except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; name another file") from error
+        raise InputError(
+            f"{path} cannot be read: {getattr(error, 'strerror', None) or error}; name another file"
+        ) from error
     if not data:
         raise InputError(f"{path} is empty; export it again")
     return data
 
 
 def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
-    """Refuse files to write that cannot be, or that are inputs or one another; take away what killed runs have left beside them.
+    """Refuse files to write that cannot be, or that are inputs or one another; take away what killed runs have left
+    beside them.
 
     Args:
         outputs: by the name of their option.
@@ -53,7 +56,9 @@ def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
         if not path.parent.is_dir():
             raise InputError(f"--{name} {path}: there is no folder {path.parent}; make it first")
         if not os.access(path.parent, os.W_OK) and not path.is_char_device():
-            raise InputError(f"--{name} {path}: the folder {path.parent} cannot be written; choose another or change its permissions")
+            raise InputError(
+                f"--{name} {path}: the folder {path.parent} cannot be written; choose another or change its permissions"
+            )
         if identity(path) in taken:
             raise InputError(f"--{name} {path} is named twice or is also an input; give every file its own name")
         if not path.is_char_device():
@@ -72,7 +77,8 @@ def identity(path: Path) -> object:
 
 
 def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
-    """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY seconds.
+    """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY
+    seconds.
 
     A line comes as often where the job tells nothing, from a compiled loop for instance.
     """

@@ -20,14 +20,14 @@ HELP = """\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
   hitofude [open] [FILE]              the window, with FILE or the sample part
-  hitofude make DRAWING -o OUT.ngc    a drawing into tool paths for pockets, contours and holes, as NC (make --help tells all)
-  hitofude tools DRAWING              which tools a drawing wants: what passes, what clears, how long it takes (tools --help)
-  hitofude cut PROGRAM.ngc            any NC program cut out of its stock: what is left, gouges, rapids in metal (cut --help)
-  hitofude check PROGRAM.ngc          any NC program: what is wrong, how far it reaches, how long it takes (check --help)
-  hitofude smooth PROGRAM.ngc -o OUT  any NC program's chords into lines, arcs or splines, proven to a tolerance (smooth --help)
-  hitofude surface SCENE.toml -o OUT  tool paths over compound surfaces, told apart by surface, each move proven (surface --help)
+  hitofude make DRAWING -o OUT.ngc    a drawing into tool paths for pockets, contours and holes (make --help)
+  hitofude tools DRAWING              which tools a drawing wants: what passes, what clears, how long (tools --help)
+  hitofude cut PROGRAM.ngc            any NC program cut out of its stock: what is left, gouges, rapids (cut --help)
+  hitofude check PROGRAM.ngc          any NC program: what is wrong, how far it goes, how long it takes (check --help)
+  hitofude smooth PROGRAM.ngc -o OUT  any NC program's chords into lines, arcs or splines, proven (smooth --help)
+  hitofude surface SCENE.toml -o OUT  tool paths over compound surfaces, each move proven (surface --help)
   hitofude stages DRAWING -o DIR      the bitmap way of 1986, step by step, as pictures and codes (stages --help)
-  hitofude figure11                   how long software and depth buffer take for the same cuts, as published in 1999 (figure11 --help)
+  hitofude figure11                   how long software and depth buffer take for the cuts of 1999 (figure11 --help)
   hitofude --version                  this version
   hitofude --help                     this text
 
@@ -45,7 +45,12 @@ def main(argv: Sequence[str]) -> int:
     """
     try:
         sweep(state_folder(), config_folder())
-        with budgeted(argv), stoppable() as stopped, WaitLine("--quiet" in argv) as line, told_waits(line.show, everywhere=True):
+        with (
+            budgeted(argv),
+            stoppable() as stopped,
+            WaitLine("--quiet" in argv) as line,
+            told_waits(line.show, everywhere=True),
+        ):
             try:
                 return _command(list(argv), stopped)
             except MemoryError:
@@ -67,8 +72,10 @@ def main(argv: Sequence[str]) -> int:
     except Exception as error:
         if os.environ.get("HITOFUDE_DEBUG") == "1":
             say(traceback.format_exc())
-        _say(f"this should not have happened ({type(error).__name__}: {error}); "
-             "please report it with the drawing; HITOFUDE_DEBUG=1 shows where")
+        _say(
+            f"this should not have happened ({type(error).__name__}: {error}); "
+            "please report it with the drawing; HITOFUDE_DEBUG=1 shows where"
+        )
         return BAD_INPUT
 
 
@@ -112,8 +119,11 @@ def _command(argv: list[str], stopped: Stopping) -> int:
         from .commands.figure11 import figure11_command
 
         return figure11_command(rest, stopped)
-    _say(f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages', 'figure11' or 'open', "
-         "see hitofude --help")
+    _say(
+        f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages', 'figure11' "
+        "or 'open', "
+        "see hitofude --help"
+    )
     return BAD_INPUT
 
 

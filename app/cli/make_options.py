@@ -17,7 +17,8 @@ from .reading_options import add_reading_options, reading
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
-with none, the job's tools or 6 mm (pocket) and 3 mm (contour). Z 0 is the top of the stock, the depth goes down from it.
+with none, the job's tools or 6 mm (pocket) and 3 mm (contour). Z 0 is the top of the stock, the depth goes down from
+it.
 """
 
 
@@ -27,11 +28,15 @@ def stepover(text: str) -> Stepover:
     try:
         asked = Stepover(float(text.strip()[:-1]) if percent else length(text), percent)
     except (InputError, ValueError) as error:
-        raise argparse.ArgumentTypeError(f"is wrong: '{text}' is neither a length nor per cent; write one such as 1.5mm or 40%") from error
+        raise argparse.ArgumentTypeError(
+            f"is wrong: '{text}' is neither a length nor per cent; write one such as 1.5mm or 40%"
+        ) from error
     least, unit = (LEAST_PER_CENT, "%") if percent else (LEAST_LENGTH, "mm")
     if not least <= asked.value <= (100 if percent else 1e5):
-        raise argparse.ArgumentTypeError(f"is {asked.value:g} {unit}; it must be {least:g} {unit} or more and not more than "
-                                         "the tool's diameter (100 %)")
+        raise argparse.ArgumentTypeError(
+            f"is {asked.value:g} {unit}; it must be {least:g} {unit} or more and not more than "
+            "the tool's diameter (100 %)"
+        )
     return asked
 
 
@@ -41,65 +46,138 @@ def make_parser() -> OptionParser:
     from .machining_options import add_machining_options
 
     parser = OptionParser(
-        "make", ("drawing", "the drawing and the NC program to write"),
-        "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC program, "
-        "read back and proven the same.", EPILOG,
-    )  # fmt: skip
-    parser.add_argument("drawing", metavar="DRAWING", type=Path,
-                        help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp")
+        "make",
+        ("drawing", "the drawing and the NC program to write"),
+        "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
+        "program, "
+        "read back and proven the same.",
+        EPILOG,
+    )
+    parser.add_argument(
+        "drawing",
+        metavar="DRAWING",
+        type=Path,
+        help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp",
+    )
     _file_options(parser.add_argument_group("files"))
     _tool_options(parser.add_argument_group("tools and cutting"))
-    add_machining_options(parser.add_argument_group("how it is cut"), parser.add_argument_group("copies, tabs and clamps"))
+    add_machining_options(
+        parser.add_argument_group("how it is cut"), parser.add_argument_group("copies, tabs and clamps")
+    )
     _drawing_options(parser.add_argument_group("drawing and origin"))
-    add_bitmap_options(parser.add_argument_group("bitmap and picture"),
-                       "compute on N x N pixels, as in 1986, instead of exactly; a picture is always")
+    add_bitmap_options(
+        parser.add_argument_group("bitmap and picture"),
+        "compute on N x N pixels, as in 1986, instead of exactly; a picture is always",
+    )
     return parser
 
 
 def _file_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, required=True, help="the NC program; written whole or not at all")
-    group.add_argument("--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin; options override it")
+    group.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT.ngc",
+        type=Path,
+        required=True,
+        help="the NC program; written whole or not at all",
+    )
+    group.add_argument(
+        "--job", metavar="J.toml", type=Path, help="tools, operations, stock and origin; options override it"
+    )
     group.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     group.add_argument("--image", metavar="OUT.svg|png", type=Path, help="a picture of part and paths")
     group.add_argument("--timings", action="store_true", help="tell how long each stage took, here and in the report")
-    group.add_argument("--post", metavar="NAME", help="the control that the program is for: linuxcnc (default), grbl, fanuc, haas, mach3, "
-                       "or one of your own; where it changes no tools there is a file for each, OUT_1_T1.ngc, OUT_2_T2.ngc, …")
+    group.add_argument(
+        "--post",
+        metavar="NAME",
+        help="the control that the program is for: linuxcnc (default), grbl, fanuc, haas, mach3, "
+        "or one of your own; where it changes no tools there is a file for each, OUT_1_T1.ngc, OUT_2_T2.ngc, …",
+    )
     group.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)
-    group.add_argument("--out-units", metavar="mm|in", type=typed(read_out_units), help="units of the NC program (default mm)")
-    group.add_argument("--exact-path", action="store_true", help="tell the control to stop at corners rather than blend (G61)")
+    group.add_argument(
+        "--out-units", metavar="mm|in", type=typed(read_out_units), help="units of the NC program (default mm)"
+    )
+    group.add_argument(
+        "--exact-path", action="store_true", help="tell the control to stop at corners rather than blend (G61)"
+    )
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--contour-tool", metavar="D", type=number("diameter"), help="diameter of the tool that follows the walls")
-    group.add_argument("--pocket-tool", metavar="D", type=number("diameter"), help="diameter of the tool that clears the area")
-    group.add_argument("--stepover", metavar="MM|%", type=stepover,
-                       help="distance between rings, 1%% to 100%% of the diameter or from 0.001 mm; everything is cleared at any "
-                            "(default: the one with the shortest path)")
+    group.add_argument(
+        "--contour-tool", metavar="D", type=number("diameter"), help="diameter of the tool that follows the walls"
+    )
+    group.add_argument(
+        "--pocket-tool", metavar="D", type=number("diameter"), help="diameter of the tool that clears the area"
+    )
+    group.add_argument(
+        "--stepover",
+        metavar="MM|%",
+        type=stepover,
+        help="distance between rings, 1%% to 100%% of the diameter or from 0.001 mm; everything is cleared at any "
+        "(default: the one with the shortest path)",
+    )
     group.add_argument("--overlap", metavar="MM", type=number("overlap"), help="the same as diameter - stepover")
-    group.add_argument("--safe-z", metavar="MM", type=number("clearance height", least=LEAST_LENGTH),
-                       help="clearance height above the stock, 0.001 mm or more (default 5)")
-    group.add_argument("--feed", metavar="F", type=number("feed rate", least=LEAST_RATE, unit="mm/min"),
-                       help="feed rate, mm/min, 1 or more (default 600)")
-    group.add_argument("--plunge", metavar="F", type=number("plunge rate", least=LEAST_RATE, unit="mm/min"),
-                       help="plunge rate, mm/min, 1 or more (default 200)")
-    group.add_argument("--speed", metavar="S", type=number("spindle speed", unit="rpm"),
-                       help="spindle speed, rpm (default 12000, contour 18000)")
+    group.add_argument(
+        "--safe-z",
+        metavar="MM",
+        type=number("clearance height", least=LEAST_LENGTH),
+        help="clearance height above the stock, 0.001 mm or more (default 5)",
+    )
+    group.add_argument(
+        "--feed",
+        metavar="F",
+        type=number("feed rate", least=LEAST_RATE, unit="mm/min"),
+        help="feed rate, mm/min, 1 or more (default 600)",
+    )
+    group.add_argument(
+        "--plunge",
+        metavar="F",
+        type=number("plunge rate", least=LEAST_RATE, unit="mm/min"),
+        help="plunge rate, mm/min, 1 or more (default 200)",
+    )
+    group.add_argument(
+        "--speed",
+        metavar="S",
+        type=number("spindle speed", unit="rpm"),
+        help="spindle speed, rpm (default 12000, contour 18000)",
+    )
     side = group.add_mutually_exclusive_group()
-    side.add_argument("--climb", action="store_const", dest="direction", const=Direction.CLIMB, help="metal right of travel (default)")
-    side.add_argument("--conventional", action="store_const", dest="direction", const=Direction.CONVENTIONAL, help="metal left of travel")
-    group.add_argument("--order", choices=[order.value for order in Order],
-                       help="which tool cuts first (default pocket-first; 1986 = contour first, as in the patent)")
+    side.add_argument(
+        "--climb", action="store_const", dest="direction", const=Direction.CLIMB, help="metal right of travel (default)"
+    )
+    side.add_argument(
+        "--conventional",
+        action="store_const",
+        dest="direction",
+        const=Direction.CONVENTIONAL,
+        help="metal left of travel",
+    )
+    group.add_argument(
+        "--order",
+        choices=[order.value for order in Order],
+        help="which tool cuts first (default pocket-first; 1986 = contour first, as in the patent)",
+    )
 
 
 def _drawing_options(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--units", metavar="mm|in", type=typed(read_units),
-                       help="units of a drawing that names none, or none that can be meant (default mm)")
+    group.add_argument(
+        "--units",
+        metavar="mm|in",
+        type=typed(read_units),
+        help="units of a drawing that names none, or none that can be meant (default mm)",
+    )
     group.add_argument("--origin", metavar="WHERE", type=typed(parse_origin), help=ORIGIN_HELP)
-    group.add_argument("--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated")
+    group.add_argument(
+        "--layer", metavar="NAME", action="append", default=[], help="machine only this layer; may be repeated"
+    )
     add_reading_options(group)
-    group.add_argument("--join-tolerance", metavar="MM", type=join_tolerance,
-                       help="join loose ends nearer than this, 0 to 10 mm (default 0.01)")
+    group.add_argument(
+        "--join-tolerance",
+        metavar="MM",
+        type=join_tolerance,
+        help="join loose ends nearer than this, 0 to 10 mm (default 0.01)",
+    )
 
 
 def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
@@ -123,12 +201,25 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
     bitmap = asked_bitmap(arguments)
     origin_xy, origin_z = arguments.origin or (None, None)
     return MakeOptions(
-        contour_diameter=arguments.contour_tool, pocket_diameter=arguments.pocket_tool,
-        stepover=arguments.stepover, overlap=arguments.overlap,
-        safe_z=arguments.safe_z, feed=arguments.feed, plunge=arguments.plunge, speed=arguments.speed,
+        contour_diameter=arguments.contour_tool,
+        pocket_diameter=arguments.pocket_tool,
+        stepover=arguments.stepover,
+        overlap=arguments.overlap,
+        safe_z=arguments.safe_z,
+        feed=arguments.feed,
+        plunge=arguments.plunge,
+        speed=arguments.speed,
         order=Order(arguments.order) if arguments.order else None,
-        post=arguments.post, machine=arguments.machine, out_units=arguments.out_units, units=arguments.units,
-        origin_xy=origin_xy, origin_z=origin_z, layers=tuple(arguments.layer),
-        join_tolerance=arguments.join_tolerance, exact_path=arguments.exact_path,
-        bitmap=bitmap, machining=machining(arguments, bitmap is not None), reading=reading(arguments),
+        post=arguments.post,
+        machine=arguments.machine,
+        out_units=arguments.out_units,
+        units=arguments.units,
+        origin_xy=origin_xy,
+        origin_z=origin_z,
+        layers=tuple(arguments.layer),
+        join_tolerance=arguments.join_tolerance,
+        exact_path=arguments.exact_path,
+        bitmap=bitmap,
+        machining=machining(arguments, bitmap is not None),
+        reading=reading(arguments),
     )

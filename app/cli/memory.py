@@ -1,4 +1,6 @@
-"""The memory of a command: what `--memory` allows, and a net beneath what is asked for, so that nobody is killed without a word."""
+"""The memory of a command: what `--memory` allows, and a net beneath what is asked for, so that nobody is killed
+without a word.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +15,17 @@ from ..core.memory import budget_limit, half_of_machine, in_words, read_size, wi
 OPTION = "--memory"
 
 SPARE = 1 << 30
-"""Bytes by which the net hangs beneath the budget: what libraries and their threads reserve and hardly use, and what estimates err by."""
+"""Bytes by which the net hangs beneath the budget: what libraries and their threads reserve and hardly use, and what
+estimates err by.
+"""
 
 
 @contextmanager
 def budgeted(argv: Sequence[str]) -> Iterator[None]:
     """Let a command take no more memory than its arguments say.
 
-    Where the system can bound a process's data, work that was not asked for ends in MemoryError rather than with the process.
+    Where the system can bound a process's data, work that was not asked for ends in MemoryError rather than with the
+    process.
 
     Raises:
         InputError: the size is none.
@@ -31,7 +36,8 @@ def budgeted(argv: Sequence[str]) -> Iterator[None]:
 
 
 def memory_given(argv: Sequence[str]) -> int | None:
-    """Return the size that the arguments name, the last one where there are several; None where there is none, or it is missing.
+    """Return the size that the arguments name, the last one where there are several; None where there is none, or it is
+    missing.
 
     Raises:
         InputError: it is none.
@@ -54,8 +60,10 @@ def out_of_memory(where: str = "") -> HitofudeError:
     Args:
         where: words behind "ran out".
     """
-    return HitofudeError(f"the memory that the job may take, {in_words(budget_limit())}, ran out{where}; allow more with {OPTION}, "
-                         "or ask for less: a larger tool, a coarser grid, bitmap or tolerance, a part of the drawing.")
+    return HitofudeError(
+        f"the memory that the job may take, {in_words(budget_limit())}, ran out{where}; allow more with {OPTION}, "
+        "or ask for less: a larger tool, a coarser grid, bitmap or tolerance, a part of the drawing."
+    )
 
 
 @contextmanager
@@ -80,7 +88,9 @@ def _net(limit: int) -> Iterator[None]:
 
 
 def _data_bytes() -> int | None:
-    """Return the bytes of memory for data that this process has reserved, as the bound counts them; None where nobody knows."""
+    """Return the bytes of memory for data that this process has reserved, as the bound counts them; None where nobody
+    knows.
+    """
     if not sys.platform.startswith("linux"):
         return None
     try:

@@ -66,7 +66,10 @@ def tell(text: str) -> None:
         _let_go()
     except OSError as error:
         _let_go()
-        say(f"hitofude: the summary could not be printed ({error.strerror or error}); the files are as the exit status says")
+        say(
+            f"hitofude: the summary could not be printed ({error.strerror or error}); the files are as the exit status "
+            "says"
+        )
 
 
 def finding_lines(findings: Sequence[Finding]) -> list[str]:

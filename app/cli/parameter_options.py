@@ -29,23 +29,43 @@ def _add(group: argparse._ArgumentGroup, key: str, placed: Placed) -> None:
     if declared.unit is Unit.FLAG:
         group.add_argument(option, dest=key, action="store_true", default=None, help=declared.help.replace("%", "%%"))
     elif placed.enum is not None:
-        group.add_argument(option, dest=key, choices=[each.value for each in placed.enum],
-                           help=f"{declared.help} (default {placed.default.value})")  # fmt: skip
+        group.add_argument(
+            option,
+            dest=key,
+            choices=[each.value for each in placed.enum],
+            help=f"{declared.help} (default {placed.default.value})",
+        )
     else:
-        group.add_argument(option, dest=key, metavar=_METAVARS[declared.unit], type=reader_of(declared), help=_help(placed))
+        group.add_argument(
+            option, dest=key, metavar=_METAVARS[declared.unit], type=reader_of(declared), help=_help(placed)
+        )
 
 
 def _help(placed: Placed) -> str:
     declared = placed.parameter
-    usual = declared.auto if placed.default is None else f"{declared.shown(placed.default):g}{'%' * (declared.unit is Unit.SHARE)}"
+    usual = (
+        declared.auto
+        if placed.default is None
+        else f"{declared.shown(placed.default):g}{'%' * (declared.unit is Unit.SHARE)}"
+    )
     bounds = declared.range_words() if declared.high < 1000 else f"{declared.low:g} mm or more" if declared.low else ""
-    return ", ".join(filter(None, (declared.help, bounds))).replace("%", "%%") + f" (default {usual})".replace("%", "%%")
+    return ", ".join(filter(None, (declared.help, bounds))).replace("%", "%%") + f" (default {usual})".replace(
+        "%", "%%"
+    )
 
 
 def asked_values(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the values of parameters that were asked for, by key."""
-    given = {key: (placed, getattr(arguments, key, None)) for key, (placed, _) in parameters().items() if placed.parameter.option}
-    return {key: placed.enum(value) if placed.enum is not None else value for key, (placed, value) in given.items() if value is not None}
+    given = {
+        key: (placed, getattr(arguments, key, None))
+        for key, (placed, _) in parameters().items()
+        if placed.parameter.option
+    }
+    return {
+        key: placed.enum(value) if placed.enum is not None else value
+        for key, (placed, value) in given.items()
+        if value is not None
+    }
 
 
 def reader_of(declared: Parameter) -> Callable[[str], Any]:
@@ -56,8 +76,10 @@ def reader_of(declared: Parameter) -> Callable[[str], Any]:
         try:
             declared.check(value)
         except HitofudeError as error:
-            raise argparse.ArgumentTypeError(f"is {declared.shown(value):g}{declared.sign}; the {declared.label.lower()} must be "
-                                             f"{declared.range_words()}") from error
+            raise argparse.ArgumentTypeError(
+                f"is {declared.shown(value):g}{declared.sign}; the {declared.label.lower()} must be "
+                f"{declared.range_words()}"
+            ) from error
         return value
 
     return read
@@ -81,16 +103,25 @@ def _share(text: str, declared: Parameter) -> float:
     match = re.fullmatch(r"\s*(\d{1,3}(?:\.\d{0,9})?|\.\d{1,9})\s*(%?)\s*", text)
     value = float(match[1]) / (100 if match[2] else 1) if match else math.nan
     if not declared.low <= value <= declared.high:
-        raise argparse.ArgumentTypeError(f"is '{text}'; write a share of the diameter from {100 * declared.low:g}% to "
-                                         f"{100 * declared.high:g}%, such as 40% or 0.4")
+        raise argparse.ArgumentTypeError(
+            f"is '{text}'; write a share of the diameter from {100 * declared.low:g}% to "
+            f"{100 * declared.high:g}%, such as 40% or 0.4"
+        )
     return value
 
 
 def _count(text: str, declared: Parameter) -> int:
     if not re.fullmatch(r"\s*\d{1,9}\s*", text) or not declared.low <= int(text) <= declared.high:
-        raise argparse.ArgumentTypeError(f"is '{text}'; the {declared.label.lower()} must be a whole number from {declared.low:g} to "
-                                         f"{declared.high:g}")
+        raise argparse.ArgumentTypeError(
+            f"is '{text}'; the {declared.label.lower()} must be a whole number from {declared.low:g} to "
+            f"{declared.high:g}"
+        )
     return int(text)
 
 
-_READERS: dict[Unit, Callable[[str, Parameter], Any]] = {Unit.LENGTH: _length, Unit.ANGLE: _angle, Unit.SHARE: _share, Unit.COUNT: _count}
+_READERS: dict[Unit, Callable[[str, Parameter], Any]] = {
+    Unit.LENGTH: _length,
+    Unit.ANGLE: _angle,
+    Unit.SHARE: _share,
+    Unit.COUNT: _count,
+}

@@ -16,11 +16,17 @@ from ..drafting.expressions.numbers import length
 from ..model.job import LARGEST_JOIN
 from ..model.machine import Machine
 
-MACHINE_HELP = ("the machine that the program has to fit and is timed on: router, bench_mill, vmc, one of your own in the settings' folder "
-                "machines, or a TOML file (default: timed on a router, held against none)")
+MACHINE_HELP = (
+    "the machine that the program has to fit and is timed on: router, bench_mill, vmc, one of your own in the "
+    "settings' folder "
+    "machines, or a TOML file (default: timed on a router, held against none)"
+)
 
-MEMORY_HELP = ("memory that the job may take beside the program itself, such as 4G or 512M: what would not fit is done in parts, or "
-               "refused before it is begun (default half of the machine's)")
+MEMORY_HELP = (
+    "memory that the job may take beside the program itself, such as 4G or 512M: what would not fit is done in parts, "
+    "or "
+    "refused before it is begun (default half of the machine's)"
+)
 
 PHRASES = (
     (r"^argument ([^:]*/)?([^:]*): ", r"\2 "),
@@ -43,7 +49,13 @@ class OptionParser(argparse.ArgumentParser):
             name: of the command. inputs: what it reads, and what it cannot do without, in words.
             description, epilog: above and below the list of options.
         """
-        super().__init__(prog=f"hitofude {name}", allow_abbrev=False, description=description, epilog=epilog, formatter_class=HelpFormatter)
+        super().__init__(
+            prog=f"hitofude {name}",
+            allow_abbrev=False,
+            description=description,
+            epilog=epilog,
+            formatter_class=HelpFormatter,
+        )
         self._words = {"name": name, "input": inputs[0], "inputs": inputs[1]}
         self.add_argument("--memory", metavar="SIZE", type=typed(read_size), help=MEMORY_HELP)
 
@@ -73,7 +85,9 @@ def number(what: str, *, least: float | None = None, unit: str = "mm") -> Callab
             raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no number; write the {what} in {unit}") from error
         if not math.isfinite(value) or value >= 1e5 or (value <= 0 if least is None else value < least):
             bound = f"greater than 0 {unit}" if least is None else f"{least:g} {unit} or more" if least else "0 or more"
-            raise argparse.ArgumentTypeError(f"is {value:g} {unit}; the {what} must be {bound} and less than 100000 {unit}")
+            raise argparse.ArgumentTypeError(
+                f"is {value:g} {unit}; the {what} must be {bound} and less than 100000 {unit}"
+            )
         return value
 
     return read

@@ -13,15 +13,34 @@ NAMES = ("skip_layer", "skip_type", "layout", "to_zero", "px_per_inch")
 
 def add_reading_options(group: argparse._ArgumentGroup | argparse.ArgumentParser) -> None:
     """Add the options to a group."""
-    group.add_argument("--skip-layer", metavar="NAME", action="append", default=[],
-                       help="leave out what lies on this layer, such as centre lines; may be repeated")
-    group.add_argument("--skip-type", metavar="TYPE", action="append", default=[],
-                       help="of a DXF: leave out entities of this type, such as TEXT or HATCH; may be repeated")
-    group.add_argument("--layout", metavar="NAME", help="of a DXF: read this layout of paper space instead of model space")
-    group.add_argument("--to-zero", action="store_true",
-                       help="of a DXF or SVG: move the drawing so that its lower left corner is zero, however far away it lies")
-    group.add_argument("--px-per-inch", metavar="N", type=number("density", unit="px"),
-                       help="of an SVG without a real size: its units to the inch (default: as the editor had that wrote it, else 96)")
+    group.add_argument(
+        "--skip-layer",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="leave out what lies on this layer, such as centre lines; may be repeated",
+    )
+    group.add_argument(
+        "--skip-type",
+        metavar="TYPE",
+        action="append",
+        default=[],
+        help="of a DXF: leave out entities of this type, such as TEXT or HATCH; may be repeated",
+    )
+    group.add_argument(
+        "--layout", metavar="NAME", help="of a DXF: read this layout of paper space instead of model space"
+    )
+    group.add_argument(
+        "--to-zero",
+        action="store_true",
+        help="of a DXF or SVG: move the drawing so that its lower left corner is zero, however far away it lies",
+    )
+    group.add_argument(
+        "--px-per-inch",
+        metavar="N",
+        type=number("density", unit="px"),
+        help="of an SVG without a real size: its units to the inch (default: as the editor had that wrote it, else 96)",
+    )
 
 
 def reading(arguments: argparse.Namespace) -> ReadOptions:
@@ -30,5 +49,10 @@ def reading(arguments: argparse.Namespace) -> ReadOptions:
     Raises:
         ParameterError: a value is out of its range.
     """
-    return ReadOptions(layout=arguments.layout or "", to_zero=arguments.to_zero, pixels_per_inch=arguments.px_per_inch,
-                       without_layers=tuple(arguments.skip_layer), without_types=tuple(arguments.skip_type))
+    return ReadOptions(
+        layout=arguments.layout or "",
+        to_zero=arguments.to_zero,
+        pixels_per_inch=arguments.px_per_inch,
+        without_layers=tuple(arguments.skip_layer),
+        without_types=tuple(arguments.skip_type),
+    )

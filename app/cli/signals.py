@@ -1,7 +1,8 @@
 """Ctrl+C, TERM and HUP: stop a command anywhere but while its files take their places.
 
-The interpreter hears a signal between two of its own steps, and a compiled loop or a library's call may take long. So a thread beside
-the job hears it at once, from the pipe that the system's own handler writes to, and ends the process where the job does not.
+The interpreter hears a signal between two of its own steps, and a compiled loop or a library's call may take long. So a
+thread beside the job hears it at once, from the pipe that the system's own handler writes to, and ends the process
+where the job does not.
 """
 
 from __future__ import annotations
@@ -56,7 +57,9 @@ _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") 
 
 @contextmanager
 def stoppable() -> Iterator[Stopping]:
-    """Let a signal raise Stopped, and set the event, for the case that a library swallows the exception; end what hears neither."""
+    """Let a signal raise Stopped, and set the event, for the case that a library swallows the exception; end what hears
+    neither.
+    """
     stopped = Stopping()
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
@@ -135,7 +138,9 @@ def _ended_where_deaf(stopped: Stopping) -> Iterator[None]:
 
 @contextmanager
 def _silent_where_unheard() -> Iterator[None]:
-    """Let the interpreter say nothing of a Stopped that it cannot raise, as in the callbacks of an import: the event is set."""
+    """Let the interpreter say nothing of a Stopped that it cannot raise, as in the callbacks of an import: the event is
+    set.
+    """
     before = sys.unraisablehook
 
     def hook(told: Any) -> None:
@@ -158,7 +163,8 @@ def undisturbed() -> Iterator[None]:
 
 @contextmanager
 def _on_interrupt(action: Callable[[int, FrameType | None], Any] | signal.Handlers) -> Iterator[None]:
-    """Let Ctrl+C and its like do something else for a while; without effect outside the main thread, which alone hears them.
+    """Let Ctrl+C and its like do something else for a while; without effect outside the main thread, which alone hears
+    them.
 
     HUP and TERM that are ignored stay so: nohup asks for it.
     """

@@ -1,1 +1,3 @@
-"""What everything else stands on: errors, progress, tolerances, files, threads, compiled kernels. Knows nothing of parts."""
+"""What everything else stands on: errors, progress, tolerances, files, threads, compiled kernels. Knows nothing of
+parts.
+"""

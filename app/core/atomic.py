@@ -1,7 +1,7 @@
 """Files appear whole or not at all, several together; and are read whole, if they are files.
 
-What waits to take a file's place is called .NAME.OWNER.RANDOM.part, and what was there before the same with .old, where OWNER is
-the process and the machine that it runs on: what a killed one has left is known by it, and swept.
+What waits to take a file's place is called .NAME.OWNER.RANDOM.part, and what was there before the same with .old, where
+OWNER is the process and the machine that it runs on: what a killed one has left is known by it, and swept.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ def read_whole(path: Path) -> bytes:
     """Return a file's bytes.
 
     Raises:
-        OSError: it cannot be read, is larger than `MOST_BYTES`, or is a pipe, which may wait for ever, or a device, which may
-            never end; its `strerror` goes on after "cannot be read: ".
+        OSError: it cannot be read, is larger than `MOST_BYTES`, or is a pipe, which may wait for ever, or a device,
+            which may never end; its `strerror` goes on after "cannot be read: ".
     """
     status = path.stat()
     if not stat.S_ISREG(status.st_mode) and not stat.S_ISDIR(status.st_mode):
@@ -63,8 +63,8 @@ def write_atomically(path: Path, data: bytes, backup: Path | None = None) -> Non
 def sweep(*folders: Path) -> None:
     """Take away what writers that live no more have left in folders; what cannot be looked at or taken away stays.
 
-    Of one on another machine, or from before names told the writer, nobody knows whether it lives: it goes when it is a day old.
-    A folder goes with all that is in it, if its name tells the writer.
+    Of one on another machine, or from before names told the writer, nobody knows whether it lives: it goes when it is a
+    day old. A folder goes with all that is in it, if its name tells the writer.
     """
     for folder in folders:
         with suppress(OSError), os.scandir(folder) as found:
@@ -112,7 +112,8 @@ def waiting_prefix(name: str) -> str:
 
 
 def _keep_copy(path: Path, copy: Path) -> None:
-    """Let a file's content stand under a second name too, in the place of what stood there; the file itself stays untouched.
+    """Let a file's content stand under a second name too, in the place of what stood there; the file itself stays
+    untouched.
 
     Raises:
         InputError: it cannot be; what was under the second name is untouched.

@@ -7,11 +7,14 @@ import unicodedata
 MOST_QUOTED = 60
 """Letters of a bad word that are quoted."""
 
-_LONG = re.compile(rf"(?<!\w)(['\"])(?P<said>[^'\"]{{{MOST_QUOTED + 1},}})(?=\1(?!\w))|(?P<word>[^\s'\"]{{{MOST_QUOTED + 1},}})")
+_LONG = re.compile(
+    rf"(?<!\w)(['\"])(?P<said>[^'\"]{{{MOST_QUOTED + 1},}})(?=\1(?!\w))|(?P<word>[^\s'\"]{{{MOST_QUOTED + 1},}})"
+)
 
 
 def shortened(text: str) -> str:
-    """Return a sentence with what it quotes cut off after `MOST_QUOTED` letters; names of files that are there stay whole.
+    """Return a sentence with what it quotes cut off after `MOST_QUOTED` letters; names of files that are there stay
+    whole.
 
     Args:
         text: quoted is what stands between quotation marks, or has no blank in it.
@@ -33,11 +36,14 @@ def _is_path(text: str) -> bool:
 
 
 _UNSEEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
-"""Categories of signs that a terminal obeys, that turn a line about, or that are no text: no file may have its own in a sentence."""
+"""Categories of signs that a terminal obeys, that turn a line about, or that are no text: no file may have its own in a
+sentence.
+"""
 
 
 def printable(text: str, kept: str = "") -> str:
-    """Return a text as one line whose signs can all be seen: others are spelled out, as \\x1b, and ends of lines are blanks.
+    """Return a text as one line whose signs can all be seen: others are spelled out, as \\x1b, and ends of lines are
+    blanks.
 
     Args:
         text: may quote names and words of any file.

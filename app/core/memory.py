@@ -1,7 +1,8 @@
 """How much memory a job may take: every place that takes what its input asks for asks here, before it takes it.
 
-A budget belongs to a context (`contextvars`), not to the process: a command runs in one of its own, so does each job of the window, and a
-test states its own with `within`. The threads of `app.core.pool` work in the context of whoever gives them work.
+A budget belongs to a context (`contextvars`), not to the process: a command runs in one of its own, so does each job of
+the window, and a test states its own with `within`. The threads of `app.core.pool` work in the context of whoever gives
+them work.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ _UNITS = {"": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12}
 _SIZE = re.compile(r"\s*(\d{1,15}(?:\.\d{1,9})?)\s*([KMGT]?)(?:I?B)?\s*", re.IGNORECASE)
 _OPTION = re.compile(r" \(--[^)]*\)")
 _ITSELF = 100 * 10**6
-"""Bytes of the program's own code and tables that are loaded as they are wanted, most of them after a command has begun."""
+"""Bytes of the program's own code and tables that are loaded as they are wanted, most of them after a command has
+begun.
+"""
 
 _UNKNOWN = 4 * 10**9
 """Bytes that are taken to be there where the system does not tell."""
@@ -57,7 +60,10 @@ class MemoryShortError(ParameterError):
 
     def _sentence(self, how: str) -> str:
         more = f", or allow more{how}" if self.limit else ""
-        return f"{self.what} would take {in_words(self.needed)} of memory, and {in_words(self.room)} may be taken; {self.remedy}{more}."
+        return (
+            f"{self.what} would take {in_words(self.needed)} of memory, and {in_words(self.room)} may be taken; "
+            f"{self.remedy}{more}."
+        )
 
 
 @dataclass(frozen=True)
@@ -66,7 +72,8 @@ class Budget:
 
     Attributes:
         limit: bytes, for the data of the job: the program itself, its libraries among it, is not counted.
-        before: bytes that the process had when the job began, or at least what the program itself takes once it is loaded.
+        before: bytes that the process had when the job began, or at least what the program itself takes once it is
+            loaded.
     """
 
     limit: int
@@ -106,7 +113,8 @@ def ask(needed: float, what: str, remedy: str) -> None:
 
 
 def portion(each: float, least: int = 4096) -> int:
-    """Return how many things may be worked on at a time: half of what may be taken is for them, but a few are worked on in any case.
+    """Return how many things may be worked on at a time: half of what may be taken is for them, but a few are worked on
+    in any case.
 
     Args:
         each: bytes that one takes.
@@ -179,7 +187,8 @@ def fitting(needed: float) -> float:
 
 
 def fewer(count: int, needed: float, power: float = 1.0) -> int:
-    """Return how many of things would fit of which `count` would take `needed` bytes, rounded down to two figures; at least one.
+    """Return how many of things would fit of which `count` would take `needed` bytes, rounded down to two figures; at
+    least one.
 
     Args:
         power: memory grows with the count's power: 2 for the cells along one side of a square.
@@ -229,7 +238,9 @@ def _group_limits(proc: Path, groups: Path) -> Iterator[int]:
 
 
 def resident() -> int:
-    """Return the bytes of memory that this process holds for its data, without pages of files; 0 where the system does not tell."""
+    """Return the bytes of memory that this process holds for its data, without pages of files; 0 where the system does
+    not tell.
+    """
     try:
         with open("/proc/self/statm", encoding="ascii") as file:
             _, pages, of_files = map(int, file.read().split()[:3])

@@ -69,7 +69,8 @@ class Settings:
         units: of rulers and status bar.
         backups: the version of a project before the one that is saved is kept.
         language: "system" follows the desktop.
-        shortcuts: keys that the user changed, each as "action=key". recent_commands: names of the palette, the latest first.
+        shortcuts: keys that the user changed, each as "action=key". recent_commands: names of the palette, the latest
+            first.
         snaps: words of the kinds of points that the mouse snaps to. tracking: points it rested on draw it.
         polar_on: rays at multiples of `polar_step` degrees draw it.
         tour: "" until the tour was seen or skipped.
@@ -120,7 +121,9 @@ def load_settings() -> Settings:
         return Settings()
     if not isinstance(saved, dict):
         return Settings()
-    return Settings(**{field.name: _checked(field.name, saved[field.name]) for field in fields(Settings) if field.name in saved})
+    return Settings(
+        **{field.name: _checked(field.name, saved[field.name]) for field in fields(Settings) if field.name in saved}
+    )
 
 
 def _checked(name: str, value: object) -> Any:
@@ -143,5 +146,7 @@ def save_settings(settings: Settings) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"Cannot make the settings folder {folder}: {error.strerror}.") from error
-    text = json.dumps(asdict(settings), default=lambda choice: choice.value, indent=1)  # ASCII: a file's name may be no text in UTF-8
+    text = json.dumps(
+        asdict(settings), default=lambda choice: choice.value, indent=1
+    )  # ASCII: a file's name may be no text in UTF-8
     write_atomically(folder / "settings.json", text.encode() + b"\n")

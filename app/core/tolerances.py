@@ -13,7 +13,8 @@ FIT = 4e-7
 """A tool passes where its radius is greater than half the gap by less than this, as nothing at all."""
 
 NOMINAL = LEVEL / 2
-"""A tool passes where its radius is greater than half the gap by less than this: as wide as the gap by its name, which was drawn with
+"""A tool passes where its radius is greater than half the gap by less than this: as wide as the gap by its name, which
+was drawn with
 the digits that drawings have. Its path is the middle line of the gap, and still measures right to 1 um."""
 
 WELD = 1e-6

@@ -1,4 +1,6 @@
-"""Data files into dataclasses and back: a TOML table is a dataclass, a key is a field, and an error names file, line and key."""
+"""Data files into dataclasses and back: a TOML table is a dataclass, a key is a field, and an error names file, line
+and key.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,15 @@ _NAMED = 8
 """Of many known words so many are named."""
 _ENDLESS = re.compile(r"(?<![\w.'\"])[-+]?[0-9][0-9_]{3999,}")
 
-EXPECTED = {str: "a text", bool: "true or false", int: "a whole number", float: "a number", tuple[str, ...]: "a list of texts",
-            tuple[float, ...]: "a list of numbers", tuple[int, ...]: "a list of whole numbers"}  # fmt: skip
+EXPECTED = {
+    str: "a text",
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+    tuple[str, ...]: "a list of texts",
+    tuple[float, ...]: "a list of numbers",
+    tuple[int, ...]: "a list of whole numbers",
+}
 
 
 @dataclass(frozen=True)
@@ -90,8 +99,8 @@ def read_tables(kind: type[Kind], file: str, data: bytes, ranges: Mapping[str, R
 
     Args:
         kind: a dataclass whose fields are texts, flags, numbers, Enums by their value, tuples of texts or of so many
-            numbers, of any number of numbers or of such tuples, dataclasses, tuples of any number of them, one of these or None,
-            or one of several dataclasses, told apart by a key `kind`: their class variable of that name.
+            numbers, of any number of numbers or of such tuples, dataclasses, tuples of any number of them, one of these
+            or None, or one of several dataclasses, told apart by a key `kind`: their class variable of that name.
         file: the file's name, for errors.
         data: its bytes, UTF-8.
         ranges: least and greatest number by dotted key; a table's name stands for all its numbers; others are free.
@@ -151,7 +160,9 @@ def brief(text: str, most: int = _LONGEST) -> str:
 
 
 def known_words(word: str, known: Sequence[str]) -> str:
-    """Return what might have been meant by a wrong word: all known ones where they are few, else those that are most like it."""
+    """Return what might have been meant by a wrong word: all known ones where they are few, else those that are most
+    like it.
+    """
     if len(", ".join(known)) <= _LONGEST:
         return ", ".join(known)
     near = get_close_matches(word, known, n=3, cutoff=0.5)
@@ -165,7 +176,9 @@ def shown(value: Any) -> str:
 
 
 def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes], ranges: Mapping[str, Range]) -> Kind:
-    """Return the dataclass that tables describe, as `read_tables` does; `source` is the file's name and bytes, for errors."""
+    """Return the dataclass that tables describe, as `read_tables` does; `source` is the file's name and bytes, for
+    errors.
+    """
     file, data = source
     made: Kind = _table(kind, tree, _Place(file, tuple(data.decode("utf-8-sig").splitlines())), ranges)
     return made
@@ -239,7 +252,9 @@ def _either(words: typing.Iterable[str]) -> str:
 def _repeated(kind: Any) -> Any:
     """Return what a tuple of any number of tables or of tuples holds; None for other types."""
     parts = typing.get_args(kind) if typing.get_origin(kind) is tuple else ()
-    return parts[0] if parts[1:] == (...,) and (is_dataclass(parts[0]) or typing.get_origin(parts[0]) is tuple) else None
+    return (
+        parts[0] if parts[1:] == (...,) and (is_dataclass(parts[0]) or typing.get_origin(parts[0]) is tuple) else None
+    )
 
 
 def _item(kind: Any, value: Any, at: tuple[_Place, str], rest: tuple[int, Mapping[str, Range]]) -> Any:
@@ -276,7 +291,11 @@ def _expected(kind: Any) -> str:
     """Return what a key of this type holds, in words."""
     if isinstance(kind, types.UnionType):
         choices = [part for part in typing.get_args(kind) if part is not types.NoneType]
-        return _expected(choices[0]) if len(choices) == 1 else f"a table with kind = {_either(part.kind for part in choices)}"
+        return (
+            _expected(choices[0])
+            if len(choices) == 1
+            else f"a table with kind = {_either(part.kind for part in choices)}"
+        )
     if is_dataclass(kind):
         return f"a table with {', '.join(each.name for each in fields(kind))}"
     if isinstance(kind, type) and issubclass(kind, Enum):

@@ -13,7 +13,8 @@ class Difference:
     """How a drawing differs from what it was.
 
     Attributes:
-        added: entities that are new, or changed, as they are now. gone: those that are no longer there, or changed, as they were.
+        added: entities that are new, or changed, as they are now. gone: those that are no longer there, or changed, as
+            they were.
         notes: that are new, or changed.
     """
 
@@ -28,7 +29,7 @@ def difference(before: Part, after: Part) -> Difference:
         return Difference()
     was, now = before.entities, after.entities
     moved = [(b, a) for b, a in zip(was, now, strict=False) if b is not a]
-    gone, added = [b for b, _ in moved] + list(was[len(now):]), [a for _, a in moved] + list(now[len(was):])
+    gone, added = [b for b, _ in moved] + list(was[len(now) :]), [a for _, a in moved] + list(now[len(was) :])
     old, new = {e.id: e for e in gone}, {e.id: e for e in added}
     notes = {note.id: note for note in before.notes}
     return Difference(

@@ -145,8 +145,11 @@ class Document:
         line = line.strip()
         try:
             statements = _statements(line)
-            reply, change = self._step(*step) if (step := _step_of(statements)) else self._take(
-                _evaluated(statements, self.session, Interpreter(progress)), line)
+            reply, change = (
+                self._step(*step)
+                if (step := _step_of(statements))
+                else self._take(_evaluated(statements, self.session, Interpreter(progress)), line)
+            )
         except InputError as error:
             self.refuse(line, str(error))
             raise
@@ -189,10 +192,11 @@ class Document:
             statements = read_script(text)
             for number, statement in enumerate(statements):
                 interpreter.fraction = number / len(statements)
-                line = text[statement.place.start:statement.place.end]
+                line = text[statement.place.start : statement.place.end]
                 step = _step_of((statement,))
-                reply, change = self._step(*step) if step else self._take(
-                    _evaluated((statement,), self.session, interpreter), line)
+                reply, change = (
+                    self._step(*step) if step else self._take(_evaluated((statement,), self.session, interpreter), line)
+                )
                 self.log.append(LogLine(line, reply))
                 self._tell(change | Change.LOG)
         except CommandError as error:
@@ -226,7 +230,9 @@ class Document:
         names = {key: value for key, value in state.names.items() if not isinstance(value, Curves)}
         layer = state.layer if any(each.name == state.layer for each in part.layers) else part.layers[0].name
         self.selection = frozenset()
-        self._history.change(name, replace(state, job=job, layer=layer, names=names, recorded=Recorded(part), source=source))
+        self._history.change(
+            name, replace(state, job=job, layer=layer, names=names, recorded=Recorded(part), source=source)
+        )
         self._tell(self._after(part_changed=True) | Change.JOB | Change.SELECTION)
 
     def load(self, job: Job, path: Path | None = None, source: Source | None = None) -> None:
@@ -270,7 +276,9 @@ class Document:
         self.run("redo")
 
     def go_to(self, done: int) -> None:
-        """Undo or redo until so many of the changes of `history_names` are done; logged as one line, such as `undo 3`."""
+        """Undo or redo until so many of the changes of `history_names` are done; logged as one line, such as `undo
+        3`.
+        """
         names, now = self._history.names
         steps = min(max(done, 0), len(names)) - now
         if steps:
@@ -293,8 +301,18 @@ class Document:
         for old, new in after.renamed:
             job = with_layer_renamed(job, old, new)
         recorded = state.recorded.then(line, before.selection, after.selection)
-        self._history.change(outcome.name, replace(state, job=job, layer=after.layer, last=after.last, names=after.names,
-                                                   commands=after.commands, recorded=recorded))  # fmt: skip
+        self._history.change(
+            outcome.name,
+            replace(
+                state,
+                job=job,
+                layer=after.layer,
+                last=after.last,
+                names=after.names,
+                commands=after.commands,
+                recorded=recorded,
+            ),
+        )
         selected, self.selection = self.selection, after.selection
         change = self._after(part_changed)
         return outcome.reply, change | (Change.SELECTION if selected != self.selection else Change(0))
@@ -344,7 +362,8 @@ def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Sess
 
 
 def drawn(text: str, name: str = "script", progress: Progress = NO_PROGRESS) -> Part:
-    """Return the drawing that a text makes of an empty one; as `run_script`, but without a history that nobody will go back in.
+    """Return the drawing that a text makes of an empty one; as `run_script`, but without a history that nobody will go
+    back in.
 
     Raises:
         InputError: names the file, the line and the column of what failed. Cancelled: `progress` says so.

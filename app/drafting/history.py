@@ -117,7 +117,9 @@ class History:
         return self._swap(self._redo, self._undo)
 
     def rename(self, name: str, kept: State) -> State:
-        """Let the part have this name in all that was, is and will be again, which is no step; return what becomes of the state `kept`."""
+        """Let the part have this name in all that was, is and will be again, which is no step; return what becomes of
+        the state `kept`.
+        """
         known: dict[int, Any] = {}
 
         def part(old: Part) -> Part:
@@ -138,7 +140,9 @@ class History:
         before = (self.state, *(step.other for step in (*self._undo, *self._redo)), kept)
         after = [once(each, state) for each in before]
         self._undo = [replace(step, other=other) for step, other in zip(self._undo, after[1:], strict=False)]
-        self._redo = [replace(step, other=other) for step, other in zip(self._redo, after[1 + len(self._undo):], strict=False)]
+        self._redo = [
+            replace(step, other=other) for step, other in zip(self._redo, after[1 + len(self._undo) :], strict=False)
+        ]
         self.state = after[0]
         return after[-1]
 
@@ -165,13 +169,17 @@ def _unshared(one: State, other: State) -> int:
     if mine is theirs:
         return _STEP_BYTES
     elsewhere = set(map(id, _moved(theirs, mine)))
-    own = sum(_ENTITY_BYTES + _points(entity.curve) * _POINT_BYTES for entity in _moved(mine, theirs) if id(entity) not in elsewhere)
+    own = sum(
+        _ENTITY_BYTES + _points(entity.curve) * _POINT_BYTES
+        for entity in _moved(mine, theirs)
+        if id(entity) not in elsewhere
+    )
     return _STEP_BYTES + _POINTER_BYTES * len(mine) + own
 
 
 def _moved(mine: tuple[Entity, ...], theirs: tuple[Entity, ...]) -> Iterator[Entity]:
     """Yield the entities that the other drawing has not at the same place."""
-    return chain(compress(mine, map(is_not, mine, theirs)), mine[len(theirs):])
+    return chain(compress(mine, map(is_not, mine, theirs)), mine[len(theirs) :])
 
 
 def _points(curve: Curve) -> int:

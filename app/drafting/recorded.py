@@ -11,9 +11,23 @@ from .expressions.words import ids_text
 from .language.language import command_word
 from .language.write import draw_text
 
-_HEEDLESS = frozenset({
-    "line", "polyline", "arc", "circle", "rect", "polygon", "slot", "ellipse", "spline", "point", "guide", "dimension", "text",
-})
+_HEEDLESS = frozenset(
+    {
+        "line",
+        "polyline",
+        "arc",
+        "circle",
+        "rect",
+        "polygon",
+        "slot",
+        "ellipse",
+        "spline",
+        "point",
+        "guide",
+        "dimension",
+        "text",
+    }
+)
 """Commands that look at no selection and leave it as it is."""
 
 
@@ -77,14 +91,18 @@ def _clears(line: str) -> bool:
 
 
 def _without_clear(line: str) -> str:
-    return line[len("clear"):].lstrip(" \t;\r\n") if _clears(line) else line
+    return line[len("clear") :].lstrip(" \t;\r\n") if _clears(line) else line
 
 
 def _base_lines(part: Part) -> list[str]:
     things = sorted([e.id for e in part.entities] + [n.id for n in part.notes])
     if not things:
         return []
-    if things != list(range(1, len(things) + 1)) or [e.id for e in part.entities] != sorted(e.id for e in part.entities):
-        raise InputError("The drawing was opened from a file whose numbers have gaps, so its log alone does not draw it; "
-                         "take the text from the drawing instead.")
+    if things != list(range(1, len(things) + 1)) or [e.id for e in part.entities] != sorted(
+        e.id for e in part.entities
+    ):
+        raise InputError(
+            "The drawing was opened from a file whose numbers have gaps, so its log alone does not draw it; "
+            "take the text from the drawing instead."
+        )
     return draw_text(part).text.splitlines()

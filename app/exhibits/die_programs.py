@@ -52,12 +52,16 @@ def block(cells: int) -> Workpiece:
 
 def die(x: Floats, y: Floats) -> Floats:
     """Return the height of the die, mm, in about [-20, 0]."""
-    rounds = sum(height * np.exp(-((x - cx) ** 2 + (y - cy) ** 2) / (2 * width * width)) for cx, cy, width, height in _HILLS)
+    rounds = sum(
+        height * np.exp(-((x - cx) ** 2 + (y - cy) ** 2) / (2 * width * width)) for cx, cy, width, height in _HILLS
+    )
     return np.asarray(-14 + rounds + 1.2 * np.sin(x / 9.0) * np.cos(y / 11.0))
 
 
 def centre_surface(radius: float, count: int = 480) -> tuple[Floats, Floats]:
-    """Return places along a side, (count,), and the heights (count, count) of the ball's centre where it touches the die from above, mm."""
+    """Return places along a side, (count,), and the heights (count, count) of the ball's centre where it touches the
+    die from above, mm.
+    """
     grid = np.linspace(-radius - 1, SIZE + radius + 1, count)
     x, y = np.meshgrid(grid, grid)
     z = die(np.clip(x, 0, SIZE), np.clip(y, 0, SIZE))
@@ -68,7 +72,11 @@ def centre_surface(radius: float, count: int = 480) -> tuple[Floats, Floats]:
         for i in range(-k, k + 1):
             square = (i * i + j * j) * step * step
             if square <= radius * radius:
-                np.maximum(out, padded[k + j : k + j + count, k + i : k + i + count] + math.sqrt(radius * radius - square), out=out)
+                np.maximum(
+                    out,
+                    padded[k + j : k + j + count, k + i : k + i + count] + math.sqrt(radius * radius - square),
+                    out=out,
+                )
     return grid, out
 
 

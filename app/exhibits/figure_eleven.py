@@ -1,4 +1,6 @@
-"""The published comparison, its figure 11, measured again: how long each way to compute heights takes, in one process, side by side."""
+"""The published comparison, its figure 11, measured again: how long each way to compute heights takes, in one process,
+side by side.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +35,11 @@ if TYPE_CHECKING:
 PORTIONS = 16
 """Parts in which the plain way is done, so that it can be stopped."""
 
-PRINTED = ("As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s by depth "
-           "buffer; 35,391 moves, radius 3 mm, 15.93 s and 1.65 s.")  # fmt: skip
+PRINTED = (
+    "As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s "
+    "by depth "
+    "buffer; 35,391 moves, radius 3 mm, 15.93 s and 1.65 s."
+)
 
 
 class Way(Enum):
@@ -59,7 +64,8 @@ class FigureOptions:
     """What is measured.
 
     Attributes:
-        programs: names out of `PROGRAMS`. cells: along each side of the block. repeat: runs, of which the best one counts.
+        programs: names out of `PROGRAMS`. cells: along each side of the block. repeat: runs, of which the best one
+            counts.
     """
 
     programs: tuple[str, ...] = tuple(PROGRAMS)
@@ -109,19 +115,26 @@ class FigureEleven:
     def report(self) -> dict[str, Any]:
         """Return everything as plain values, units in the names."""
         return {
-            "cells": self.options.cells, "pitch_mm": SIZE / self.options.cells, "repeat": self.options.repeat, "threads": WORKERS,
-            "renderer": self.renderer or None, "software": is_software(self.renderer) if self.renderer else None,
+            "cells": self.options.cells,
+            "pitch_mm": SIZE / self.options.cells,
+            "repeat": self.options.repeat,
+            "threads": WORKERS,
+            "renderer": self.renderer or None,
+            "software": is_software(self.renderer) if self.renderer else None,
             "fault": self.fault or None,
-            "ways": {way.value: text for way, text in WAYS.items()}, "programs": [_plain(row) for row in self.rows], "printed": PRINTED,
-        }  # fmt: skip
+            "ways": {way.value: text for way, text in WAYS.items()},
+            "programs": [_plain(row) for row in self.rows],
+            "printed": PRINTED,
+        }
 
     def text(self) -> str:
         """Return the table for people."""
         return "\n".join(_lines(self))
 
 
-def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress = NO_PROGRESS,
-                  graphics: Graphics = GRAPHICS) -> FigureEleven:  # fmt: skip
+def figure_eleven(
+    options: FigureOptions = FigureOptions(), progress: Progress = NO_PROGRESS, graphics: Graphics = GRAPHICS
+) -> FigureEleven:
     """Measure every way on every program that is asked for.
 
     Raises:
@@ -136,7 +149,15 @@ def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress =
         except HitofudeError as error:
             faults.append(str(error))
         for k, name in enumerate(options.programs):
-            rows.append(_row(name, options, context, faults, progress.part(k / len(options.programs), (k + 1) / len(options.programs))))
+            rows.append(
+                _row(
+                    name,
+                    options,
+                    context,
+                    faults,
+                    progress.part(k / len(options.programs), (k + 1) / len(options.programs)),
+                )
+            )
     progress.step(1.0)
     return FigureEleven(options, tuple(rows), renderer, " ".join(faults))
 
@@ -144,7 +165,9 @@ def figure_eleven(options: FigureOptions = FigureOptions(), progress: Progress =
 Run = Callable[[Progress], Heights]
 
 
-def _row(name: str, options: FigureOptions, context: moderngl.Context | None, faults: list[str], progress: Progress) -> FigureRow:
+def _row(
+    name: str, options: FigureOptions, context: moderngl.Context | None, faults: list[str], progress: Progress
+) -> FigureRow:
     program, piece = PROGRAMS[name], block(options.cells)
     progress.step(0.0, f"Making program {name}")
     course, cutters = program.course(), program.cutters
@@ -160,23 +183,34 @@ def _row(name: str, options: FigureOptions, context: moderngl.Context | None, fa
             except Exception as trouble:  # whatever a driver comes up with; the other ways are worth telling
                 if way not in (Way.QUADS, Way.PUBLISHED):
                     raise
-                faults.append(f"{way.value} fails on program {name}: {' '.join(str(trouble).split())[:200] or type(trouble).__name__}")
-    found: dict[Way, Apart] = {way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD}
+                faults.append(
+                    f"{way.value} fails on program {name}: "
+                    f"{' '.join(str(trouble).split())[:200] or type(trouble).__name__}"
+                )
+    found: dict[Way, Apart] = {
+        way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD
+    }
     facet = published(piece.grid).facet
-    return FigureRow(name, program, seconds, found, polygon_counts(course, cutters, facet), facet_error(cutters[1], facet))
+    return FigureRow(
+        name, program, seconds, found, polygon_counts(course, cutters, facet), facet_error(cutters[1], facet)
+    )
 
 
 def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack) -> dict[Way, Run]:
     """Return what computes heights, by way; the stack gives back what they hold."""
     course, cutters, cells = program.course(), program.cutters, piece.grid.cols
-    ways: dict[Way, Run] = {Way.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
-                            Way.PLAIN: lambda told: plain_heights(program, cells, told)}  # fmt: skip
+    ways: dict[Way, Run] = {
+        Way.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
+        Way.PLAIN: lambda told: plain_heights(program, cells, told),
+    }
     if context is None:
         return ways
     engine = DepthBuffer(context, published(piece.grid))
     stack.callback(engine.release)
-    return ways | {Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
-                   Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told)}  # fmt: skip
+    return ways | {
+        Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
+        Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told),
+    }
 
 
 def _best(run: Run, repeat: int, progress: Progress) -> tuple[float, Heights]:
@@ -216,12 +250,20 @@ def _plain(row: FigureRow) -> dict[str, Any]:
     """Return a row as plain values."""
     ratios = {f"{slower.value}_by_{faster.value}": row.ratio(slower, faster) for slower, faster in _RATIOS}
     return {
-        "program": row.name, "moves": row.program.moves, "radius_mm": row.program.radius,
-        "seconds": {way.value: row.seconds.get(way) for way in Way}, "ratios": ratios,
-        "apart_from_record_mm": {way.value: _finite(found.largest) for way, found in row.apart.items()}, "published_error_mm": row.error,
-        "polygons": {"spheres": row.polygons.spheres, "spheres_culled": row.polygons.spheres_down, "wedges": row.polygons.wedges,
-                     "wedges_culled": row.polygons.drawn},
-    }  # fmt: skip
+        "program": row.name,
+        "moves": row.program.moves,
+        "radius_mm": row.program.radius,
+        "seconds": {way.value: row.seconds.get(way) for way in Way},
+        "ratios": ratios,
+        "apart_from_record_mm": {way.value: _finite(found.largest) for way, found in row.apart.items()},
+        "published_error_mm": row.error,
+        "polygons": {
+            "spheres": row.polygons.spheres,
+            "spheres_culled": row.polygons.spheres_down,
+            "wedges": row.polygons.wedges,
+            "wedges_culled": row.polygons.drawn,
+        },
+    }
 
 
 _RATIOS = ((Way.PLAIN, Way.PUBLISHED), (Way.PLAIN, Way.RECORD), (Way.PUBLISHED, Way.QUADS), (Way.PUBLISHED, Way.RECORD))
@@ -230,20 +272,35 @@ _RATIOS = ((Way.PLAIN, Way.PUBLISHED), (Way.PLAIN, Way.RECORD), (Way.PUBLISHED, 
 def _lines(figure: FigureEleven) -> Iterator[str]:
     """Yield the lines of the table."""
     options, renderer = figure.options, figure.renderer
-    drawn = f"drawn by {renderer} ({'software' if is_software(renderer) else 'hardware'})" if renderer else "nothing drawn"
-    yield (f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of {options.repeat}, "
-           f"{WORKERS} threads; {drawn}")
-    columns = [f"{way.value:>12}" for way in Way] + [f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS]
+    drawn = (
+        f"drawn by {renderer} ({'software' if is_software(renderer) else 'hardware'})" if renderer else "nothing drawn"
+    )
+    yield (
+        f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of "
+        f"{options.repeat}, "
+        f"{WORKERS} threads; {drawn}"
+    )
+    columns = [f"{way.value:>12}" for way in Way] + [
+        f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS
+    ]
     yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
     for row in figure.rows:
         times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in Way)
-        ratios = "".join(f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS)
+        ratios = "".join(
+            f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS
+        )
         yield f"{row.name:2}{row.program.moves:>8,}{row.program.radius:>5g} mm{times}{ratios}"
     yield "Polygons of the published way, and how far its facets are at most inside the surface:"
     yield f"{'':2}{'whole spheres':>15}{'half left away':>16}{'wedges':>14}{'half left away':>16}{'error':>13}"
     for row in figure.rows:
         counts = row.polygons
-        yield (f"{row.name:2}{counts.spheres:>15,}{counts.spheres_down:>16,}{counts.wedges:>14,}{counts.drawn:>16,}{row.error:>10.5f} mm")
+        yield (
+            f"{row.name:2}{counts.spheres:>15,}{counts.spheres_down:>16,}{counts.wedges:>14,}{counts.drawn:>16,}"
+            f"{row.error:>10.5f} "
+            ""
+            ""
+            "mm"
+        )
     yield "How far heights are at most from those of the engine of record (cells on walls may fall to either side):"
     for row in figure.rows:
         yield f"{row.name:2}" + ", ".join(f"{way.value} {found.largest:.2g} mm" for way, found in row.apart.items())
@@ -251,4 +308,3 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
     if figure.fault:
         yield figure.fault
     yield PRINTED
-

@@ -30,11 +30,21 @@ SHOWN_PX = 800
 """Pictures are enlarged by a whole factor, as long as they stay no wider than about this."""
 
 PALETTE: dict[PixelCode, str] = {
-    PixelCode.EMPTY: "#101418", PixelCode.CONTOUR: "#d8dee6", PixelCode.TRACED: "#4cc2ff", PixelCode.R: "#ff5c5c",
-    PixelCode.INSIDE: "#2f4a3a", PixelCode.PROCESSED: "#3a424c", PixelCode.FRAME: "#5ee08a", PixelCode.RING: "#2fa866",
-    PixelCode.CIRCLE: "#c792ff", PixelCode.LONG_LINE: "#4cc2ff", PixelCode.VERTEX: "#ffd24c", PixelCode.SHORT_LINE: "#8fd8ff",
-    PixelCode.ARC: "#ff9e4c", PixelCode.SPLINE: "#ff6fb5",
-}  # fmt: skip
+    PixelCode.EMPTY: "#101418",
+    PixelCode.CONTOUR: "#d8dee6",
+    PixelCode.TRACED: "#4cc2ff",
+    PixelCode.R: "#ff5c5c",
+    PixelCode.INSIDE: "#2f4a3a",
+    PixelCode.PROCESSED: "#3a424c",
+    PixelCode.FRAME: "#5ee08a",
+    PixelCode.RING: "#2fa866",
+    PixelCode.CIRCLE: "#c792ff",
+    PixelCode.LONG_LINE: "#4cc2ff",
+    PixelCode.VERTEX: "#ffd24c",
+    PixelCode.SHORT_LINE: "#8fd8ff",
+    PixelCode.ARC: "#ff9e4c",
+    PixelCode.SPLINE: "#ff6fb5",
+}
 """Colour of each code, "#rrggbb", on the dark screen of a terminal."""
 
 TURNS = "turns"
@@ -123,12 +133,24 @@ class StagesRun:
 def _step(run: StagesRun, stage: Stage, file: str) -> Json:
     values, counts = np.unique(stage.plane, return_counts=True)
     pixels = {PixelCode(int(v)).name.lower(): int(n) for v, n in zip(values, counts, strict=True)}
-    return {"number": stage.number, "name": stage.name, "sentence": stage.sentence, "file": file, "times": run.times[stage.number],
-            "chains": run.text(stage.number).count("\n"), "pixels": pixels}
+    return {
+        "number": stage.number,
+        "name": stage.name,
+        "sentence": stage.sentence,
+        "file": file,
+        "times": run.times[stage.number],
+        "chains": run.text(stage.number).count("\n"),
+        "pixels": pixels,
+    }
 
 
-def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, Variant], progress: Progress = NO_PROGRESS,
-               observer: StageObserver | None = None) -> StagesRun:
+def run_stages(
+    name: str,
+    data: bytes,
+    asked: tuple[MakeOptions, Variant],
+    progress: Progress = NO_PROGRESS,
+    observer: StageObserver | None = None,
+) -> StagesRun:
     """Compute a drawing or a picture on pixels, and look at every step.
 
     Args:
@@ -154,7 +176,9 @@ def run_stages(name: str, data: bytes, asked: tuple[MakeOptions, Variant], progr
             observer(stage)
         last[stage.number] = stage
         kept = (len(turns) + 1) * stage.plane.size <= MOST_TURNS_PX
-        turns.append(Turn(stage.number, stage.region, stage.turn, stage.text, indexed_png(stage.plane) if kept else b""))
+        turns.append(
+            Turn(stage.number, stage.region, stage.turn, stage.text, indexed_png(stage.plane) if kept else b"")
+        )
     return StagesRun(ready, made, variant, tuple(last[number] for number in STEPS if number in last), tuple(turns))
 
 
@@ -164,7 +188,9 @@ def names(last: tuple[Stage, ...]) -> list[str]:
 
 
 def stage_files(run: StagesRun, progress: Progress = NO_PROGRESS) -> dict[str, bytes]:
-    """Return the files by name: .png, .npy, .txt where a step has chain codes, and TURNS/….png of steps done more than once."""
+    """Return the files by name: .png, .npy, .txt where a step has chain codes, and TURNS/….png of steps done more than
+    once.
+    """
     files: dict[str, bytes] = {}
     for k, (stage, name) in enumerate(zip(run.last, names(run.last), strict=True)):
         progress.step(k / len(run.last), "Writing pictures")
@@ -214,4 +240,3 @@ def png(stage: Stage) -> bytes:
 
 def _bgr(colour: str) -> tuple[int, int, int]:
     return int(colour[5:7], 16), int(colour[3:5], 16), int(colour[1:3], 16)
-

@@ -1,4 +1,6 @@
-"""The bitmap way step by step, as the workstation's display memory showed it: for a class to watch, one stage at a time."""
+"""The bitmap way step by step, as the workstation's display memory showed it: for a class to watch, one stage at a
+time.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +25,12 @@ from ..usecases.bitmap_part import BitmapPart
 from ..usecases.bitmap_way import OperationPaths, PixelPath
 
 _CODES = {
-    PieceKind.CIRCLE: PixelCode.CIRCLE, PieceKind.LONG_LINE: PixelCode.LONG_LINE, PieceKind.SHORT_LINE: PixelCode.SHORT_LINE,
-    PieceKind.ARC: PixelCode.ARC, PieceKind.SPLINE: PixelCode.SPLINE,
-}  # fmt: skip
+    PieceKind.CIRCLE: PixelCode.CIRCLE,
+    PieceKind.LONG_LINE: PixelCode.LONG_LINE,
+    PieceKind.SHORT_LINE: PixelCode.SHORT_LINE,
+    PieceKind.ARC: PixelCode.ARC,
+    PieceKind.SPLINE: PixelCode.SPLINE,
+}
 
 
 class Variant(Enum):
@@ -43,7 +48,9 @@ class _Scene:
     variant: Variant
 
 
-def stages(job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant: Variant = Variant.SETTLED) -> Iterator[Stage]:
+def stages(
+    job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant: Variant = Variant.SETTLED
+) -> Iterator[Stage]:
     """Yield the display memory after every step, in the text's order; each is made when it is asked for.
 
     Args:
@@ -54,7 +61,9 @@ def stages(job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant:
     """
     scene = _Scene(part, variant)
     contour = next((each for each in paths if job.operations[each.index].FOLLOWS_WALLS), None)
-    pocket = next((each for each in paths if each is not contour and not job.operations[each.index].FOLLOWS_WALLS), None)
+    pocket = next(
+        (each for each in paths if each is not contour and not job.operations[each.index].FOLLOWS_WALLS), None
+    )
     yield Stage(110, (part.drawn != PixelCode.EMPTY).astype(np.uint8))
     shown = contour or pocket
     if shown is None:
@@ -68,7 +77,9 @@ def stages(job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant:
         yield from _frames(scene, pocket)
         yield from _inner_paths(scene, pocket)
     yield Stage(140, _all_paths(part, contour, pocket))
-    yield from _smoothing(part, [path for each in (contour, pocket) if each is not None for level in each.levels[:1] for path in level])
+    yield from _smoothing(
+        part, [path for each in (contour, pocket) if each is not None for level in each.levels[:1] for path in level]
+    )
 
 
 def _put(plane: Plane, chains: Sequence[Chain], code: PixelCode) -> None:
@@ -153,7 +164,9 @@ def _mark_overlap(plane: Plane, band: Mask) -> None:
 
 def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
     """Steps 145-148: path after path, in all regions."""
-    plane = np.where(pocket.area, np.where(pocket.pixels >= 1, PixelCode.CONTOUR, PixelCode.PROCESSED), PixelCode.EMPTY).astype(np.uint8)
+    plane = np.where(
+        pocket.area, np.where(pocket.pixels >= 1, PixelCode.CONTOUR, PixelCode.PROCESSED), PixelCode.EMPTY
+    ).astype(np.uint8)
     _put(plane, [path.chain for level in pocket.levels[:1] for path in level], PixelCode.FRAME)
     _mark_overlap(plane, pocket.pixels == 1)
     for level in range(2, len(pocket.levels) + 1):

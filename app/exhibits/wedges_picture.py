@@ -1,4 +1,6 @@
-"""The sweep of a few moves as the method of the wedges makes it, for a picture of the method (figs 3, 7, 8 of its text)."""
+"""The sweep of a few moves as the method of the wedges makes it, for a picture of the method (figs 3, 7, 8 of its
+text).
+"""
 
 from __future__ import annotations
 
@@ -52,8 +54,10 @@ def wedges_picture(tips: Floats, tool: Tool, facet: float = 0.0) -> WedgesPictur
     from ..simulation.gpu.wedges import FacetKind, Tessellation, sweep_facets
 
     if not has_wedges(tool):
-        raise ParameterError(f"T{tool.number} is a {tool.kind.value} tool; cylinders and wedges are the sweep of a ball. "
-                             "Choose a move of a ball cutter.")
+        raise ParameterError(
+            f"T{tool.number} is a {tool.kind.value} tool; cylinders and wedges are the sweep of a ball. "
+            "Choose a move of a ball cutter."
+        )
     facet = facet or tool.radius / FINENESS
     places = np.asarray(tips, float) + (0.0, 0.0, tool.radius)
     found = sweep_facets(places if len(places) > 1 else np.repeat(places, 2, axis=0), tool.radius, Tessellation(facet))

@@ -21,7 +21,8 @@ class FittedPath:
 
     Attributes:
         motions: m lines, arcs (in any plane; helices) and splines; feed NaN, line and state 0.
-        last: (m,) index of the point nearest to each motion's end along the polyline: never falling, the last one n - 1.
+        last: (m,) index of the point nearest to each motion's end along the polyline: never falling, the last one n -
+            1.
     """
 
     motions: Motions
@@ -47,11 +48,17 @@ def arcs_between(places: Floats, half: Floats, plane: NDArray[np.uint8]) -> Moti
     axes, row = np.array([each.axes for each in Plane])[plane], np.arange(count)[:, None]
     a, b = places[:-1][row, axes], places[1:][row, axes]
     chord = b - a
-    up = np.where(arc, 0.5 / np.tan(np.where(arc, half, 1.0)), 0.0)  # from the chord's middle to the centre, in chords to the left
+    up = np.where(
+        arc, 0.5 / np.tan(np.where(arc, half, 1.0)), 0.0
+    )  # from the chord's middle to the centre, in chords to the left
     own = a.copy()
     own[:, 0] = (a[:, 0] + b[:, 0]) / 2 - up * chord[:, 1]
     own[:, 1] = (a[:, 1] + b[:, 1]) / 2 + up * chord[:, 0]
-    motions = _motions(places[:-1], places[1:], np.where(arc, np.where(half > 0, MotionKind.ARC_CCW, MotionKind.ARC_CW), MotionKind.LINE))
+    motions = _motions(
+        places[:-1],
+        places[1:],
+        np.where(arc, np.where(half > 0, MotionKind.ARC_CCW, MotionKind.ARC_CW), MotionKind.LINE),
+    )
     centre = np.empty((count, 3))
     centre[row, axes] = own
     centre[~arc] = np.nan
@@ -59,7 +66,9 @@ def arcs_between(places: Floats, half: Floats, plane: NDArray[np.uint8]) -> Moti
 
 
 def motions_of_rows(rows: Rows) -> Motions:
-    """Return lines and arcs (n, 8), n >= 1, of `app.geometry.primitives` as motions at Z 0; an arc without a chord is a circle."""
+    """Return lines and arcs (n, 8), n >= 1, of `app.geometry.primitives` as motions at Z 0; an arc without a chord is a
+    circle.
+    """
     flat = np.zeros((len(rows), 1))
     arc = rows[:, TURN] != 0
     kind = np.where(arc, np.where(rows[:, TURN] > 0, MotionKind.ARC_CCW, MotionKind.ARC_CW), MotionKind.LINE)
@@ -78,10 +87,17 @@ def _motions(start: Floats, end: Floats, kind: NDArray[Any], splines: dict[int, 
     count = len(kind)
     whole = np.zeros(count, np.int32)
     return Motions(
-        start=start.copy(), end=end.copy(), centre=np.full((count, 3), np.nan), kind=kind.astype(np.uint8),
+        start=start.copy(),
+        end=end.copy(),
+        centre=np.full((count, 3), np.nan),
+        kind=kind.astype(np.uint8),
         plane=np.full(count, Plane.XY, np.uint8),
-        turns=whole.copy(), feed=np.full(count, np.nan), line=whole.copy(), state=whole.copy(), splines=splines or {},
-    )  # fmt: skip
+        turns=whole.copy(),
+        feed=np.full(count, np.nan),
+        line=whole.copy(),
+        state=whole.copy(),
+        splines=splines or {},
+    )
 
 
 def chained(parts: Sequence[FittedPath]) -> FittedPath:
@@ -98,7 +114,15 @@ def chained(parts: Sequence[FittedPath]) -> FittedPath:
         return np.concatenate([getattr(part.motions, name) for part in parts])
 
     motions = Motions(
-        joined("start"), joined("end"), joined("centre"), joined("kind"), joined("plane"), joined("turns"), joined("feed"),
-        joined("line"), joined("state"), splines,
-    )  # fmt: skip
+        joined("start"),
+        joined("end"),
+        joined("centre"),
+        joined("kind"),
+        joined("plane"),
+        joined("turns"),
+        joined("feed"),
+        joined("line"),
+        joined("state"),
+        splines,
+    )
     return FittedPath(motions, np.concatenate(last))

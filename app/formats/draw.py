@@ -14,7 +14,9 @@ from .drawing_account import on_layers, other_units, switched_off
 MOST_BYTES = 20_000_000
 
 
-def read_draw(data: bytes, name: str = "part.draw", units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
+def read_draw(
+    data: bytes, name: str = "part.draw", units: Units | None = None, layers: tuple[str, ...] = ()
+) -> Drawing:
     """Return the drawing that a text of the shape language draws; its lengths are mm where they have no unit.
 
     Args:
@@ -27,11 +29,13 @@ def read_draw(data: bytes, name: str = "part.draw", units: Units | None = None, 
         InputError: the text cannot be read or carried out, with line and column; or it has not one of the layers.
     """
     if len(data) > MOST_BYTES:
-        raise InputError(f"{name}: the text has {len(data)} bytes; at most {MOST_BYTES} are read. Split it, or repeat with repeat.")
+        raise InputError(
+            f"{name}: the text has {len(data)} bytes; at most {MOST_BYTES} are read. Split it, or repeat with repeat."
+        )
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = data[:error.start].count(b"\n") + 1
+        line = data[: error.start].count(b"\n") + 1
         raise InputError(f"{name}:{line}: this is no text in UTF-8; save it as plain text.") from error
     part = _tidy(drawn(text, name))
     if not part.entities:

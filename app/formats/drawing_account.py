@@ -24,7 +24,10 @@ MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
 
 BEYOND = "curve beyond 1 km or without a place"
-MOVE = "move the drawing to zero in the CAD program, or say --to-zero (in the window: File, Reading options) and it is done on reading"
+MOVE = (
+    "move the drawing to zero in the CAD program, or say --to-zero (in the window: File, Reading options) and it is "
+    "done on reading"
+)
 _GONE = {True: "is missing from the part", False: "are missing from the part"}
 _COUNTABLE = 1e10
 """mm; beyond, neighbouring doubles are further apart than WELD, so that no shape is left to be moved."""
@@ -54,8 +57,11 @@ class Taken:
 
 
 def taken(
-    curves: Iterable[tuple[Curve, str]], to_mm: Affine | None, anchors: Callable[[str], bool] | None = None, strokes: int = 0,
-) -> Taken:  # fmt: skip
+    curves: Iterable[tuple[Curve, str]],
+    to_mm: Affine | None,
+    anchors: Callable[[str], bool] | None = None,
+    strokes: int = 0,
+) -> Taken:
     """Return all curves that have a length, in mm.
 
     Args:
@@ -65,13 +71,17 @@ def taken(
         strokes: so many of the last ones are strokes of letters.
     """
     placed = [(transformed(curve, to_mm) if to_mm is not None else curve, layer) for curve, layer in curves]
-    moved = None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
+    moved = (
+        None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
+    )
     shift = None if moved is None else Affine(x0=moved[0], y0=moved[1])
     found = Taken((), [], [], 0, moved)
     entities: list[Entity] = []
     lost = 0
     for left, (curve, layer) in zip(range(len(placed), 0, -1), placed, strict=True):
-        drawn = None if curve is None else straightened(transformed(curve, shift) or curve if shift is not None else curve)
+        drawn = (
+            None if curve is None else straightened(transformed(curve, shift) or curve if shift is not None else curve)
+        )
         if drawn is None or (within_reach(drawn) and not has_length(drawn)):
             found.nothing.append(None if drawn is None else drawn.start)
         elif within_reach(drawn):
@@ -95,7 +105,9 @@ def strays_or_none(found: Taken, reading: Reading, placed: Callable[[bool], Take
 
 
 def size_of(part: Part, layers: tuple[str, ...] = ()) -> Size:
-    """Return width and height of what is machined of a part, mm: what is on some layers, or else on all that are shown."""
+    """Return width and height of what is machined of a part, mm: what is on some layers, or else on all that are
+    shown.
+    """
     wanted = {layer.casefold() for layer in layers} or {layer.name.casefold() for layer in part.layers if layer.visible}
     box = union([bounds(entity.curve) for entity in part.entities if entity.layer.casefold() in wanted])
     return (0.0, 0.0) if box is None else (box[2] - box[0], box[3] - box[1])
@@ -115,7 +127,9 @@ def _shift(curves: list[Curve]) -> Point | None:
 
 
 def has_place(curve: Curve) -> bool:
-    """Return False for a curve with a coordinate that is no number, or so large that none beside it can be told from it."""
+    """Return False for a curve with a coordinate that is no number, or so large that none beside it can be told from
+    it.
+    """
     return all(abs(v) < _COUNTABLE for v in _numbers(curve))
 
 
@@ -134,18 +148,30 @@ def about_place(found: Taken) -> Iterator[Finding]:
     """Say that the drawing was moved, and what of it is lost because it lies nowhere or too far away."""
     if found.moved is not None:
         x, y = found.moved
-        yield remark(f"The drawing was moved by ({x:.3f}, {y:.3f}) mm, so that its lower left corner is zero.", math.hypot(x, y))
+        yield remark(
+            f"The drawing was moved by ({x:.3f}, {y:.3f}) mm, so that its lower left corner is zero.", math.hypot(x, y)
+        )
     if found.far:
         (x, y), layer = found.far[0]
         what = "1 curve lies" if len(found.far) == 1 else f"{len(found.far)} curves lie"
-        where = f"at ({x:.3f}, {y:.3f}) on layer {layer}" if len(found.far) == 1 else f"the first at ({x:.3f}, {y:.3f}) on layer {layer}"
+        where = (
+            f"at ({x:.3f}, {y:.3f}) on layer {layer}"
+            if len(found.far) == 1
+            else f"the first at ({x:.3f}, {y:.3f}) on layer {layer}"
+        )
         todo = MOVE if found.moved is None else "delete what lies so far away, or check the units"
-        yield Finding(FindingKind.LEFT_OUT, f"{what} beyond 1 km, {where}, and {_GONE[len(found.far) == 1]}; {todo}.",
-                      amount=float(len(found.far)))
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} beyond 1 km, {where}, and {_GONE[len(found.far) == 1]}; {todo}.",
+            amount=float(len(found.far)),
+        )
     if found.placeless:
         what = "1 curve has" if found.placeless == 1 else f"{found.placeless} curves have"
-        yield Finding(FindingKind.LEFT_OUT, f"{what} a coordinate that is no number and {_GONE[found.placeless == 1]}; draw it again.",
-                      amount=float(found.placeless))
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{what} a coordinate that is no number and {_GONE[found.placeless == 1]}; draw it again.",
+            amount=float(found.placeless),
+        )
 
 
 def has_length(curve: Curve) -> bool:
@@ -173,7 +199,9 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
     known = {layer.name.casefold() for layer in part.layers}
     missing = [layer for layer in layers if layer.casefold() not in known]
     if missing:
-        raise InputError(f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(layer.name for layer in part.layers)}.")
+        raise InputError(
+            f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(layer.name for layer in part.layers)}."
+        )
     wanted = {layer.casefold() for layer in layers}
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() in wanted)
     if not kept:
@@ -189,7 +217,10 @@ def remark(text: str, amount: float | None = None) -> Finding:
 def other_units(given: Units | None, shown: Units) -> Iterator[Finding]:
     """Say that the units given are not those that the drawing names."""
     if given is not None and given is not shown:
-        yield remark(f"The drawing names its own units, {shown.name.lower()}; the units given, {given.name.lower()}, are not used.")
+        yield remark(
+            f"The drawing names its own units, {shown.name.lower()}; the units given, {given.name.lower()}, are not "
+            "used."
+        )
 
 
 def without_length(places: list[Point | None]) -> Iterator[Finding]:
@@ -199,7 +230,9 @@ def without_length(places: list[Point | None]) -> Iterator[Finding]:
         x, y = known[0] if known else (None, None)
         where = f", the first at ({x:.3f}, {y:.3f})" if known else ""
         what = "1 entity has" if len(places) == 1 else f"{len(places)} entities have"
-        yield Finding(FindingKind.TINY_ENTITY, f"{what} no length{where}; left out.", x, y, False, (), float(len(places)))
+        yield Finding(
+            FindingKind.TINY_ENTITY, f"{what} no length{where}; left out.", x, y, False, (), float(len(places))
+        )
 
 
 def switched_off(part: Part, asked: tuple[str, ...]) -> Iterator[Finding]:

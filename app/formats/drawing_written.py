@@ -1,4 +1,6 @@
-"""What every writer of drawings returns, and what all of them need: a box round the part, curves as lines and arcs, a count of both."""
+"""What every writer of drawings returns, and what all of them need: a box round the part, curves as lines and arcs, a
+count of both.
+"""
 
 from __future__ import annotations
 
@@ -71,7 +73,9 @@ class Conversions:
 
 
 def box_round(entities: Iterable[Entity]) -> tuple[float, float, float, float] | None:
-    """Return x0, y0, x1, y1 that hold all curves, mm, wider than need be round parts of ellipses and splines; None for no curves."""
+    """Return x0, y0, x1, y1 that hold all curves, mm, wider than need be round parts of ellipses and splines; None for
+    no curves.
+    """
     found = [_box(entity.curve) for entity in entities]
     if not found:
         return None

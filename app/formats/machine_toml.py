@@ -42,7 +42,9 @@ def load_machine(name: str) -> Machine:
         return read_machine(path.name, path.read_bytes())
     except OSError as error:
         known = ", ".join(files)
-        raise InputError(f"There is no machine '{name}'; choose one of {known}, or name a TOML file like those.") from error
+        raise InputError(
+            f"There is no machine '{name}'; choose one of {known}, or name a TOML file like those."
+        ) from error
 
 
 def read_machine(file: str, data: bytes) -> Machine:

@@ -19,8 +19,12 @@ SUFFIXES = (*PROJECTS, ".dxf", ".svg", ".draw")
 
 
 def read_drawing(
-    path_name: str, data: bytes, units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
-) -> Drawing:  # fmt: skip
+    path_name: str,
+    data: bytes,
+    units: Units | None = None,
+    layers: tuple[str, ...] = (),
+    how: ReadOptions = AS_DRAWN,
+) -> Drawing:
     """Return the drawing in a file's bytes, by the suffix of its name.
 
     Args:
@@ -36,7 +40,9 @@ def read_drawing(
     name = PurePath(path_name).name
     suffix = PurePath(path_name).suffix.lower()
     if suffix not in SUFFIXES:
-        raise InputError(f"{name}: drawings of type {suffix or 'without a suffix'} cannot be read; supported: {', '.join(SUFFIXES)}.")
+        raise InputError(
+            f"{name}: drawings of type {suffix or 'without a suffix'} cannot be read; supported: {', '.join(SUFFIXES)}."
+        )
     how.check(name, suffix)
     drawing = _READERS[suffix](data, name, (units, layers), how)
     drawing = _without_layers(drawing, how, name)
@@ -56,8 +62,10 @@ def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
     known = {layer.name.casefold() for layer in part.layers}
     missing = [layer for layer in layers if layer.casefold() not in known]
     if missing and not how.lenient:
-        raise InputError(f"{name}: there is no layer {missing[0]} to leave out; "
-                         f"the drawing has {', '.join(layer.name for layer in part.layers)}.")
+        raise InputError(
+            f"{name}: there is no layer {missing[0]} to leave out; "
+            f"the drawing has {', '.join(layer.name for layer in part.layers)}."
+        )
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() not in gone)
     if not kept:
         raise InputError(f"{name}: without layer {', '.join(layers)} nothing is left to machine; leave out less.")
@@ -93,5 +101,8 @@ def _dxf(data: bytes, name: str, chosen: _Chosen, how: ReadOptions) -> Drawing:
 
 
 _READERS: dict[str, Callable[[bytes, str, _Chosen, ReadOptions], Drawing]] = {
-    ".dxf": _dxf, ".svg": _svg, ".draw": _draw, **dict.fromkeys(PROJECTS, _project),
-}  # fmt: skip
+    ".dxf": _dxf,
+    ".svg": _svg,
+    ".draw": _draw,
+    **dict.fromkeys(PROJECTS, _project),
+}

@@ -1,4 +1,5 @@
-"""What has to be asked before a drawing can be read, or is worth asking after it: the facts, and how it is read by each answer.
+"""What has to be asked before a drawing can be read, or is worth asking after it: the facts, and how it is read by each
+answer.
 
 Readers make these where they refuse a drawing or assume something; the command line says the same by its options.
 """
@@ -70,7 +71,8 @@ class Contents:
         layers: names of all layers. layouts: of paper space, with how many entities are in each.
         types: of the entities that were met, in order.
         units: that it names; None = none.
-        per_inch: user units to the inch that its generator has; None where there is no need for it. editor: that generator, or "".
+        per_inch: user units to the inch that its generator has; None where there is no need for it. editor: that
+            generator, or "".
     """
 
     layers: tuple[str, ...] = ()
@@ -116,27 +118,49 @@ def about_far(first: Point, reading: Reading, units: Units) -> Question:
     for other in _OFFERED[:2]:
         x, y = _scaled(first, other.value / units.value)
         if other.value < units.value and max(abs(x), abs(y)) < FARTHEST:
-            choices.append(Choice(f"Take it as {UNIT_WORDS[other]}", reading.in_units(other), f"it then begins at {_place(x, y)} mm"))
+            choices.append(
+                Choice(
+                    f"Take it as {UNIT_WORDS[other]}", reading.in_units(other), f"it then begins at {_place(x, y)} mm"
+                )
+            )
     away = math.hypot(*first) / 1e6
-    return Question(f"All of it stands more than 1 km from zero: its first curve, at {_place(*first)} mm, {away:,.1f} km away.",
-                    tuple(choices))
+    return Question(
+        f"All of it stands more than 1 km from zero: its first curve, at {_place(*first)} mm, {away:,.1f} km away.",
+        tuple(choices),
+    )
 
 
 def about_strays(count: int, reading: Reading) -> Question:
     """Ask what to do with a drawing of which some curves lie beyond 1 km and none does when it is moved to zero."""
     moved = replace(reading, how=replace(reading.how, to_zero=True))
-    what = "1 curve lies beyond 1 km and is missing." if count == 1 else f"{count} curves lie beyond 1 km and are missing."
-    return Question(what, (Choice("Move it to zero", moved, "nothing is missing then", likely=True),
-                           Choice("Keep it where it is", reading, "what lies beyond is left out", now=True)))
+    what = (
+        "1 curve lies beyond 1 km and is missing." if count == 1 else f"{count} curves lie beyond 1 km and are missing."
+    )
+    return Question(
+        what,
+        (
+            Choice("Move it to zero", moved, "nothing is missing then", likely=True),
+            Choice("Keep it where it is", reading, "what lies beyond is left out", now=True),
+        ),
+    )
 
 
 def about_layouts(layouts: Mapping[str, int], reading: Reading) -> Question:
     """Ask which layout to take of a drawing whose model space is empty; `layouts` has how many entities each holds."""
     ranked = sorted(layouts.items(), key=lambda each: -each[1])
-    choices = tuple(Choice(f"Take layout {_short(name)}", replace(reading, how=replace(reading.how, layout=name)), _entities(count),
-                           likely=name == ranked[0][0]) for name, count in ranked[:_MOST_LAYOUTS])  # fmt: skip
+    choices = tuple(
+        Choice(
+            f"Take layout {_short(name)}",
+            replace(reading, how=replace(reading.how, layout=name)),
+            _entities(count),
+            likely=name == ranked[0][0],
+        )
+        for name, count in ranked[:_MOST_LAYOUTS]
+    )
     if len(ranked) == 1:
-        return Question(f"Model space holds no curve; all that is drawn stands on the layout {_short(ranked[0][0])}.", choices)
+        return Question(
+            f"Model space holds no curve; all that is drawn stands on the layout {_short(ranked[0][0])}.", choices
+        )
     return Question(f"Model space holds no curve; what is drawn stands on {len(ranked)} layouts.", choices)
 
 
@@ -151,11 +175,18 @@ def _entities(count: int) -> str:
 def about_frozen(layers: tuple[str, ...], curves: int, reading: Reading) -> Question:
     """Ask whether to read what stands on frozen layers, where nothing else is drawn."""
     words = f"Read layer {_short(layers[0])}" if len(layers) == 1 else f"Read {len(layers)} layers"
-    read = Choice(words, replace(reading, layers=layers), f"{curves} curve{'s' * (curves != 1)} on {', '.join(layers)}", likely=True)
+    read = Choice(
+        words,
+        replace(reading, layers=layers),
+        f"{curves} curve{'s' * (curves != 1)} on {', '.join(layers)}",
+        likely=True,
+    )
     return Question("Nothing of it is shown: all blocks are inserted on layers that are frozen.", (read,))
 
 
-def about_size(size: Size, whence: str, keep: Choice, others: Iterable[tuple[Units, Size]], tools: tuple[float, ...]) -> Question:
+def about_size(
+    size: Size, whence: str, keep: Choice, others: Iterable[tuple[Units, Size]], tools: tuple[float, ...]
+) -> Question:
     """Ask for the units of a drawing whose size cannot be meant.
 
     Args:
@@ -166,11 +197,16 @@ def about_size(size: Size, whence: str, keep: Choice, others: Iterable[tuple[Uni
     """
     offered = list(others)
     likely = min(offered, key=lambda each: _oddness(each[1], tools), default=(None,))[0]
-    choices = [Choice(f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely)
-               for each, found in offered]
+    choices = [
+        Choice(f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely)
+        for each, found in offered
+    ]
     choices.sort(key=lambda choice: not choice.likely)
     tool, extreme = (max(tools), "largest") if max(size) > max(tools) else (min(tools), "smallest")
-    return Question(f"It is {size_words(size)}, and the {extreme} tool {tool:g} mm. {whence}; which unit is meant?", (*choices, keep))
+    return Question(
+        f"It is {size_words(size)}, and the {extreme} tool {tool:g} mm. {whence}; which unit is meant?",
+        (*choices, keep),
+    )
 
 
 def _oddness(size: Size, tools: tuple[float, ...]) -> float:
@@ -184,11 +220,15 @@ def about_units(units: Units, size: Size, reading: Reading) -> Question:
     for other in _OFFERED[:2]:
         if other is not units:
             factor = other.value / units.value
-            choices.append(Choice(f"Read in {UNIT_WORDS[other]}", replace(reading, units=other), size_words(_scaled(size, factor))))
+            choices.append(
+                Choice(f"Read in {UNIT_WORDS[other]}", replace(reading, units=other), size_words(_scaled(size, factor)))
+            )
     return Question(f"It names no units. It was read in {UNIT_WORDS[units]}.", tuple(choices))
 
 
-def about_pixels(assumed: tuple[float, str], others: Iterable[float], size_of: Callable[[Reading], Size], reading: Reading) -> Question:
+def about_pixels(
+    assumed: tuple[float, str], others: Iterable[float], size_of: Callable[[Reading], Size], reading: Reading
+) -> Question:
     """Ask how large the units of an SVG without a real size are.
 
     Args:
@@ -198,11 +238,13 @@ def about_pixels(assumed: tuple[float, str], others: Iterable[float], size_of: C
         reading: by which it was read.
     """
     per_inch, editor = assumed
-    ways: Iterator[tuple[str, Reading]] = iter([
-        (f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch)),
-        *((f"Read {each:g} to the inch", reading.with_pixels(each)) for each in others if each != per_inch),
-        *((f"Read in {UNIT_WORDS[each]}", replace(reading.with_pixels(None), units=each)) for each in _OFFERED[:2]),
-    ])  # fmt: skip
+    ways: Iterator[tuple[str, Reading]] = iter(
+        [
+            (f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch)),
+            *((f"Read {each:g} to the inch", reading.with_pixels(each)) for each in others if each != per_inch),
+            *((f"Read in {UNIT_WORDS[each]}", replace(reading.with_pixels(None), units=each)) for each in _OFFERED[:2]),
+        ]
+    )
     choices = tuple(Choice(words, way, size_words(size_of(way)), now=k == 0) for k, (words, way) in enumerate(ways))
     who = f"It was written by {editor}" if editor else "It names no editor"
     return Question(f"It has no real size. {who} and was read with {per_inch:g} units to the inch.", choices)

@@ -2,8 +2,9 @@
 
     operation=contour,tool=2,depth=2,stock_to_leave=0,side=outside,tab_places=10 0/50 0
 
-Lengths are in mm, angles in degrees, shares parts of 1; lists have slashes between their items, and what is not said has its default.
-Programs of earlier versions say KIND,TOOL,DEPTH,STOCK_TO_LEAVE[,SIDE] instead, and the rest in comments of their own.
+Lengths are in mm, angles in degrees, shares parts of 1; lists have slashes between their items, and what is not said
+has its default. Programs of earlier versions say KIND,TOOL,DEPTH,STOCK_TO_LEAVE[,SIDE] instead, and the rest in
+comments of their own.
 """
 
 from __future__ import annotations
@@ -26,12 +27,16 @@ _NUMBER = re.compile(r"-?\d{1,9}(\.\d{1,9})?")
 def written(operation: Operation) -> str:
     """Return an operation as the value of its comment."""
     said = ((key, placed, placed.of(operation)) for key, placed in parameters_of(type(operation)).items())
-    items = [f"{key}={_text(placed, value)}" for key, placed, value in said if key in _ALWAYS or value != placed.default]
+    items = [
+        f"{key}={_text(placed, value)}" for key, placed, value in said if key in _ALWAYS or value != placed.default
+    ]
     return ",".join((operation.WORD, *items))
 
 
 def read(kind: type[Operation], items: Sequence[str]) -> dict[str, Any] | None:
-    """Return the parameters that a comment tells, by key; None where one is not as it is written. Strange keys are passed over."""
+    """Return the parameters that a comment tells, by key; None where one is not as it is written. Strange keys are
+    passed over.
+    """
     known, values = parameters_of(kind), {}
     for item in items:
         key, _, text = item.partition("=")
@@ -94,6 +99,12 @@ def _points(text: str, _: Placed) -> tuple[tuple[float, float], ...] | None:
 
 
 _READERS: dict[Unit, Callable[[str, Placed], Any]] = {
-    Unit.LENGTH: _number, Unit.SHARE: _number, Unit.ANGLE: _angle, Unit.COUNT: _count, Unit.FLAG: _flag, Unit.CHOICE: _choice,
-    Unit.NAMES: _names, Unit.POINTS: _points,
+    Unit.LENGTH: _number,
+    Unit.SHARE: _number,
+    Unit.ANGLE: _angle,
+    Unit.COUNT: _count,
+    Unit.FLAG: _flag,
+    Unit.CHOICE: _choice,
+    Unit.NAMES: _names,
+    Unit.POINTS: _points,
 }

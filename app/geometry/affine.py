@@ -47,8 +47,14 @@ class Affine:
     def after(self, first: Affine) -> Affine:
         """Return the map that applies `first` and then this one."""
         x0, y0 = self.point((first.x0, first.y0))
-        return Affine(self.xx * first.xx + self.xy * first.yx, self.xx * first.xy + self.xy * first.yy,
-                      self.yx * first.xx + self.yy * first.yx, self.yx * first.xy + self.yy * first.yy, x0, y0)
+        return Affine(
+            self.xx * first.xx + self.xy * first.yx,
+            self.xx * first.xy + self.xy * first.yy,
+            self.yx * first.xx + self.yy * first.yx,
+            self.yx * first.xy + self.yy * first.yy,
+            x0,
+            y0,
+        )
 
     @property
     def mirrors(self) -> bool:

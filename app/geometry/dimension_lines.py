@@ -13,7 +13,9 @@ Head = tuple[Point, Point, Point]
 """An arrow head: its tip and the two corners behind it, mm."""
 
 _GAP, _BEYOND, _HALF_WIDTH, _NARROW = 0.4, 0.6, 1 / 6, 2.5
-"""In lengths of an arrow: from the point to its extension line, of that past the dimension line; half an arrow; least room for two."""
+"""In lengths of an arrow: from the point to its extension line, of that past the dimension line; half an arrow; least
+room for two.
+"""
 
 
 @dataclass(frozen=True, slots=True)

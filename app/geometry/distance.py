@@ -51,7 +51,11 @@ class DistanceField:
         if len(points) < _WORTH_TWO_CORES:
             measure(slice(None))
         else:
-            list(pool().map(measure, (slice(*band) for band in pairwise(np.linspace(0, len(points), _BANDS + 1).astype(int)))))
+            list(
+                pool().map(
+                    measure, (slice(*band) for band in pairwise(np.linspace(0, len(points), _BANDS + 1).astype(int)))
+                )
+            )
         return distances, found
 
     def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -1,8 +1,9 @@
 """The even-odd area of curves as they are drawn: the witness of everything that is made of them.
 
-A horizontal line meets curves in a sorted row of places; between the first and the second, the third and the fourth … lies the
-area. Integrated over all heights in closed form, that is exact, and indifferent to how curves touch, coincide or nearly do:
-where two change places without being noticed, nothing changes. It shares no step with what cuts, joins or nests contours.
+A horizontal line meets curves in a sorted row of places; between the first and the second, the third and the fourth …
+lies the area. Integrated over all heights in closed form, that is exact, and indifferent to how curves touch, coincide
+or nearly do: where two change places without being noticed, nothing changes. It shares no step with what cuts, joins or
+nests contours.
 """
 
 from __future__ import annotations
@@ -51,7 +52,9 @@ def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = (), chor
     curves = [p for each in lists for p in each]
     if not curves and not len(chords):
         return Witnessed(0.0, 0.0)
-    owner = np.concatenate([np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists]), np.full(len(chords), -1)])
+    owner = np.concatenate(
+        [np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists]), np.full(len(chords), -1)]
+    )
     centre = _middle(curves, chords)
     risen, index, length = _rising(curves, chords, centre)
     low = np.argsort(risen[:, 0], kind="stable")
@@ -74,7 +77,10 @@ def _rising(curves: Sequence[Primitive], chords: Floats, centre: Floats) -> tupl
     straight = np.array([isinstance(curve, Line) for curve in curves], np.bool_)
     lines, arcs = np.flatnonzero(straight), np.flatnonzero(~straight)
     drawn = np.array([(*curves[k].start, *curves[k].end) for k in lines.tolist()]).reshape(-1, 4)
-    ends, lines = np.concatenate([drawn, chords]) - np.tile(centre, 2), np.append(lines, len(curves) + np.arange(len(chords)))
+    ends, lines = (
+        np.concatenate([drawn, chords]) - np.tile(centre, 2),
+        np.append(lines, len(curves) + np.arange(len(chords))),
+    )
     length = float(np.hypot(ends[:, 2] - ends[:, 0], ends[:, 3] - ends[:, 1]).sum())
     risen = np.hstack([ends[:, [1, 3, 0, 2]], np.zeros((len(ends), 3))])
     bent, index, more = _rising_arcs([curve for curve in curves if not isinstance(curve, Line)], centre)
@@ -107,12 +113,16 @@ def _rising_arcs(arcs: Sequence[Arc | Circle], centre: Floats) -> tuple[Floats, 
     found = []
     for k in range(3):
         right = np.cos(first + turn * (angles[:, k] + angles[:, k + 1]) / 2) >= 0
-        found.append(np.column_stack([y[:, k], y[:, k + 1], x[:, k], x[:, k + 1], middle, np.where(right, radius, -radius)]))
+        found.append(
+            np.column_stack([y[:, k], y[:, k + 1], x[:, k], x[:, k + 1], middle, np.where(right, radius, -radius)])
+        )
     return np.concatenate(found), np.tile(np.arange(len(arcs)), 3), float((whole * radius).sum())
 
 
 def _turning(out: Floats, back: Floats, arcs: Sequence[Arc | Circle]) -> tuple[Floats, Floats, Floats]:
-    """Return (signed sweep, radius, angle of the start), each (n,), of arcs that begin and end at these vectors from their centres."""
+    """Return (signed sweep, radius, angle of the start), each (n,), of arcs that begin and end at these vectors from
+    their centres.
+    """
     ccw, whole = np.array([(arc.ccw, isinstance(arc, Circle)) for arc in arcs]).T
     first, last = np.arctan2(out[:, 1], out[:, 0]), np.arctan2(back[:, 1], back[:, 0])
     turn = (last - first) % (2 * np.pi)

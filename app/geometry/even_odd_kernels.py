@@ -1,7 +1,7 @@
 """Compiled: areas by lines that sweep over curves which rise all along.
 
-A curve is a row: its low and high end (y), x at both, centre and radius of an arc; the radius is negative on the left half of
-the circle and 0 for a line. Its owner is -1 for contours that count even-odd, else the number of an outline.
+A curve is a row: its low and high end (y), x at both, centre and radius of an arc; the radius is negative on the left
+half of the circle and 0 for a line. Its owner is -1 for contours that count even-odd, else the number of an outline.
 """
 
 from __future__ import annotations
@@ -126,7 +126,9 @@ def _sort(curves, x, active, busy, y):
 
 @kernel("boolean(int64[::1], int64[::1], int64, boolean[::1], int64[::1])", counts=False)
 def _signs(owner, active, busy, within, new):
-    """Write the sign of each active curve: 1 where the area lies to its left, -1 where to its right; return whether all go in pairs."""
+    """Write the sign of each active curve: 1 where the area lies to its left, -1 where to its right; return whether all
+    go in pairs.
+    """
     odd, held = False, 0
     for place in range(busy):
         before = odd and held == 0
@@ -148,8 +150,8 @@ def _signs(owner, active, busy, within, new):
 def swept_area(curves, owner, outlines, heights):
     """Return (area, height over which some curve has no other to go with) of what lies between curves.
 
-    A place counts where an odd number of contours and no outline goes round it. Sorting makes it indifferent to curves that lie
-    on one another. The sign of a curve is kept until it changes, so most of them are integrated in one piece.
+    A place counts where an odd number of contours and no outline goes round it. Sorting makes it indifferent to curves
+    that lie on one another. The sign of a curve is kept until it changes, so most of them are integrated in one piece.
 
     Args:
         curves, owner: in the order of their low ends.

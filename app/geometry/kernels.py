@@ -22,8 +22,8 @@ DEPTH = 64
 def enlarged(table, count, room):
     """Return a table with room for so many rows, which begins with the first `count` rows of another.
 
-    Row by row and number by number: assigning one slice to another has the compiler bring along the message for slices that do not
-    fit, and text with it, which takes two seconds to compile.
+    Row by row and number by number: assigning one slice to another has the compiler bring along the message for slices
+    that do not fit, and text with it, which takes two seconds to compile.
     """
     larger = np.empty((room, table.shape[1]))
     for k in range(count):
@@ -254,7 +254,9 @@ def inside_many(rows, order, nodes, points, result):
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], boolean[::1])")
 def inside_own(rows, first, points, result):
-    """Write for each run of closed rows, from first[k] up to first[k + 1], whether it encloses its own point by the even-odd rule."""
+    """Write for each run of closed rows, from first[k] up to first[k + 1], whether it encloses its own point by the
+    even-odd rule.
+    """
     for k in range(len(points)):
         count = 0
         for j in range(first[k], first[k + 1]):

@@ -1,4 +1,6 @@
-"""The engraving face: letters of single strokes, lines and arcs that join without a corner, from the resource `fonts/hitofude.toml`."""
+"""The engraving face: letters of single strokes, lines and arcs that join without a corner, from the resource
+`fonts/hitofude.toml`.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ _LOOSE = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Glyph:
-    """A letter in the units of its face, on the baseline, its origin at 0,0. advance: from its origin to that of the next."""
+    """A letter in the units of its face, on the baseline, its origin at 0,0. advance: from its origin to that of the
+    next.
+    """
 
     curves: tuple[Curve, ...]
     advance: float
@@ -30,7 +34,8 @@ class Face:
     """Letters and how they stand beside one another.
 
     Attributes:
-        capital: height of the capitals, units. between: the part of each advance that is empty at the end of a line, units.
+        capital: height of the capitals, units. between: the part of each advance that is empty at the end of a line,
+            units.
         kerning: by a pair of letters what their distance is more than their advance, units.
         below: how far small letters reach below the baseline, units, >= 0.
     """
@@ -58,7 +63,9 @@ def engraving() -> Face:
     table = tomllib.loads(resource("fonts", "hitofude.toml").read_text("utf-8"))
     strokes, metrics, kerning = table["glyphs"], table["metrics"], table["kerning"]
     glyphs = {letter: _glyph(letter, strokes, table["widths"].get(letter), metrics["between"]) for letter in strokes}
-    pairs = {(pair[0], pair[1]): -kerning[kind] for kind in ("close", "tight") for pair in kerning[f"{kind}_pairs"].split()}
+    pairs = {
+        (pair[0], pair[1]): -kerning[kind] for kind in ("close", "tight") for pair in kerning[f"{kind}_pairs"].split()
+    }
     return Face("engraving", metrics["capital"], metrics["between"], glyphs, pairs, reach_below(glyphs["p"]))
 
 

@@ -10,7 +10,9 @@ _PORTION = 500
 """Shapes a question; the library holds all other threads while it answers, the window's among them."""
 
 
-def near(tree: shapely.STRtree, shapes: NDArray[np.object_], distance: float | NDArray[np.float64] | None = None) -> NDArray[np.int64]:
+def near(
+    tree: shapely.STRtree, shapes: NDArray[np.object_], distance: float | NDArray[np.float64] | None = None
+) -> NDArray[np.int64]:
     """Return pairs (2, m): index of a shape, index in the tree, whose boxes meet, or that come within a distance.
 
     Args:

@@ -1,7 +1,7 @@
 """Which points lie near which, and what hangs together through that.
 
-Trees and graphs of scipy where there are many points. Importing those takes longer than a whole small job, so a few points are
-compared with one another.
+Trees and graphs of scipy where there are many points. Importing those takes longer than a whole small job, so a few
+points are compared with one another.
 """
 
 from __future__ import annotations
@@ -111,7 +111,9 @@ def _merged(count: int, pairs: Indices) -> Indices:
 
 
 def _distances(places: Floats, points: Floats) -> Floats:
-    """Return (k, n) distances; each coordinate's difference is taken first, so that places far from zero lose nothing."""
+    """Return (k, n) distances; each coordinate's difference is taken first, so that places far from zero lose
+    nothing.
+    """
     square = np.zeros((len(places), len(points)))
     for axis in range(points.shape[1]):
         square += (places[:, axis, None] - points[None, :, axis]) ** 2

@@ -43,7 +43,9 @@ class Outlines:
     def joined(parts: Sequence[Rows]) -> Outlines:
         """Return the rows (k, 8), k > 0, of each of some paths as one array."""
         counts = np.array([len(part) for part in parts], np.int64)
-        return Outlines(np.concatenate([np.zeros((0, 8)), *parts]), np.concatenate([np.zeros(1, np.int64), np.cumsum(counts)]))
+        return Outlines(
+            np.concatenate([np.zeros((0, 8)), *parts]), np.concatenate([np.zeros(1, np.int64), np.cumsum(counts)])
+        )
 
     def __len__(self) -> int:
         return len(self.first) - 1
@@ -91,7 +93,10 @@ class Outlines:
         if not len(self):
             return np.zeros((0, 4))
         around = boxes(self.rows)
-        low, high = (ufunc.reduceat(part, self.first[:-1]) for ufunc, part in ((np.minimum, around[:, :2]), (np.maximum, around[:, 2:])))
+        low, high = (
+            ufunc.reduceat(part, self.first[:-1])
+            for ufunc, part in ((np.minimum, around[:, :2]), (np.maximum, around[:, 2:]))
+        )
         return np.hstack([low, high])
 
     def sums(self, values: Floats) -> Floats:
@@ -115,18 +120,23 @@ class Outlines:
         return self.owner[row], points
 
     def rings(self, tolerance: float | Floats) -> tuple[Indices, Shapes]:
-        """Return (contour (k,), its ring of chords within a tolerance, mm) of each but those of fewer than three chords."""
+        """Return (contour (k,), its ring of chords within a tolerance, mm) of each but those of fewer than three
+        chords.
+        """
         owner, points = self.sampled(tolerance)
         wide = np.bincount(owner, minlength=len(self)) > 2
         kept = np.flatnonzero(wide)
         if not len(kept):
             return kept, np.zeros(0, object)
         number = np.cumsum(wide) - 1
-        return kept, np.asarray(shapely.linearrings(points[wide[owner]], indices=number[owner[wide[owner]]]), dtype=object)
+        return kept, np.asarray(
+            shapely.linearrings(points[wide[owner]], indices=number[owner[wide[owner]]]), dtype=object
+        )
 
 
 def polygons(outlines: Outlines, group: Indices, tolerance: float | Floats) -> tuple[Indices, Shapes]:
-    """Return (group (k,), its polygon, valid and not empty): the first contour of a group is the boundary, the others are its holes.
+    """Return (group (k,), its polygon, valid and not empty): the first contour of a group is the boundary, the others
+    are its holes.
 
     Args:
         outlines: the contours of a group one after the other.

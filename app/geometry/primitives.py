@@ -60,7 +60,9 @@ def _no_arc(at: tuple[float, float]) -> GeometryError:
     return GeometryError(f"An arc at ({at[0]:.3f}, {at[1]:.3f}) begins where it ends; delete it, or draw a circle.")
 
 
-def _arc_rows(start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float], sweep: float) -> list[tuple[float, ...]]:
+def _arc_rows(
+    start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float], sweep: float
+) -> list[tuple[float, ...]]:
     count = max(1, math.ceil(abs(sweep) / _MAX_SWEEP))
     first = math.atan2(start[1] - centre[1], start[0] - centre[0])
     r0, r1 = math.dist(start, centre), math.dist(end, centre)
@@ -73,8 +75,12 @@ def _arc_rows(start: tuple[float, float], end: tuple[float, float], centre: tupl
     return [_arc_row(a, b, centre, turn) for a, b in pairwise(points)]
 
 
-def _arc_row(a: tuple[float, float], b: tuple[float, float], centre: tuple[float, float], turn: float) -> tuple[float, ...]:
-    """Return an arc's row with its centre moved onto the bisector of its ends, so that both radii are the same number."""
+def _arc_row(
+    a: tuple[float, float], b: tuple[float, float], centre: tuple[float, float], turn: float
+) -> tuple[float, ...]:
+    """Return an arc's row with its centre moved onto the bisector of its ends, so that both radii are the same
+    number.
+    """
     dx, dy = b[0] - a[0], b[1] - a[1]
     mx, my = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
     along = ((centre[0] - mx) * dx + (centre[1] - my) * dy) / (dx * dx + dy * dy)
@@ -100,7 +106,9 @@ def _made(contour: Contour) -> Rows:
 
 
 def pack(regions: Sequence[Region]) -> Primitives:
-    """Return the rows of all contours of some regions: boundaries counter-clockwise, islands clockwise, none crossing."""
+    """Return the rows of all contours of some regions: boundaries counter-clockwise, islands clockwise, none
+    crossing.
+    """
     rows, previous, numbers = [np.zeros((0, 8))], [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
     first = 0
     for region in regions:
@@ -154,7 +162,10 @@ def turns(rows: Rows, previous: Indices) -> NDArray[np.float64]:
     def ahead(at: int) -> NDArray[np.float64]:
         arm_x, arm_y = rows[:, at] - rows[:, CX], rows[:, at + 1] - rows[:, CY]
         line, turn = rows[:, TURN] == 0, rows[:, TURN]
-        return np.arctan2(np.where(line, rows[:, Y1] - rows[:, Y0], turn * arm_x), np.where(line, rows[:, X1] - rows[:, X0], -turn * arm_y))
+        return np.arctan2(
+            np.where(line, rows[:, Y1] - rows[:, Y0], turn * arm_x),
+            np.where(line, rows[:, X1] - rows[:, X0], -turn * arm_y),
+        )
 
     return np.abs((ahead(X0) - ahead(X1)[previous] + math.pi) % math.tau - math.pi)
 
@@ -166,7 +177,9 @@ def lengths(rows: Rows) -> NDArray[np.float64]:
 
 
 def signed_area(rows: Rows) -> float:
-    """Return the area that closed rows enclose, mm2, positive when counter-clockwise (Green's theorem, exact for arcs)."""
+    """Return the area that closed rows enclose, mm2, positive when counter-clockwise (Green's theorem, exact for
+    arcs).
+    """
     origin = rows[0, :2] if len(rows) else np.zeros(2)
     x0, y0 = rows[:, X0] - origin[0], rows[:, Y0] - origin[1]
     x1, y1 = rows[:, X1] - origin[0], rows[:, Y1] - origin[1]
@@ -185,12 +198,16 @@ def boxes(rows: Rows) -> NDArray[np.float64]:
 
 
 def sample(rows: Rows, tolerance: float) -> NDArray[np.float64]:
-    """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next one."""
+    """Return points (m, 2) along rows whose chords stay within `tolerance` mm; each row's end is left to the next
+    one.
+    """
     return samples(rows, tolerance)[1]
 
 
 def samples(rows: Rows, tolerance: float | NDArray[np.float64]) -> tuple[Indices, NDArray[np.float64]]:
-    """Return (row (m,), points (m, 2)) along rows whose chords stay within a tolerance, mm, of all or of each row (n,); see `sample`."""
+    """Return (row (m,), points (m, 2)) along rows whose chords stay within a tolerance, mm, of all or of each row (n,);
+    see `sample`.
+    """
     turn = np.abs(sweeps(rows))
     step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(rows[:, R], tolerance), 0, 1))
     counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)

@@ -20,7 +20,9 @@ from .primitives import lengths, points_at
 Floats = NDArray[np.float64]
 
 _CHORD = 0.01
-"""mm; an inner point of each contour is found with it, and then proven exactly. Thin contours are sampled more finely."""
+"""mm; an inner point of each contour is found with it, and then proven exactly. Thin contours are sampled more
+finely.
+"""
 
 _ASIDE = (1.0, 0.5, 0.2, 0.05)
 """Half widths beside a curve at which an inner point is looked for where chords give none."""
@@ -60,15 +62,20 @@ def nested(contours: Sequence[Contour]) -> Nesting:
     outlines = Outlines.of(closed)
     areas = outlines.areas
     holders = _holders(outlines)
-    turned = [c if (area > 0) == (len(h) % 2 == 0) else reversed_contour(c)
-              for c, area, h in zip(closed, areas.tolist(), holders, strict=True)]
+    turned = [
+        c if (area > 0) == (len(h) % 2 == 0) else reversed_contour(c)
+        for c, area, h in zip(closed, areas.tolist(), holders, strict=True)
+    ]
     islands: dict[int, list[Contour]] = {}
     for contour, held in zip(turned, holders, strict=True):
         if len(held) % 2 == 1:
             islands.setdefault(min(held, key=lambda i: abs(areas[i])), []).append(contour)
     outer = [i for i, held in enumerate(holders) if len(held) % 2 == 0]
     thick = _thicknesses(outlines) > tolerances.LEVEL / 2
-    regions = tuple(Region(number, turned[i], tuple(islands.get(i, ()))) for number, i in enumerate((i for i in outer if thick[i]), 1))
+    regions = tuple(
+        Region(number, turned[i], tuple(islands.get(i, ())))
+        for number, i in enumerate((i for i in outer if thick[i]), 1)
+    )
     return Nesting(regions, tuple(turned[i] for i in outer if not thick[i]))
 
 
@@ -88,7 +95,7 @@ def _holders(outlines: Outlines) -> list[list[int]]:
     found: list[list[int]] = [[] for _ in areas]
     for some in np.split(order, np.flatnonzero(np.diff(holder[order])) + 1) if len(order) else ():
         j = int(holder[some[0]])
-        inside = DistanceField.of(outlines.rows[outlines.first[j]:outlines.first[j + 1]]).inside(points[held[some]])
+        inside = DistanceField.of(outlines.rows[outlines.first[j] : outlines.first[j + 1]]).inside(points[held[some]])
         for i in held[some[inside]].tolist():
             found[i].append(j)
     return found
@@ -101,12 +108,14 @@ def _inner_points(outlines: Outlines) -> Floats:
     found = np.full((len(outlines), 2), np.inf)
     found[number] = shapely.get_coordinates(shapely.point_on_surface(shapes))
     for k in np.flatnonzero(~outlines.enclose(found)).tolist():
-        found[k] = _beside(Outlines.joined([outlines.rows[outlines.first[k]:outlines.first[k + 1]]]))
+        found[k] = _beside(Outlines.joined([outlines.rows[outlines.first[k] : outlines.first[k + 1]]]))
     return found
 
 
 def _beside(outline: Outlines) -> Floats:
-    """Return a point within a closed contour, close beside the middle of one of its curves; that middle itself where none is found."""
+    """Return a point within a closed contour, close beside the middle of one of its curves; that middle itself where
+    none is found.
+    """
     rows, thickness = outline.rows, float(_thicknesses(outline)[0])
     middle = points_at(rows, np.full(len(rows), 0.5))
     ahead = points_at(rows, np.full(len(rows), 0.51)) - middle

@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 from ..model.motion import Floats
 
 _CELL = 2.5
-"""Reaches that a cell is wide; with two alone rounding might put the ends of a reach two cells apart, and what is between in neither."""
+"""Reaches that a cell is wide; with two alone rounding might put the ends of a reach two cells apart, and what is
+between in neither.
+"""
 
 
 def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:
     """Tell which places (n, 3) have one of some others (m, 3) within a reach, mm.
 
-    Cells are wider than twice the reach, so that what is within it lies in one of at most eight: those that the corners of the box of the
-    reach round a place lie in.
+    Cells are wider than twice the reach, so that what is within it lies in one of at most eight: those that the corners
+    of the box of the reach round a place lie in.
 
     Args:
         reach: > 0; others nearer together than that are many in one cell, which costs.
@@ -44,5 +46,7 @@ def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:
 def _keys(cells: Floats) -> NDArray[np.uint64]:
     """Return a number of each cell (n, 3); few of different cells are alike, and those only cost a distance more."""
     whole = cells.astype(np.int64).astype(np.uint64)
-    keys: NDArray[np.uint64] = whole[:, 0] * np.uint64(0x9E3779B97F4A7C15) ^ whole[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F) ^ whole[:, 2]
+    keys: NDArray[np.uint64] = (
+        whole[:, 0] * np.uint64(0x9E3779B97F4A7C15) ^ whole[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F) ^ whole[:, 2]
+    )
     return keys

@@ -53,7 +53,7 @@ def spline_points(spline: Spline, parameters: Points) -> Points:
 def derivative(spline: Spline) -> Spline:
     """Return the derivative of a polynomial spline by its parameter, as a spline of a degree less."""
     p, knots, control = spline.degree, np.asarray(spline.knots), np.asarray(spline.control_points)
-    width = knots[p + 1:-1] - knots[1:-p - 1]
+    width = knots[p + 1 : -1] - knots[1 : -p - 1]
     steps = p * np.diff(control, axis=0) / np.where(width > 0, width, 1.0)[:, None]
     return Spline(p - 1, tuple((float(x), float(y)) for x, y in steps), spline.knots[1:-1])
 
@@ -90,7 +90,9 @@ def union(boxes: list[Box]) -> Box | None:
 
 
 def quadrants(curve: Arc | Circle) -> list[tuple[float, float]]:
-    """Return the points of an arc or circle that lie farthest right, up, left and down of its centre, where it has them."""
+    """Return the points of an arc or circle that lie farthest right, up, left and down of its centre, where it has
+    them.
+    """
     if isinstance(curve, Arc):
         return _quadrants_within(curve)
     (x, y), r = curve.centre, curve.radius

@@ -102,7 +102,9 @@ def transformed(curve: Curve, to: Similarity) -> Curve:
 
 
 def transformed_note(shape: Shape, to: Similarity) -> Shape:
-    """Return a note where the map takes it; measures across and up change places where it turns by more than 45 degrees."""
+    """Return a note where the map takes it; measures across and up change places where it turns by more than 45
+    degrees.
+    """
     if isinstance(shape, Mark):
         return Mark(to(shape.at))
     if isinstance(shape, Guide):
@@ -123,5 +125,11 @@ def _ellipse(curve: Ellipse, to: Similarity) -> Ellipse:
         raise InputError("An ellipse would shrink to nothing.")
     if not to.mirrored:
         return replace(curve, centre=to(curve.centre), major=major)
-    return replace(curve, centre=to(curve.centre), major=major, start_parameter=-curve.end_parameter,
-                   end_parameter=-curve.start_parameter, ccw=not curve.ccw)
+    return replace(
+        curve,
+        centre=to(curve.centre),
+        major=major,
+        start_parameter=-curve.end_parameter,
+        end_parameter=-curve.start_parameter,
+        ccw=not curve.ccw,
+    )

@@ -12,13 +12,15 @@ FEW = 2000
 
 
 def neighbours(points: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the pairs of points that a Delaunay triangulation joins; the shortest tree through all of them is among these.
+    """Return the pairs of points that a Delaunay triangulation joins; the shortest tree through all of them is among
+    these.
 
     Args:
         points: (n, 2), mm.
 
     Returns:
-        (m, 2) of indices, the lower one first, each pair once, in order; none of fewer than three points or of points on a line.
+        (m, 2) of indices, the lower one first, each pair once, in order; none of fewer than three points or of points
+        on a line.
     """
     corners = _triangles(points)
     edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
@@ -30,7 +32,9 @@ def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
     if len(points) <= FEW:
         import shapely
 
-        with suppress(shapely.errors.GEOSException):  # of points that nearly lie on one another it may lose one; scipy does not
+        with suppress(
+            shapely.errors.GEOSException
+        ):  # of points that nearly lie on one another it may lose one; scipy does not
             made = shapely.get_parts(shapely.delaunay_triangles(shapely.multipoints(points)))
             corners = shapely.get_coordinates(made).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
             return _number_of(points, corners).reshape(-1, 3)

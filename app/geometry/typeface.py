@@ -62,7 +62,9 @@ class Typeface:
             self._letters: dict[int, str] = self._font.getBestCmap() or {}
             self._shapes, self._widths = self._font.getGlyphSet(), self._font["hmtx"]
             self._capital = _capital(self._font, self._letters)
-            self._below = -float(self._font["hhea"].descent) if ord("p") not in self._letters else reach_below(self._glyph("p"))
+            self._below = (
+                -float(self._font["hhea"].descent) if ord("p") not in self._letters else reach_below(self._glyph("p"))
+            )
 
     def lacking(self, words: str) -> str:
         """Return the letters of some words that the font does not have, each once."""
@@ -114,8 +116,15 @@ def _capital(font: Any, letters: dict[int, str]) -> float:
 def _kerning(font: Any, letters: dict[int, str], words: str) -> dict[tuple[str, str], float]:
     """Return what the font's kerning table says of neighbours; that of newer layout tables is left aside."""
     pairs = [(a, b) for a, b in set(pairwise(words)) if ord(a) in letters and ord(b) in letters]
-    tables = [table.kernTable for table in font["kern"].kernTables if hasattr(table, "kernTable")] if "kern" in font else []
-    return {(a, b): float(table[key]) for table in tables for a, b in pairs if (key := (letters[ord(a)], letters[ord(b)])) in table}
+    tables = (
+        [table.kernTable for table in font["kern"].kernTables if hasattr(table, "kernTable")] if "kern" in font else []
+    )
+    return {
+        (a, b): float(table[key])
+        for table in tables
+        for a, b in pairs
+        if (key := (letters[ord(a)], letters[ord(b)])) in table
+    }
 
 
 class _Pen(BasePen):  # type: ignore[misc, unused-ignore]
@@ -170,7 +179,10 @@ def _found(name: str) -> Path:
         raise InputError(f"There is no font file {name}; give its whole path, or the name of an installed font.")
     fonts, wanted = _installed(), _plain(name)
     if wanted not in fonts:
-        near = difflib.get_close_matches(wanted, fonts, 5, 0.5) or [other for other in fonts if wanted and wanted in other][:5]
+        near = (
+            difflib.get_close_matches(wanted, fonts, 5, 0.5)
+            or [other for other in fonts if wanted and wanted in other][:5]
+        )
         known = list(dict.fromkeys(fonts[each].stem for each in near))
         hint = f"near it: {', '.join(known)}" if known else "give the path of a .ttf or .otf file"
         raise InputError(f"There is no font '{name}' here; {hint}.")
@@ -181,7 +193,8 @@ def installed(file: str, family: str = "", style: str = "") -> Path | None:
     """Return the font of this machine that another one's drawing means; None where there is none.
 
     Args:
-        file: the name of its file, its ending with it; a folder before it means nothing here, and no such file is ever opened.
+        file: the name of its file, its ending with it; a folder before it means nothing here, and no such file is ever
+            opened.
         family: where the file is not here or not named.
         style: of the family, such as "bold italic"; "" = the upright one.
     """
@@ -201,7 +214,9 @@ def _files() -> dict[str, Path]:
 
 
 def _paths() -> list[Path]:
-    return sorted(path for folder in _folders() if folder.is_dir() for path in folder.rglob("*") if path.suffix.lower() in _KINDS)
+    return sorted(
+        path for folder in _folders() if folder.is_dir() for path in folder.rglob("*") if path.suffix.lower() in _KINDS
+    )
 
 
 @lru_cache(1)

@@ -147,7 +147,9 @@ def reversed_curve(curve: Curve) -> Curve:
     if isinstance(curve, Circle):
         return Circle(curve.centre, curve.radius, not curve.ccw)
     if isinstance(curve, Ellipse):
-        return Ellipse(curve.centre, curve.major, curve.ratio, curve.start_parameter, curve.end_parameter, not curve.ccw)
+        return Ellipse(
+            curve.centre, curve.major, curve.ratio, curve.start_parameter, curve.end_parameter, not curve.ccw
+        )
     first, last = curve.knots[0], curve.knots[-1]
     knots = tuple(first + last - k for k in reversed(curve.knots))
     return Spline(curve.degree, curve.control_points[::-1], knots, curve.weights[::-1])

@@ -1,7 +1,9 @@
-"""Parameters, each declared once: a field of a frozen dataclass with unit, range, default, help, and when it has an effect.
+"""Parameters, each declared once: a field of a frozen dataclass with unit, range, default, help, and when it has an
+effect.
 
-Whatever asks for a parameter, reads it, writes it, checks it or explains it walks the declarations (`parameters_of`): options of the
-command line and their help, job files, projects, forms, NC headers and their reading back, reports, the manual's table.
+Whatever asks for a parameter, reads it, writes it, checks it or explains it walks the declarations (`parameters_of`):
+options of the command line and their help, job files, projects, forms, NC headers and their reading back, reports, the
+manual's table.
 """
 
 from __future__ import annotations
@@ -55,7 +57,8 @@ class Parameter:
     """What there is to know about a parameter beside its value.
 
     Attributes:
-        key: its name in job files, projects, reports and headers; one name stands for one thing in all kinds of operation.
+        key: its name in job files, projects, reports and headers; one name stands for one thing in all kinds of
+            operation.
         label: its name in forms and errors; `short` where a group's heading says the rest.
         help: what it means, a sentence without a capital and a full stop.
         unit, low, high: what it is, and the range, ends included, in the unit that it is kept in.
@@ -108,15 +111,21 @@ class Parameter:
         """
         if value is None and self.auto:
             return
-        if self.unit in (Unit.LENGTH, Unit.ANGLE, Unit.SHARE, Unit.COUNT) and not self.low <= value <= self.high * (1 + 1e-12):
+        if self.unit in (Unit.LENGTH, Unit.ANGLE, Unit.SHARE, Unit.COUNT) and not self.low <= value <= self.high * (
+            1 + 1e-12
+        ):
             raise ParameterError(f"{self.label} is {self.shown(value):g}{self.sign}; use {self.range_words()}.")
 
 
 _PARAMETER, _PART = "parameter", "part"
 
 
-def parameter(default: Value, key: str, label: str, help: str, unit: Unit, **more: Any) -> Value:  # help: the field's own word
-    """Declare a parameter: the value of a dataclass's field. `more`: attributes of `Parameter`; `option=True` names it after the key."""
+def parameter(
+    default: Value, key: str, label: str, help: str, unit: Unit, **more: Any
+) -> Value:  # help: the field's own word
+    """Declare a parameter: the value of a dataclass's field. `more`: attributes of `Parameter`; `option=True` names it
+    after the key.
+    """
     if more.get("option") is True:
         more["option"] = key.replace("_", "-")
     held: Any = dataclasses.field(default=default, metadata={_PARAMETER: Parameter(key, label, help, unit, **more)})
@@ -225,7 +234,9 @@ def _replaced(whole: Any, values: Mapping[tuple[str, ...], Any]) -> Any:
             own[path[0]] = value
         else:
             below.setdefault(path[0], {})[path[1:]] = value
-    return dataclasses.replace(whole, **own, **{name: _replaced(getattr(whole, name), inner) for name, inner in below.items()})
+    return dataclasses.replace(
+        whole, **own, **{name: _replaced(getattr(whole, name), inner) for name, inner in below.items()}
+    )
 
 
 def check_ranges(whole: Any) -> None:
@@ -240,7 +251,9 @@ def check_ranges(whole: Any) -> None:
 
 @cache
 def _own(kind: Any) -> tuple[tuple[str, Parameter], ...]:
-    return tuple((field.name, field.metadata[_PARAMETER]) for field in dataclasses.fields(kind) if _PARAMETER in field.metadata)
+    return tuple(
+        (field.name, field.metadata[_PARAMETER]) for field in dataclasses.fields(kind) if _PARAMETER in field.metadata
+    )
 
 
 def built(kind: type[Value], values: Mapping[str, Any]) -> Value:

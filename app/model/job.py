@@ -43,8 +43,10 @@ class Stock:
 
     def __post_init__(self) -> None:
         if not 0 <= self.margin < 1e5 or not 0 < self.thickness < 1e5:
-            raise ParameterError(f"Stock margin is {self.margin:g} mm and thickness {self.thickness:g} mm; "
-                                 "the margin must be 0 or more and the thickness greater than 0.")
+            raise ParameterError(
+                f"Stock margin is {self.margin:g} mm and thickness {self.thickness:g} mm; "
+                "the margin must be 0 or more and the thickness greater than 0."
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +65,15 @@ class Copies:
 
     def __post_init__(self) -> None:
         if not (1 <= self.columns <= 1000 and 1 <= self.rows <= 1000 and self.columns * self.rows <= 10_000):
-            raise ParameterError(f"{self.columns} x {self.rows} copies are asked for; use 1 to 1000 each way and 10000 in all.")
+            raise ParameterError(
+                f"{self.columns} x {self.rows} copies are asked for; use 1 to 1000 each way and 10000 in all."
+            )
         for count, step, axis in ((self.columns, self.dx, "X"), (self.rows, self.dy, "Y")):
             if not abs(step) < 1e6 or (count > 1 and abs(step) < LEAST_LENGTH):
-                raise ParameterError(f"Copies along {axis} are {step:g} mm apart; give the distance from each to the next, "
-                                     "not 0 and less than 1000000 mm.")
+                raise ParameterError(
+                    f"Copies along {axis} are {step:g} mm apart; give the distance from each to the next, "
+                    "not 0 and less than 1000000 mm."
+                )
 
     @property
     def shifts(self) -> tuple[tuple[float, float], ...]:
@@ -86,7 +92,8 @@ class Job:
         join_tolerance: loose ends nearer than this are joined, mm, in [0, 10].
         layer_names: layers to machine; empty = all visible ones but those of keep-out areas.
         copies: the part in a grid, cut out of one stock.
-        keep_out_layers: layers whose closed contours are clamps and the like: no tool comes over them below their height.
+        keep_out_layers: layers whose closed contours are clamps and the like: no tool comes over them below their
+            height.
         keep_out_height: of these above the stock's top, mm, in [0, 1e5).
         post: name of the post that writes the NC text.
         out_units: units of the NC text, MM or INCH.
@@ -95,7 +102,9 @@ class Job:
     part: Part
     tools: tuple[Tool, ...] = (Tool(1, 6.0), Tool(2, 3.0, spindle_speed=18000.0))
     operations: tuple[Operation, ...] = (
-        PocketOperation(Cut(tool=1)), RestOperation(Cut(tool=2)), ContourOperation(Cut(tool=2)),
+        PocketOperation(Cut(tool=1)),
+        RestOperation(Cut(tool=2)),
+        ContourOperation(Cut(tool=2)),
     )
     stock: Stock = Stock()
     origin_xy: OriginXY = OriginXY.DRAWING
@@ -114,12 +123,16 @@ class Job:
 
     def __post_init__(self) -> None:
         if not LEAST_LENGTH <= self.retract_z <= self.safe_z < 1e5:
-            raise ParameterError(f"Safe Z is {self.safe_z:g} mm and retract Z {self.retract_z:g} mm; "
-                                 f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z.")
+            raise ParameterError(
+                f"Safe Z is {self.safe_z:g} mm and retract Z {self.retract_z:g} mm; "
+                f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z."
+            )
         if not 0 <= self.join_tolerance <= LARGEST_JOIN:
             raise ParameterError(f"Join tolerance is {self.join_tolerance:g} mm; use 0 to {LARGEST_JOIN:g} mm.")
         if not 0 <= self.keep_out_height < 1e5:
-            raise ParameterError(f"Keep-out areas are {self.keep_out_height:g} mm high; use 0 or more above the stock's top.")
+            raise ParameterError(
+                f"Keep-out areas are {self.keep_out_height:g} mm high; use 0 or more above the stock's top."
+            )
 
     @property
     def travel_z(self) -> float:
@@ -145,8 +158,10 @@ class Job:
         """
         tool = self.tool(operation.cut.tool)
         if tool.kind is ToolKind.DRILL and not operation.DRILLS:
-            raise ParameterError(f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
-                                 "choose another tool, or make it a drill operation.")
+            raise ParameterError(
+                f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
+                "choose another tool, or make it a drill operation."
+            )
         return tool
 
     def check_operations(self) -> None:
@@ -156,8 +171,11 @@ class Job:
             ParameterError: no operation is switched on, or one that is has no tool that can do it.
         """
         if not any(operation.cut.enabled for operation in self.operations):
-            what = "every operation of the job is switched off, so nothing is cut; switch one on" if self.operations else \
-                "the job has no operation, so nothing is cut; add one"
+            what = (
+                "every operation of the job is switched off, so nothing is cut; switch one on"
+                if self.operations
+                else "the job has no operation, so nothing is cut; add one"
+            )
             raise ParameterError(f"{self.part.name}: {what}.")
         for operation in self.operations:
             if operation.cut.enabled:

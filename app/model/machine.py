@@ -1,4 +1,6 @@
-"""The machine that a program is to run on: how far and how fast its axes go, how fast it turns, how it takes corners."""
+"""The machine that a program is to run on: how far and how fast its axes go, how fast it turns, how it takes
+corners.
+"""
 
 from __future__ import annotations
 
@@ -26,10 +28,14 @@ class Axis:
 
     def __post_init__(self) -> None:
         if not self.low < self.high:
-            raise ParameterError(f"Travel goes from {self.low:g} to {self.high:g} mm; the low end must be less than the high one.")
+            raise ParameterError(
+                f"Travel goes from {self.low:g} to {self.high:g} mm; the low end must be less than the high one."
+            )
         if not (self.rapid > 0 and self.acceleration > 0):
-            raise ParameterError(f"Rapid rate is {self.rapid:g} mm/min and acceleration {self.acceleration:g} mm/s2; "
-                                 "both must be greater than 0.")
+            raise ParameterError(
+                f"Rapid rate is {self.rapid:g} mm/min and acceleration {self.acceleration:g} mm/s2; "
+                "both must be greater than 0."
+            )
 
     @property
     def travel(self) -> float:
@@ -46,8 +52,10 @@ class SpindleRange:
 
     def __post_init__(self) -> None:
         if not 0 < self.low <= self.high:
-            raise ParameterError(f"Spindle range is {self.low:g} to {self.high:g} rpm; the low end must be greater than 0 "
-                                 "and the high end not less.")
+            raise ParameterError(
+                f"Spindle range is {self.low:g} to {self.high:g} rpm; the low end must be greater than 0 "
+                "and the high end not less."
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,10 +86,14 @@ class Machine:
 
     def __post_init__(self) -> None:
         if not self.largest_feed > 0:
-            raise ParameterError(f"{self.title}: largest feed is {self.largest_feed:g} mm/min; it must be greater than 0.")
+            raise ParameterError(
+                f"{self.title}: largest feed is {self.largest_feed:g} mm/min; it must be greater than 0."
+            )
         if not (self.tool_change >= 0 and self.corner >= 0):
-            raise ParameterError(f"{self.title}: tool change takes {self.tool_change:g} s and corners {self.corner:g} mm; "
-                                 "neither may be less than 0.")
+            raise ParameterError(
+                f"{self.title}: tool change takes {self.tool_change:g} s and corners {self.corner:g} mm; "
+                "neither may be less than 0."
+            )
 
     @property
     def axes(self) -> tuple[Axis, Axis, Axis]:

@@ -56,8 +56,8 @@ class Motions:
     """A sequence of n motions of the controlled point.
 
     Coordinates are mm from the zero of the work offsets' table: what the program says plus the work offset, G52 and G92
-    that are in force (all 0 unless the program or the reader's caller sets them), so that parts of one program cut under
-    different offsets lie where they belong. Tool length counts as compensated: the point is the tool's tip.
+    that are in force (all 0 unless the program or the reader's caller sets them), so that parts of one program cut
+    under different offsets lie where they belong. Tool length counts as compensated: the point is the tool's tip.
 
     Attributes:
         start, end: (n, 3) mm. A motion starts where the one before ended, but for a jump of the controlled point
@@ -65,15 +65,15 @@ class Motions:
         centre: (n, 3) centre of arcs, mm, at the height of the start; NaN for others.
         kind: (n,) uint8 MotionKind.
         plane: (n,) uint8 Plane in force.
-        turns: (n,) int32 of arcs: 1 = up to a full turn, 2 = up to two; 0 for others. An arc whose ends are alike in its
-            plane is whole turns.
+        turns: (n,) int32 of arcs: 1 = up to a full turn, 2 = up to two; 0 for others. An arc whose ends are alike in
+            its plane is whole turns.
         feed: (n,) mm/min along the path; 0 for rapids; NaN where the program has not said it.
         line: (n,) int32 1-based line of the text.
         state: (n,) int32 index into the states of the program that they belong to.
         splines: the curve of each SPLINE motion, by row.
-        known_from: for X, Y, Z the first row whose end the program itself has set; n if it never does; -1 where the first motion
-            starts at a place that is taken for known: the program moves the axis in G91 before it has set it. Before it the
-            axis stands where the reader was told that it starts.
+        known_from: for X, Y, Z the first row whose end the program itself has set; n if it never does; -1 where the
+            first motion starts at a place that is taken for known: the program moves the axis in G91 before it has set
+            it. Before it the axis stands where the reader was told that it starts.
     """
 
     start: Floats

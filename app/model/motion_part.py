@@ -57,5 +57,9 @@ def _chords(motions: Motions, row: int, points: Floats) -> Motions:
     """Return straight motions from point to point in place of one motion."""
     rows = np.full(len(points) - 1, row)
     columns = {name: getattr(motions, name)[rows] for name in _COLUMNS}
-    columns |= {"start": points[:-1].copy(), "end": points[1:].copy(), "kind": np.full(len(rows), MotionKind.LINE, np.uint8)}
+    columns |= {
+        "start": points[:-1].copy(),
+        "end": points[1:].copy(),
+        "kind": np.full(len(rows), MotionKind.LINE, np.uint8),
+    }
     return Motions(**columns)

@@ -49,16 +49,22 @@ class ArcPaths:
         """Return (m, k, 3) points of every arc at k fractions in [0, 1]."""
         angle = self.angle[:, None] + self.sweep[:, None] * fractions
         radius = self.start_radius[:, None] + (self.end_radius - self.start_radius)[:, None] * fractions
-        own = np.stack([
-            self.centre[:, :1] + radius * np.cos(angle), self.centre[:, 1:] + radius * np.sin(angle),
-            self.height[:, None] + self.rise[:, None] * fractions,
-        ], axis=2)  # fmt: skip
+        own = np.stack(
+            [
+                self.centre[:, :1] + radius * np.cos(angle),
+                self.centre[:, 1:] + radius * np.sin(angle),
+                self.height[:, None] + self.rise[:, None] * fractions,
+            ],
+            axis=2,
+        )
         points = np.empty_like(own)
         np.put_along_axis(points, np.broadcast_to(self.axes[:, None], own.shape), own, axis=2)
         return points
 
     def lengths(self) -> Floats:
-        """Return (m,) lengths, mm; a spiral counts with its mean radius, which is right to (change of radius)^2 / (24 length)."""
+        """Return (m,) lengths, mm; a spiral counts with its mean radius, which is right to (change of radius)^2 / (24
+        length).
+        """
         mean = (self.start_radius + self.end_radius) / 2
         return np.hypot(np.hypot(mean * self.sweep, self.end_radius - self.start_radius), self.rise)
 
@@ -76,9 +82,16 @@ def arc_paths(motions: Motions, first: int = 0, stop: int | None = None) -> ArcP
     whole = (start[:, 0] == end[:, 0]) & (start[:, 1] == end[:, 1])
     turn = np.where(whole, 2 * np.pi, turn) + 2 * np.pi * (np.maximum(motions.turns[rows], 1) - 1)
     return ArcPaths(
-        rows=rows, axes=axes, centre=centre[:, :2], angle=angle, sweep=turn * sense,
-        start_radius=_sizes(out), end_radius=_sizes(back), height=start[:, 2], rise=end[:, 2] - start[:, 2],
-    )  # fmt: skip
+        rows=rows,
+        axes=axes,
+        centre=centre[:, :2],
+        angle=angle,
+        sweep=turn * sense,
+        start_radius=_sizes(out),
+        end_radius=_sizes(back),
+        height=start[:, 2],
+        rise=end[:, 2] - start[:, 2],
+    )
 
 
 def spline_points(spline: Nurbs, count: int = SPLINE_PIECES + 1) -> Floats:
@@ -155,7 +168,9 @@ def _sizes(vectors: Floats) -> Floats:
 
 
 def reach(motions: Motions) -> tuple[Floats, Floats]:
-    """Return the lowest and the highest coordinates (n, 3) of each motion, mm: arcs exactly, splines by their control points."""
+    """Return the lowest and the highest coordinates (n, 3) of each motion, mm: arcs exactly, splines by their control
+    points.
+    """
     low, high = np.minimum(motions.start, motions.end), np.maximum(motions.start, motions.end)
     arcs = arc_paths(motions)
     radius = np.maximum(arcs.start_radius, arcs.end_radius)
@@ -174,8 +189,8 @@ def reach(motions: Motions) -> tuple[Floats, Floats]:
 def anchored(motions: Motions) -> Motions:
     """Return motions that follow one another and begin where the program first sends each axis.
 
-    Nobody knows where the machine stands before, so the way there has no length along that axis; nor has the jump of the
-    controlled point to another tool's tip. Motions that are not straight keep their start.
+    Nobody knows where the machine stands before, so the way there has no length along that axis; nor has the jump of
+    the controlled point to another tool's tip. Motions that are not straight keep their start.
     """
     start, end = motions.start.copy(), motions.end.copy()
     straight = np.flatnonzero((motions.kind[1:] == MotionKind.RAPID) | (motions.kind[1:] == MotionKind.LINE)) + 1

@@ -108,7 +108,9 @@ class Moves:
         delta = self.end - self.start
         arcs = self.kind >= MoveKind.ARC_CW
         radius = np.hypot(*(self.end[:, :2] - self.centre).T)
-        flat = np.where(arcs, np.nan_to_num(radius) * np.abs(np.nan_to_num(self.sweeps())), np.hypot(delta[:, 0], delta[:, 1]))
+        flat = np.where(
+            arcs, np.nan_to_num(radius) * np.abs(np.nan_to_num(self.sweeps())), np.hypot(delta[:, 0], delta[:, 1])
+        )
         return np.hypot(flat, delta[:, 2])
 
 
@@ -149,7 +151,8 @@ class Tab:
 
 @dataclass(frozen=True, slots=True)
 class DogBone:
-    """A way of the cutter's centre into a corner, beyond where its width keeps off the walls: from (x0, y0) to (x1, y1), mm.
+    """A way of the cutter's centre into a corner, beyond where its width keeps off the walls: from (x0, y0) to (x1,
+    y1), mm.
 
     Attributes:
         diameter: of the cutter, mm.
@@ -179,8 +182,10 @@ class Program:
         polyline_rings: rings that had to fall back to a fine polyline.
         bitmap_area_mm2, exact_area_mm2: area of A' by the bitmap fill and by the exact offset (independent check).
         pitch_mm: size of that bitmap's pixels; 0 when nothing was filled.
-        given_up_mm: of paths made from pixels: how much farther from the walls than asked they are at most; None of exact ones.
-        allowance_mm: so thick a skin may paths made from pixels leave along the walls that they follow; 0 for exact ones.
+        given_up_mm: of paths made from pixels: how much farther from the walls than asked they are at most; None of
+            exact ones.
+        allowance_mm: so thick a skin may paths made from pixels leave along the walls that they follow; 0 for exact
+            ones.
     """
 
     moves: Moves

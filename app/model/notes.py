@@ -9,7 +9,9 @@ from enum import Enum
 from .curves import Line, Point
 
 _FAR = 2e4
-"""Half the length of a construction line where it is cut with curves, mm: far longer than any drawing, and digits are left."""
+"""Half the length of a construction line where it is cut with curves, mm: far longer than any drawing, and digits are
+left.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +57,9 @@ class Dimension:
     """A measure that is shown in the drawing.
 
     Attributes:
-        measure: ALIGNED, ACROSS (along X) and UP (along Y) measure between two points; RADIUS and DIAMETER from a centre
-            to a point on the curve; ANGLE at the first point between the directions to the second and the third, ccw.
+        measure: ALIGNED, ACROSS (along X) and UP (along Y) measure between two points; RADIUS and DIAMETER from a
+            centre to a point on the curve; ANGLE at the first point between the directions to the second and the third,
+            ccw.
         points: those points, mm: two, or three for ANGLE.
         place: where the figure stands, mm; the dimension line goes through it.
     """

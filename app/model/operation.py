@@ -9,7 +9,18 @@ from typing import ClassVar
 
 from ..core.errors import ParameterError
 from .entry import Entry, Lead, Tabs
-from .fields import Condition, Placed, Unit, check_ranges, declared_of, parameter, parameters_of, part, required, required_part
+from .fields import (
+    Condition,
+    Placed,
+    Unit,
+    check_ranges,
+    declared_of,
+    parameter,
+    parameters_of,
+    part,
+    required,
+    required_part,
+)
 
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
@@ -30,7 +41,9 @@ class Direction(Enum):
 
 
 class Side(Enum):
-    """Where a contour path runs: inside the areas that the drawing bounds, round them, or with the tool's centre on the lines."""
+    """Where a contour path runs: inside the areas that the drawing bounds, round them, or with the tool's centre on the
+    lines.
+    """
 
     INSIDE = "inside"
     OUTSIDE = "outside"
@@ -50,39 +63,89 @@ class Cut:
 
     tool: int = required("tool", "Tool", "T number of a tool of the job", Unit.COUNT, high=1e9)
     depth: float = parameter(
-        2.0, "depth", "Depth", "from the stock's top down to the floor", Unit.LENGTH, low=LEAST_LENGTH, option=True)
+        2.0, "depth", "Depth", "from the stock's top down to the floor", Unit.LENGTH, low=LEAST_LENGTH, option=True
+    )
     stepdown: float = parameter(
-        2.0, "stepdown", "Stepdown", "largest depth of one pass; passes are made equal", Unit.LENGTH, low=LEAST_LENGTH, option=True,
-        short="Step down")
+        2.0,
+        "stepdown",
+        "Stepdown",
+        "largest depth of one pass; passes are made equal",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        option=True,
+        short="Step down",
+    )
     stock_to_leave: float = parameter(
-        0.0, "stock_to_leave", "Stock to leave", "metal left on the walls on purpose", Unit.LENGTH, high=9_999.0, option=True,
-        group="Walls")
+        0.0,
+        "stock_to_leave",
+        "Stock to leave",
+        "metal left on the walls on purpose",
+        Unit.LENGTH,
+        high=9_999.0,
+        option=True,
+        group="Walls",
+    )
     direction: Direction = parameter(
-        Direction.CLIMB, "direction", "Direction", "side of the standing metal: climb = right of travel", Unit.CHOICE,
-        choices=("Climb", "Conventional"))
-    enabled: bool = parameter(True, "enabled", "Enabled", "off: the operation stays in the list and makes no moves", Unit.FLAG)
+        Direction.CLIMB,
+        "direction",
+        "Direction",
+        "side of the standing metal: climb = right of travel",
+        Unit.CHOICE,
+        choices=("Climb", "Conventional"),
+    )
+    enabled: bool = parameter(
+        True, "enabled", "Enabled", "off: the operation stays in the list and makes no moves", Unit.FLAG
+    )
     finish_depth: float = parameter(
-        0.0, "finish_depth", "Finish pass", "thickness of a last pass on the floor; 0: none", Unit.LENGTH, high=1000.0, option=True,
-        group="Floor", on_pixels=True)
+        0.0,
+        "finish_depth",
+        "Finish pass",
+        "thickness of a last pass on the floor; 0: none",
+        Unit.LENGTH,
+        high=1000.0,
+        option=True,
+        group="Floor",
+        on_pixels=True,
+    )
     floor_to_leave: float = parameter(
-        0.0, "floor_to_leave", "Floor to leave", "metal left on the floor on purpose", Unit.LENGTH, high=1000.0, option=True,
-        group="Floor", on_pixels=True)
+        0.0,
+        "floor_to_leave",
+        "Floor to leave",
+        "metal left on the floor on purpose",
+        Unit.LENGTH,
+        high=1000.0,
+        option=True,
+        group="Floor",
+        on_pixels=True,
+    )
     entry: Entry = part(Entry)
     layers: tuple[str, ...] = parameter(
-        (), "layers", "Layers", "that it machines; none named: all that the job does", Unit.NAMES, group="Feed and layers")
+        (),
+        "layers",
+        "Layers",
+        "that it machines; none named: all that the job does",
+        Unit.NAMES,
+        group="Feed and layers",
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
         passes = math.ceil(self.depth / self.stepdown - 1e-9)
         if passes > MOST_PASSES:
-            raise ParameterError(f"Depth {self.depth:g} mm in steps of {self.stepdown:g} mm makes {passes} passes; "
-                                 f"{MOST_PASSES} are the most, so take a larger stepdown.")
+            raise ParameterError(
+                f"Depth {self.depth:g} mm in steps of {self.stepdown:g} mm makes {passes} passes; "
+                f"{MOST_PASSES} are the most, so take a larger stepdown."
+            )
         if not 0 <= self.floor_to_leave <= self.depth - LEAST_LENGTH:
-            raise ParameterError(f"Floor to leave is {self.floor_to_leave:g} mm; it must be 0 or more and less than the depth, "
-                                 f"{self.depth:g} mm.")
+            raise ParameterError(
+                f"Floor to leave is {self.floor_to_leave:g} mm; it must be 0 or more and less than the depth, "
+                f"{self.depth:g} mm."
+            )
         if not 0 <= self.finish_depth <= self.floor - LEAST_LENGTH:
-            raise ParameterError(f"The finish pass is {self.finish_depth:g} mm thick; it must be 0 (none) or more and less than "
-                                 f"what is cut, {self.floor:g} mm.")
+            raise ParameterError(
+                f"The finish pass is {self.finish_depth:g} mm thick; it must be 0 (none) or more and less than "
+                f"what is cut, {self.floor:g} mm."
+            )
 
     @property
     def floor(self) -> float:
@@ -91,15 +154,24 @@ class Cut:
 
 
 _FINISHED = Condition(lambda operation: operation.finish_width > 0, "a finish pass", "add finish_width = 0.2")
-_ENGAGED = ("most_engaged", "Limit of engagement", "of the diameter: where the cutter is engaged over more, the feed is slowed; "
-            "100 %: never", Unit.SHARE)
-_STEPOVER = ("stepover", "Stepover", "distance between rings: a length, or per cent of the diameter; every stepover clears everything",
-             Unit.LENGTH)
+_ENGAGED = (
+    "most_engaged",
+    "Limit of engagement",
+    "of the diameter: where the cutter is engaged over more, the feed is slowed; 100 %: never",
+    Unit.SHARE,
+)
+_STEPOVER = (
+    "stepover",
+    "Stepover",
+    "distance between rings: a length, or per cent of the diameter; every stepover clears everything",
+    Unit.LENGTH,
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """What is to be done with one tool. A kind of operation is a subclass with parameters of its own, which `register` makes known.
+    """What is to be done with one tool. A kind of operation is a subclass with parameters of its own, which `register`
+    makes known.
 
     Attributes:
         WORD: the kind in job files, reports, NC headers, and in words.
@@ -145,23 +217,60 @@ class ContourOperation(Operation):
     """Follow the walls with the contour tool (step 120); on the line it also follows open lines (engraving, slots)."""
 
     side: Side = parameter(
-        Side.INSIDE, "side", "Side", "where the contour tool runs: inside the areas, outside, or on the lines", Unit.CHOICE, option=True,
-        choices=("Inside", "Outside", "On line"))
+        Side.INSIDE,
+        "side",
+        "Side",
+        "where the contour tool runs: inside the areas, outside, or on the lines",
+        Unit.CHOICE,
+        option=True,
+        choices=("Inside", "Outside", "On line"),
+    )
     lead: Lead = part(Lead)
     tabs: Tabs = part(Tabs)
     spring_passes: int = parameter(
-        0, "spring_passes", "Spring passes", "times the last pass is run again, so that a bent cutter straightens", Unit.COUNT,
-        high=MOST_SPRING_PASSES, option=True, group="Walls")
+        0,
+        "spring_passes",
+        "Spring passes",
+        "times the last pass is run again, so that a bent cutter straightens",
+        Unit.COUNT,
+        high=MOST_SPRING_PASSES,
+        option=True,
+        group="Walls",
+    )
     dog_bones: bool = parameter(
-        False, "dog_bones", "Dog-bones", "cut on into inner corners, and so into the walls, for a sharp counterpart to fit", Unit.FLAG,
-        option=True, group="Walls")
+        False,
+        "dog_bones",
+        "Dog-bones",
+        "cut on into inner corners, and so into the walls, for a sharp counterpart to fit",
+        Unit.FLAG,
+        option=True,
+        group="Walls",
+    )
     finish_width: float = parameter(
-        0.0, "finish_width", "Finish width", "metal that the passes leave on walls for a finish pass; 0: none", Unit.LENGTH, high=100.0,
-        option=True, group="Walls")
+        0.0,
+        "finish_width",
+        "Finish width",
+        "metal that the passes leave on walls for a finish pass; 0: none",
+        Unit.LENGTH,
+        high=100.0,
+        option=True,
+        group="Walls",
+    )
     finish_each_pass: bool = parameter(
-        False, "finish_each_pass", "Finish each pass", "the finish pass is run at every depth before going deeper; else once, at the floor",
-        Unit.FLAG, option=True, group="Walls", short="Finish", needs=_FINISHED, choices=("Once", "Each depth"))
-    most_engaged: float = parameter(1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond")
+        False,
+        "finish_each_pass",
+        "Finish each pass",
+        "the finish pass is run at every depth before going deeper; else once, at the floor",
+        Unit.FLAG,
+        option=True,
+        group="Walls",
+        short="Finish",
+        needs=_FINISHED,
+        choices=("Once", "Each depth"),
+    )
+    most_engaged: float = parameter(
+        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+    )
 
     WORD = "contour"
     FOLLOWS_WALLS = True
@@ -169,8 +278,10 @@ class ContourOperation(Operation):
     def __post_init__(self) -> None:
         check_ranges(self)
         if self.side is Side.ON and (self.dog_bones or self.finish_width or self.cut.stock_to_leave):
-            raise ParameterError("A path on the line has no wall: dog-bones, finish width and stock to leave do not go with it; "
-                                 "take them out.")
+            raise ParameterError(
+                "A path on the line has no wall: dog-bones, finish width and stock to leave do not go with it; "
+                "take them out."
+            )
 
     @property
     def wall_side(self) -> Side | None:
@@ -185,13 +296,24 @@ class ContourOperation(Operation):
 
 @dataclass(frozen=True, slots=True)
 class PocketOperation(Operation):
-    """Clear the area inside with the pocket tool (steps 141-148). Overlap (the 1986 text's parameter) = diameter - stepover."""
+    """Clear the area inside with the pocket tool (steps 141-148). Overlap (the 1986 text's parameter) = diameter -
+    stepover.
+    """
 
     stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     outside_in: bool = parameter(
-        False, "outside_in", "Beginning", "begin at the walls (steps 141-148), and not inside, so that more of the path is a slot",
-        Unit.FLAG, option=True, choices=("Inside", "At the walls"), short="Begin")
-    most_engaged: float = parameter(1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond")
+        False,
+        "outside_in",
+        "Beginning",
+        "begin at the walls (steps 141-148), and not inside, so that more of the path is a slot",
+        Unit.FLAG,
+        option=True,
+        choices=("Inside", "At the walls"),
+        short="Begin",
+    )
+    most_engaged: float = parameter(
+        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+    )
 
     WORD = "pocket"
     CLEARS = True
@@ -211,7 +333,9 @@ class RestOperation(Operation):
     """Clear what the operations before it in the list have left within reach of its tool."""
 
     stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
-    most_engaged: float = parameter(1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond")
+    most_engaged: float = parameter(
+        1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
+    )
 
     WORD = "rest"
     CLEARS = True
@@ -230,27 +354,56 @@ class DrillOperation(Operation):
     """Drill the circles of the drawing at their centres."""
 
     peck: float | None = parameter(
-        None, "peck", "Peck", "depth of one stroke before the drill comes out of the hole", Unit.LENGTH, low=LEAST_LENGTH, option=True,
-        auto="in one go")
+        None,
+        "peck",
+        "Peck",
+        "depth of one stroke before the drill comes out of the hole",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        option=True,
+        auto="in one go",
+    )
     least: float | None = parameter(
-        None, "least", "Holes from", "least diameter of the circles that are drilled", Unit.LENGTH, low=LEAST_LENGTH,
-        auto="the drill's own, within 0.1 mm")
+        None,
+        "least",
+        "Holes from",
+        "least diameter of the circles that are drilled",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        auto="the drill's own, within 0.1 mm",
+    )
     most: float | None = parameter(
-        None, "most", "Holes to", "largest diameter of the circles that are drilled", Unit.LENGTH, low=LEAST_LENGTH,
-        auto="the drill's own, within 0.1 mm")
+        None,
+        "most",
+        "Holes to",
+        "largest diameter of the circles that are drilled",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        auto="the drill's own, within 0.1 mm",
+    )
     through: float = parameter(
-        0.0, "through", "Through", "how far the drill goes on below the depth, so that its full width comes through", Unit.LENGTH,
-        high=1000.0, option=True)
+        0.0,
+        "through",
+        "Through",
+        "how far the drill goes on below the depth, so that its full width comes through",
+        Unit.LENGTH,
+        high=1000.0,
+        option=True,
+    )
 
     WORD = "drill"
     DRILLS = True
-    UNUSED = frozenset({"stepdown", "stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"})
+    UNUSED = frozenset(
+        {"stepdown", "stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"}
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)
         if self.least is not None and self.most is not None and self.least > self.most:
-            raise ParameterError(f"Holes from {self.least:g} to {self.most:g} mm are asked for; "
-                                 "the least diameter must not be more than the most.")
+            raise ParameterError(
+                f"Holes from {self.least:g} to {self.most:g} mm are asked for; "
+                "the least diameter must not be more than the most."
+            )
 
     @property
     def wall_side(self) -> Side | None:

@@ -19,8 +19,12 @@ class _Limited:
     kinds: tuple[str, ...]
 
 
-_LIMITED = (_Limited("layout", "--layout", (".dxf",)), _Limited("without_types", "--skip-type", (".dxf",)),
-            _Limited("to_zero", "--to-zero", (".dxf", ".svg")), _Limited("pixels_per_inch", "--px-per-inch", (".svg",)))  # fmt: skip
+_LIMITED = (
+    _Limited("layout", "--layout", (".dxf",)),
+    _Limited("without_types", "--skip-type", (".dxf",)),
+    _Limited("to_zero", "--to-zero", (".dxf", ".svg")),
+    _Limited("pixels_per_inch", "--px-per-inch", (".svg",)),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +35,8 @@ class ReadOptions:
         overrule: units that are given hold although the drawing names others.
         layout: DXF: name of the layout in paper space to read instead of model space; "" = model space.
         to_zero: DXF and SVG: move the drawing so that the lower left corner of what is machined is zero.
-        pixels_per_inch: SVG: user units to the inch where the file has no real size, 1 to 100,000; None = as its generator has it.
+        pixels_per_inch: SVG: user units to the inch where the file has no real size, 1 to 100,000; None = as its
+            generator has it.
         without_layers: names of layers (in any case) whose curves are left out.
         without_types: DXF: types of entities (in any case), such as TEXT or HATCH, that are left out.
         lenient: layers to leave out that the drawing does not have are passed over.
@@ -61,11 +66,18 @@ class ReadOptions:
         """
         for each in _LIMITED:
             if getattr(self, each.field) and suffix not in each.kinds:
-                raise InputError(f"{each.option} is for {' and '.join(each.kinds)} drawings and says nothing of {name}; take it away.")
+                raise InputError(
+                    f"{each.option} is for {' and '.join(each.kinds)} drawings and says nothing of {name}; take it "
+                    "away."
+                )
 
     def fit_for(self, suffix: str) -> ReadOptions:
-        """Return the options without those that say nothing of a kind of file, by its suffix in lower case, with its dot."""
-        return replace(self, **{each.field: getattr(AS_DRAWN, each.field) for each in _LIMITED if suffix not in each.kinds})
+        """Return the options without those that say nothing of a kind of file, by its suffix in lower case, with its
+        dot.
+        """
+        return replace(
+            self, **{each.field: getattr(AS_DRAWN, each.field) for each in _LIMITED if suffix not in each.kinds}
+        )
 
 
 AS_DRAWN = ReadOptions()

@@ -1,4 +1,6 @@
-"""How a drawing is to be read: what its file leaves open, or says otherwise than is meant; and which file a part was read from."""
+"""How a drawing is to be read: what its file leaves open, or says otherwise than is meant; and which file a part was
+read from.
+"""
 
 from __future__ import annotations
 
@@ -54,4 +56,8 @@ class Source:
     def in_folder(self, folder: Path) -> Source:
         """Return it with the path told from this folder, where the drawing lies in that."""
         path = Path(self.path)
-        return replace(self, path=path.relative_to(folder.absolute()).as_posix()) if path.is_relative_to(folder.absolute()) else self
+        return (
+            replace(self, path=path.relative_to(folder.absolute()).as_posix())
+            if path.is_relative_to(folder.absolute())
+            else self
+        )

@@ -1,4 +1,6 @@
-"""A scene: surfaces, stock, tools and families of passes. What is edited, saved, and made into tool paths over surfaces."""
+"""A scene: surfaces, stock, tools and families of passes. What is edited, saved, and made into tool paths over
+surfaces.
+"""
 
 from __future__ import annotations
 
@@ -67,8 +69,14 @@ class Outline:
     def __post_init__(self) -> None:
         ways = (bool(self.outline), self.circle is not None, self.rectangle is not None, bool(self.drawing))
         if sum(ways) != 1:
-            raise ParameterError("An outline is given in one way: outline, circle, rectangle or drawing; give exactly one of them.")
-        if not all(abs(value) < MOST_LENGTH for point in (*self.outline, self.circle or (), self.rectangle or ()) for value in point):
+            raise ParameterError(
+                "An outline is given in one way: outline, circle, rectangle or drawing; give exactly one of them."
+            )
+        if not all(
+            abs(value) < MOST_LENGTH
+            for point in (*self.outline, self.circle or (), self.rectangle or ())
+            for value in point
+        ):
             raise ParameterError(f"An outline holds a number that is too large; stay within {MOST_LENGTH:g} mm.")
         if self.outline and len(self.outline) < 3:
             raise ParameterError(f"An outline has {len(self.outline)} corners; give 3 or more.")
@@ -137,8 +145,10 @@ class Passes:
         chord_tolerance: farthest that a path is above the true one, square to it, mm.
         boundary: where to go; none: wherever there is a surface.
         floor: the tip goes no lower, mm, or None.
-        link_gap: ends of passes nearer than this are joined over the surface rather than by a retract, mm; None: as the tool needs.
-        overrun: how far the tool's centre may leave the box round the surfaces, mm; None: as far as it touches one, and stock is there.
+        link_gap: ends of passes nearer than this are joined over the surface rather than by a retract, mm; None: as the
+            tool needs.
+        overrun: how far the tool's centre may leave the box round the surfaces, mm; None: as far as it touches one, and
+            stock is there.
         feed_rate, plunge_rate, spindle_speed: other than the tool's, mm/min and rpm.
     """
 
@@ -163,12 +173,18 @@ class Passes:
 
     def __post_init__(self) -> None:
         if (self.pitch is None) == (self.scallop is None):
-            raise ParameterError("Passes need either a pitch or a scallop height, and not both; give one of them, in mm.")
+            raise ParameterError(
+                "Passes need either a pitch or a scallop height, and not both; give one of them, in mm."
+            )
         for name in ("pitch", "scallop", "chord_tolerance"):
             value = getattr(self, name)
             if value is not None and not 1e-5 <= value < 1e5:
-                raise ParameterError(f"{name.replace('_', ' ').capitalize()} is {value:g} mm; use 0.00001 to 100000 mm.")
-        if not all(abs(value) < MOST_LENGTH for value in (self.angle_deg, *self.through, *(self.line or ()), self.floor or 0.0)):
+                raise ParameterError(
+                    f"{name.replace('_', ' ').capitalize()} is {value:g} mm; use 0.00001 to 100000 mm."
+                )
+        if not all(
+            abs(value) < MOST_LENGTH for value in (self.angle_deg, *self.through, *(self.line or ()), self.floor or 0.0)
+        ):
             raise ParameterError(f"The place of passes is out of range; stay within {MOST_LENGTH:g} mm and degrees.")
         for name in ("stock_to_leave", "link_gap", "overrun"):
             value = getattr(self, name)
@@ -177,7 +193,9 @@ class Passes:
         for name, unit in (("feed_rate", "mm/min"), ("plunge_rate", "mm/min"), ("spindle_speed", "rpm")):
             value = getattr(self, name)
             if value is not None and not LEAST_RATE <= value < 1e6:
-                raise ParameterError(f"{name.replace('_', ' ').capitalize()} is {value:g} {unit}; use {LEAST_RATE:g} to 1000000 {unit}.")
+                raise ParameterError(
+                    f"{name.replace('_', ' ').capitalize()} is {value:g} {unit}; use {LEAST_RATE:g} to 1000000 {unit}."
+                )
         if self.line and math.dist(self.line[:2], self.line[2:]) < LEAST_LENGTH:
             raise ParameterError("The first line of passes has no length; give two places.")
         if self.line and (self.angle_deg, self.through) != (0.0, (0.0, 0.0)):
@@ -205,8 +223,13 @@ class SceneStock:
     margin: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.box and (self.margin or not all(-MOST_LENGTH < self.box[axis] < self.box[axis + 3] < MOST_LENGTH for axis in range(3))):
-            raise ParameterError("The stock is a box x0, y0, z0, x1, y1, z1, each greater than its partner, or a margin; correct it.")
+        if self.box and (
+            self.margin
+            or not all(-MOST_LENGTH < self.box[axis] < self.box[axis + 3] < MOST_LENGTH for axis in range(3))
+        ):
+            raise ParameterError(
+                "The stock is a box x0, y0, z0, x1, y1, z1, each greater than its partner, or a margin; correct it."
+            )
         if not 0 <= self.margin < 1e5:
             raise ParameterError(f"The stock's margin is {self.margin:g} mm; use 0 or more.")
 
@@ -241,8 +264,10 @@ class Scene:
             if names.count(name) > 1:
                 raise ParameterError(f"Two surfaces are named {name}; give each its own name.")
         if not LEAST_LENGTH <= self.retract_z <= self.safe_z < 1e5:
-            raise ParameterError(f"Safe Z is {self.safe_z:g} mm and retract Z {self.retract_z:g} mm; "
-                                 f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z.")
+            raise ParameterError(
+                f"Safe Z is {self.safe_z:g} mm and retract Z {self.retract_z:g} mm; "
+                f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z."
+            )
 
     def tool(self, number: int) -> Tool:
         """Return the tool with this T number, which must be a mill.

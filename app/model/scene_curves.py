@@ -83,8 +83,12 @@ class SectionCurve:
             raise ParameterError(f"Contour number is {self.number}; use 1 for the first one.")
         if not 1 <= self.degree <= MOST_DEGREE:
             raise ParameterError(f"The degree of a section curve is {self.degree}; use 1 to {MOST_DEGREE}.")
-        if self.weights and (self.form is CurveForm.THROUGH or len(self.weights) != len(self.points) or min(self.weights) <= 0):
-            raise ParameterError('Weights belong to control points, one greater than 0 each; set form = "control", or take them out.')
+        if self.weights and (
+            self.form is CurveForm.THROUGH or len(self.weights) != len(self.points) or min(self.weights) <= 0
+        ):
+            raise ParameterError(
+                'Weights belong to control points, one greater than 0 each; set form = "control", or take them out.'
+            )
         if self.knots:
             self._check_knots()
         check_axes(self.x_axis, self.y_axis)
@@ -92,26 +96,42 @@ class SectionCurve:
     def _check_knots(self) -> None:
         knots, degree, count = self.knots, self.degree, len(self.points)
         if self.form is CurveForm.THROUGH or self.closed or count <= degree:
-            raise ParameterError('Knots belong to more control points than the degree, of an open curve; set form = "control", '
-                                 "or take them out.")
-        if len(knots) != count + degree + 1 or list(knots) != sorted(knots) or not all(abs(knot) < 1e9 for knot in knots):
-            raise ParameterError(f"Knots of a section curve are {len(knots)}; give {count + degree + 1} that do not fall, or none.")
+            raise ParameterError(
+                'Knots belong to more control points than the degree, of an open curve; set form = "control", '
+                "or take them out."
+            )
+        if (
+            len(knots) != count + degree + 1
+            or list(knots) != sorted(knots)
+            or not all(abs(knot) < 1e9 for knot in knots)
+        ):
+            raise ParameterError(
+                f"Knots of a section curve are {len(knots)}; give {count + degree + 1} that do not fall, or none."
+            )
         if not knots[0] == knots[degree] < knots[count] == knots[-1]:
-            raise ParameterError(f"Knots of a section curve are not clamped; repeat the first and the last one {degree + 1} times.")
+            raise ParameterError(
+                f"Knots of a section curve are not clamped; repeat the first and the last one {degree + 1} times."
+            )
 
     def _check_points(self) -> None:
         sizes = {len(point) for point in self.points}
         if sizes not in ({2}, {3}) or not all(abs(value) < 1e9 for point in self.points for value in point):
-            raise ParameterError("Points of a section curve must all have two coordinates, or all three, each less than 1000000000 mm.")
+            raise ParameterError(
+                "Points of a section curve must all have two coordinates, or all three, each less than 1000000000 mm."
+            )
         least = 3 if self.closed else 2
         if len(self.points) < least:
-            raise ParameterError(f"{'A closed' if self.closed else 'An open'} section curve has {len(self.points)} points; "
-                                 f"it needs {least} or more.")
+            raise ParameterError(
+                f"{'A closed' if self.closed else 'An open'} section curve has {len(self.points)} points; "
+                f"it needs {least} or more."
+            )
         if self.form is CurveForm.THROUGH:
             after = (*self.points[1:], self.points[0]) if self.closed else self.points[1:]
             for one, other in zip(self.points, after, strict=False):
                 if one == other:
-                    raise ParameterError(f"Two neighbouring points of a section curve are alike, {said(one)}; take one out.")
+                    raise ParameterError(
+                        f"Two neighbouring points of a section curve are alike, {said(one)}; take one out."
+                    )
 
 
 def said(point: tuple[float, ...]) -> str:
@@ -129,4 +149,6 @@ def check_axes(x_axis: Point3, y_axis: Point3) -> None:
     if not (0 < long < 1e9 and 0 < wide < 1e9):
         raise ParameterError("An axis has no length; give it as a direction such as [1, 0, 0].")
     if abs(sum(a * b for a, b in zip(x_axis, y_axis, strict=True))) > 1e-9 * long * wide:
-        raise ParameterError(f"The axes {said(x_axis)} and {said(y_axis)} are not at right angles; correct one of them.")
+        raise ParameterError(
+            f"The axes {said(x_axis)} and {said(y_axis)} are not at right angles; correct one of them."
+        )

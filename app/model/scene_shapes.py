@@ -14,7 +14,8 @@ MOST_LENGTH = 1e6
 """mm; no shape is larger, or farther away."""
 
 Turn = Point2
-"""From and to, degrees, counter-clockwise about the axis; up to a full turn. 0 is the upper side of an axis that is not upright,
+"""From and to, degrees, counter-clockwise about the axis; up to a full turn. 0 is the upper side of an axis that is not
+upright,
 else the side towards +X."""
 
 
@@ -127,7 +128,9 @@ class ConeShape(_Checked):
     def _check(self) -> None:
         self._apart(self.start, self.end)
         if min(self.start_radius, self.end_radius) < 0 or max(self.start_radius, self.end_radius) == 0:
-            raise self._wrong(f"radii are {self.start_radius:g} and {self.end_radius:g} mm", "use 0 or more, and not 0 for both")
+            raise self._wrong(
+                f"radii are {self.start_radius:g} and {self.end_radius:g} mm", "use 0 or more, and not 0 for both"
+            )
 
 
 @dataclass(frozen=True)
@@ -144,7 +147,9 @@ class TorusShape(_Checked):
         self._positive("minor")
         self._direction(self.axis)
         if not self.minor < self.major:
-            raise self._wrong(f"minor radius is {self.minor:g} mm", f"it must be less than the major one, {self.major:g} mm")
+            raise self._wrong(
+                f"minor radius is {self.minor:g} mm", f"it must be less than the major one, {self.major:g} mm"
+            )
 
 
 @dataclass(frozen=True)
@@ -173,7 +178,9 @@ class BicubicShape(_Checked):
 
 @dataclass(frozen=True)
 class BsplineShape(_Checked):
-    """A B-spline surface: rows along u of control points along v; knots are spread evenly, and weights alike, where not given."""
+    """A B-spline surface: rows along u of control points along v; knots are spread evenly, and weights alike, where not
+    given.
+    """
 
     kind: ClassVar[str] = "bspline"
     points: tuple[tuple[Point3, ...], ...]
@@ -190,12 +197,18 @@ class BsplineShape(_Checked):
         for way, count in (("u", len(self.points)), ("v", widths.pop())):
             degree, knots = getattr(self, f"degree_{way}"), getattr(self, f"knots_{way}")
             if not 1 <= degree <= min(MOST_DEGREE, count - 1):
-                raise self._wrong(f"degree_{way} is {degree} with {count} points",
-                                  f"use 1 to {min(MOST_DEGREE, count - 1)}, or more points")
+                raise self._wrong(
+                    f"degree_{way} is {degree} with {count} points",
+                    f"use 1 to {min(MOST_DEGREE, count - 1)}, or more points",
+                )
             if knots and (len(knots) != count + degree + 1 or list(knots) != sorted(knots)):
-                raise self._wrong(f"knots_{way} are {len(knots)}", f"give {count + degree + 1} that do not fall, or none")
+                raise self._wrong(
+                    f"knots_{way} are {len(knots)}", f"give {count + degree + 1} that do not fall, or none"
+                )
             if knots and not (knots[0] == knots[degree] < knots[count] == knots[-1]):
-                raise self._wrong(f"knots_{way} are not clamped", f"repeat the first and the last one {degree + 1} times")
+                raise self._wrong(
+                    f"knots_{way} are not clamped", f"repeat the first and the last one {degree + 1} times"
+                )
         if self.weights and [len(row) for row in self.weights] != [len(row) for row in self.points]:
             raise self._wrong("weights are not as many as the points", "give one for each, or none")
         if not all(weight > 0 for row in self.weights for weight in row):
@@ -292,7 +305,19 @@ class StepShape(_Checked):
 
 
 Shape = (
-    PlaneShape | SphereShape | CylinderShape | ConeShape | TorusShape | BilinearShape | BicubicShape | BsplineShape | LoftShape
-    | RuledShape | RevolvedShape | SweptShape | MeshShape | StepShape
-)  # fmt: skip
+    PlaneShape
+    | SphereShape
+    | CylinderShape
+    | ConeShape
+    | TorusShape
+    | BilinearShape
+    | BicubicShape
+    | BsplineShape
+    | LoftShape
+    | RuledShape
+    | RevolvedShape
+    | SweptShape
+    | MeshShape
+    | StepShape
+)
 """Everything that a surface can be given as."""

@@ -49,14 +49,17 @@ def _box(contour: Contour) -> tuple[float, float, float, float]:
 
 
 def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()) -> StockBox:
-    """Return the stock of a job: the extent of its regions and of the open lines that it follows, and the margin round them.
+    """Return the stock of a job: the extent of its regions and of the open lines that it follows, and the margin round
+    them.
 
     Raises:
         ParameterError: there is neither.
     """
     box = extent((*(contour for region in regions for contour in region.contours), *lines))
     if box is None:
-        raise ParameterError("The part has no closed contour, so there is no stock to set the work origin on; close a contour first.")
+        raise ParameterError(
+            "The part has no closed contour, so there is no stock to set the work origin on; close a contour first."
+        )
     margin = job.stock.margin
     return StockBox(box[0] - margin, box[1] - margin, -job.stock.thickness, box[2] + margin, box[3] + margin)
 
@@ -79,12 +82,17 @@ def _extreme_points(primitive: Primitive) -> Iterator[Point]:
         cx, cy = primitive.centre
         if isinstance(primitive, Arc) and _within_quadrant(primitive):
             return
-        yield from ((cx + primitive.radius * ux, cy + primitive.radius * uy)
-                    for ux, uy in QUADRANTS if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux)))
+        yield from (
+            (cx + primitive.radius * ux, cy + primitive.radius * uy)
+            for ux, uy in QUADRANTS
+            if isinstance(primitive, Circle) or _passes(primitive, math.atan2(uy, ux))
+        )
 
 
 def _within_quadrant(arc: Arc) -> bool:
-    """Tell whether an arc surely passes no quadrant, as nearly all of the short ones of a fitted curve do: without an angle."""
+    """Tell whether an arc surely passes no quadrant, as nearly all of the short ones of a fitted curve do: without an
+    angle.
+    """
     x, y = arc.centre
     ax, ay, bx, by = arc.start[0] - x, arc.start[1] - y, arc.end[0] - x, arc.end[1] - y
     turn = ax * by - ay * bx

@@ -67,11 +67,17 @@ class FeedRow:
     def __post_init__(self) -> None:
         if not self.material.strip():
             raise ParameterError("A row of feeds names no material; name one, such as aluminium.")
-        for name, unit, most in (("surface_speed", " m/min", 1e4), ("feed_per_tooth", " mm", 100.0), ("plunge_share", "", 1.0)):
+        for name, unit, most in (
+            ("surface_speed", " m/min", 1e4),
+            ("feed_per_tooth", " mm", 100.0),
+            ("plunge_share", "", 1.0),
+        ):
             value = getattr(self, name)
             if not 0 < value <= most:
-                raise ParameterError(f"{_said(name).capitalize()} for {self.material} is {value:g}{unit}; "
-                                     f"it must be greater than 0 and not more than {most:g}{unit}.")
+                raise ParameterError(
+                    f"{_said(name).capitalize()} for {self.material} is {value:g}{unit}; "
+                    f"it must be greater than 0 and not more than {most:g}{unit}."
+                )
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,12 +93,14 @@ class Tool:
         spindle_speed: rpm, in (0, 1e6).
         feed_rate, plunge_rate: mm/min, in [1, 1e6).
         corner_radius: of a bull-nose mill, mm, less than half the diameter.
-        tip_diameter: of the flat at the point of a V tool, or of the ball at the tip of a tapered mill, mm, less than the diameter.
+        tip_diameter: of the flat at the point of a V tool, or of the ball at the tip of a tapered mill, mm, less than
+            the diameter.
         tip_angle: full angle of the point (V, drill) or of the cone (tapered mill), radians, in [0, pi).
         flute_length, overall_length: from the tip up, mm.
         stick_out: from the tip to the holder's lower face, mm.
         shank_diameter: mm.
-        holder: outline from the lower face up, heights from 0 and not falling; straight between its points, so frustums.
+        holder: outline from the lower face up, heights from 0 and not falling; straight between its points, so
+            frustums.
         length_offset: what G43 takes off along Z, mm: the control's tool table.
         feeds: by material.
         remark: anything else worth knowing, or "".
@@ -125,7 +133,10 @@ class Tool:
             value, rate = getattr(self, name), unit == "mm/min"
             if not 0 < value < 1e6 or (rate and value < LEAST_RATE):
                 least = f"{LEAST_RATE:g} {unit} or more" if rate else f"greater than 0 {unit}"
-                raise ParameterError(f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {least} and less than 1000000 {unit}.")
+                raise ParameterError(
+                    f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {least} and less than 1000000 "
+                    f"{unit}."
+                )
         if not 1 <= self.flutes <= 100:
             raise ParameterError(f"T{self.number}: flutes is {self.flutes}; it must be 1 to 100.")
         self._check_lengths()
@@ -147,24 +158,34 @@ class Tool:
     def _check_shape(self) -> None:
         for name in sorted({"corner_radius", "tip_diameter", "tip_angle"} - shape_keys(self.kind)):
             if getattr(self, name):
-                raise ParameterError(f"T{self.number}: a tool of kind {self.kind.value} has no {_said(name)}; "
-                                     "take it out or choose another kind.")
+                raise ParameterError(
+                    f"T{self.number}: a tool of kind {self.kind.value} has no {_said(name)}; "
+                    "take it out or choose another kind."
+                )
         if self.corner_radius >= self.radius:
             raise self._wrong("corner_radius", f"it must be less than half the diameter, {self.radius:g} mm")
         if self.tip_diameter >= self.diameter:
             raise self._wrong("tip_diameter", f"it must be less than the diameter, {self.diameter:g} mm")
         if not 0 <= self.tip_angle < math.pi:
-            raise ParameterError(f"T{self.number}: tip angle is {math.degrees(self.tip_angle):g} degrees; "
-                                 "it must be less than 180, or 0 (not known).")
+            raise ParameterError(
+                f"T{self.number}: tip angle is {math.degrees(self.tip_angle):g} degrees; "
+                "it must be less than 180, or 0 (not known)."
+            )
 
     def _check_holder(self) -> None:
         heights = [height for height, _ in self.holder]
         if heights and (heights[0] != 0 or any(above < below for below, above in pairwise(heights))):
-            raise ParameterError(f"T{self.number}: the holder's heights are {', '.join(f'{h:g}' for h in heights)} mm; "
-                                 "they must begin with 0 and not fall.")
-        if len(heights) == 1 or not all(height < MOST_LENGTH and 0 <= radius < MOST_LENGTH for height, radius in self.holder):
-            raise ParameterError(f"T{self.number}: the holder must have two points or more, "
-                                 f"each a height and a radius from 0 to {MOST_LENGTH:g} mm.")
+            raise ParameterError(
+                f"T{self.number}: the holder's heights are {', '.join(f'{h:g}' for h in heights)} mm; "
+                "they must begin with 0 and not fall."
+            )
+        if len(heights) == 1 or not all(
+            height < MOST_LENGTH and 0 <= radius < MOST_LENGTH for height, radius in self.holder
+        ):
+            raise ParameterError(
+                f"T{self.number}: the holder must have two points or more, "
+                f"each a height and a radius from 0 to {MOST_LENGTH:g} mm."
+            )
 
     def _check_feeds(self) -> None:
         names = [row.material.casefold() for row in self.feeds]
@@ -188,9 +209,13 @@ class Tool:
     def as_kind(self, kind: ToolKind) -> Tool:
         """Return the tool with another end, without what tools of that kind do not have."""
         keys = shape_keys(kind)
-        return replace(self, kind=kind, corner_radius=self.corner_radius if "corner_radius" in keys else 0.0,
-                       tip_diameter=self.tip_diameter if "tip_diameter" in keys else 0.0,
-                       tip_angle=self.tip_angle if "tip_angle" in keys else 0.0)
+        return replace(
+            self,
+            kind=kind,
+            corner_radius=self.corner_radius if "corner_radius" in keys else 0.0,
+            tip_diameter=self.tip_diameter if "tip_diameter" in keys else 0.0,
+            tip_angle=self.tip_angle if "tip_angle" in keys else 0.0,
+        )
 
     def in_material(self, row: FeedRow, most_rpm: float = 24000.0) -> Tool:
         """Return the tool with the speed and the feeds that a row asks for.

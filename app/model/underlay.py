@@ -30,8 +30,12 @@ class Underlay:
     opacity: float = 0.5
 
     def __post_init__(self) -> None:
-        if not (0 < self.mm_per_px < 1e6 and 0 <= self.opacity <= 1 and all(map(math.isfinite, (*self.origin, self.angle)))):
-            raise ParameterError(f"The picture {self.path} cannot lie there: its pixels must be larger than 0 mm, its opacity 0 to 1.")
+        if not (
+            0 < self.mm_per_px < 1e6 and 0 <= self.opacity <= 1 and all(map(math.isfinite, (*self.origin, self.angle)))
+        ):
+            raise ParameterError(
+                f"The picture {self.path} cannot lie there: its pixels must be larger than 0 mm, its opacity 0 to 1."
+            )
 
     def moved(self, dx: float, dy: float) -> Underlay:
         """Return the picture shifted, mm."""

@@ -58,10 +58,21 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
     findings = worst_first(setting.findings)
     return Program(
-        setting.builder.moves(), setting.regions, findings, setting.strokes, setting.polyline_rings,
-        seen.bitmap_area, seen.exact_area, seen.pitch, areas=areas, lines=lines,
-        clamps=parts.clamps, tabs=tuple(setting.tabs), dog_bones=tuple(setting.dog_bones), stepovers=setting.stepovers,
-    )  # fmt: skip
+        setting.builder.moves(),
+        setting.regions,
+        findings,
+        setting.strokes,
+        setting.polyline_rings,
+        seen.bitmap_area,
+        seen.exact_area,
+        seen.pitch,
+        areas=areas,
+        lines=lines,
+        clamps=parts.clamps,
+        tabs=tuple(setting.tabs),
+        dog_bones=tuple(setting.dog_bones),
+        stepovers=setting.stepovers,
+    )
 
 
 @dataclass(frozen=True)
@@ -93,10 +104,15 @@ def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
 
 
 def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
-    """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but followed."""
+    """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but
+    followed.
+    """
     followed = {number for line in lines for number in line.entity_ids}
-    kept = [each for each in across_holes(parts.findings, job, parts)
-            if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))]  # fmt: skip
+    kept = [
+        each
+        for each in across_holes(parts.findings, job, parts)
+        if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))
+    ]
     if any(operation.cut.enabled and not operation.follows_lines for operation in job.operations):
         return kept
     return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
@@ -111,8 +127,10 @@ def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Find
     if lost.area < CHORD:
         return []
     x, y = shapely.get_coordinates(shapely.point_on_surface(lost))[0].tolist()
-    text = (f"{lost.area:.1f} mm2 of what is to be cleared lies under clamps, at ({x:.3f}, {y:.3f}) for one, and stays; "
-            "clear it in another set-up.")
+    text = (
+        f"{lost.area:.1f} mm2 of what is to be cleared lies under clamps, at ({x:.3f}, {y:.3f}) for one, and stays; "
+        "clear it in another set-up."
+    )
     return [Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(lost.area))]
 
 
@@ -125,6 +143,13 @@ def in_order(job: Job) -> list[int]:
 def slotting(job: Job) -> list[Finding]:
     """Return the warning that the 1986 order deserves."""
     tools = [job.tool(op.cut.tool) for op in job.operations if op.FOLLOWS_WALLS and op.cut.enabled]
-    return [Finding(FindingKind.ENGAGEMENT, f"Order 1986: T{tool.number} {tool.label} cuts first and slots full stock, engaged over 100 % "
-                    "of its diameter. Reduce the stepdown, or let the pocket tool cut first.", counts=False, amount=tool.diameter)
-            for tool in tools]
+    return [
+        Finding(
+            FindingKind.ENGAGEMENT,
+            f"Order 1986: T{tool.number} {tool.label} cuts first and slots full stock, engaged over 100 % "
+            "of its diameter. Reduce the stepdown, or let the pocket tool cut first.",
+            counts=False,
+            amount=tool.diameter,
+        )
+        for tool in tools
+    ]

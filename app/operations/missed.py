@@ -1,6 +1,8 @@
-"""What a job asks for and no path of it makes, from the drawing alone: what `make` tells on its way, `cut` says of any program.
+"""What a job asks for and no path of it makes, from the drawing alone: what `make` tells on its way, `cut` says of any
+program.
 
-A region that no tool enters, a wall to follow from outside where none fits, what clamps lie over, a circle that no drill can drill.
+A region that no tool enters, a wall to follow from outside where none fits, what clamps lie over, a circle that no
+drill can drill.
 """
 
 from __future__ import annotations
@@ -35,6 +37,8 @@ def _missed(operation: Operation, sheets: Sheets) -> Iterable[Finding]:
     if operation.DRILLS:
         return way.missed(sheets, operation, None)
     sheet, tool = sheets.of(operation), sheets.job.tool(operation.cut.tool)
-    if sheet is None or tool.kind is ToolKind.DRILL:  # of a program that tells no operations, each tool may be one that mills
+    if (
+        sheet is None or tool.kind is ToolKind.DRILL
+    ):  # of a program that tells no operations, each tool may be one that mills
         return ()
     return way.missed(sheets, operation, sheet)

@@ -1,4 +1,6 @@
-"""How each kind of operation is carried out: registered by its folder, asked for by whoever computes a job or judges what it lacks."""
+"""How each kind of operation is carried out: registered by its folder, asked for by whoever computes a job or judges
+what it lacks.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +20,8 @@ class Way:
 
     Attributes:
         paths: makes the moves of the operation with an index in the job of a setting.
-        missed: what an operation asks for and no path of it will make, from the drawing alone; without a sheet for one that makes
-            none, which is asked of nobody else's area.
+        missed: what an operation asks for and no path of it will make, from the drawing alone; without a sheet for one
+            that makes none, which is asked of nobody else's area.
     """
 
     paths: Callable[[Setting, int, Progress], None]

@@ -56,7 +56,9 @@ def _next(index, seen, r, c, code):
 
 @kernel("int64(uint16[:, ::1], uint8[:, ::1], int64[::1], uint8[::1])")
 def _trace_one(index, seen, start, chain):
-    """Trace the border that has the emptier pixel left of start (row, column, level); return the number of directions."""
+    """Trace the border that has the emptier pixel left of start (row, column, level); return the number of
+    directions.
+    """
     r, c, level = start[0], start[1], start[2]
     first = _next(index, seen, r, c, 8 * level + LEFT)
     d, j, i, length = first, r, c, 0
@@ -79,7 +81,8 @@ def borders(index, seen, starts, chain):
 
     Args:
         index: (r, c) 0 = outside of all areas; levels count from 1, and rise by at most 8 from a pixel to the next.
-        seen: (r, c) zeros; at a pixel with an emptier left neighbour a bit for each level between them, set when traced.
+        seen: (r, c) zeros; at a pixel with an emptier left neighbour a bit for each level between them, set when
+            traced.
         starts: (n, 5) gets row, column, level, offset into `chain` and number of directions.
         chain: gets the directions.
 
@@ -96,7 +99,7 @@ def borders(index, seen, starts, chain):
                 if seen[r, c] >> (level - before - 1) & 1:
                     continue
                 start[0], start[1], start[2] = r, c, level
-                length = _trace_one(index, seen, start, chain[min(used, len(chain)):])
+                length = _trace_one(index, seen, start, chain[min(used, len(chain)) :])
                 if count < len(starts):
                     starts[count, 0], starts[count, 1], starts[count, 2] = r, c, level
                     starts[count, 3], starts[count, 4] = used, length

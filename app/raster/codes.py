@@ -20,7 +20,9 @@ class PixelCode(IntEnum):
     EMPTY = 0
     CONTOUR = 1
     TRACED = 2
-    """A contour pixel that counts in the parity scan: the contour crosses its row's centre line an odd number of times."""
+    """A contour pixel that counts in the parity scan: the contour crosses its row's centre line an odd number of
+    times.
+    """
     R = 3
     """A contour pixel that does not count: vertex, plateau, overlap line."""
     INSIDE = 4

@@ -15,7 +15,9 @@ from ..core.jit import kernel
 from .row_kernels import end_of_run, first_zero
 
 EXACT = 1e-6
-"""More than the rounding of a product below 2^31 and less than half of 1 / 2^16, by which quotients miss whole numbers."""
+"""More than the rounding of a product below 2^31 and less than half of 1 / 2^16, by which quotients miss whole
+numbers.
+"""
 
 BAND = 32
 """Rows of a band."""
@@ -44,13 +46,14 @@ def beside_bands(inner, downwards, free):
 def _envelope(height, first, stop, nearest, halves):
     """Find which columns of a free run are nearest to which of its pixels; return how many columns that are.
 
-    The run's free pixels are first ... stop - 1; the pixels beside it, which are not free, belong to it, as nothing beyond
-    them can be nearer.
+    The run's free pixels are first ... stop - 1; the pixels beside it, which are not free, belong to it, as nothing
+    beyond them can be nearer.
 
     Args:
-        nearest: (3, m) gets the columns c, rising, c^2 + height^2, and the first pixel that each is nearest to, then `stop`.
-        halves: (m,) 1 / (2 n): quotients are whole numbers of 30 bits over at most 2^16, so that the nearest whole number
-            below is told from the product, as long as EXACT is added.
+        nearest: (3, m) gets the columns c, rising, c^2 + height^2, and the first pixel that each is nearest to, then
+            `stop`.
+        halves: (m,) 1 / (2 n): quotients are whole numbers of 30 bits over at most 2^16, so that the nearest whole
+            number below is told from the product, as long as EXACT is added.
     """
     place, key, begins = nearest[0], nearest[1], nearest[2]
     place[0], key[0], begins[0] = first - 1, (first - 1) * (first - 1), first

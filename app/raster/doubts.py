@@ -23,7 +23,9 @@ _MERGED = 1.6
 """Times the usual thickness of a figure's lines; where ink is thicker, two lines may have become one."""
 
 _LONG = 4
-"""Pixels; paper of unusual width that is shorter than this is the shape of a corner; ink is by two thicknesses longer."""
+"""Pixels; paper of unusual width that is shorter than this is the shape of a corner; ink is by two thicknesses
+longer.
+"""
 
 _GAP = 2
 """Pixels; gaps in lines, and between lines, up to this wide are told."""
@@ -78,7 +80,9 @@ def pixel_words(place: Place) -> str:
 
 
 def ambiguities(ink: Mask) -> tuple[Ambiguity, ...]:
-    """Return the places where lines of ink can be read in two ways, in raster order for each kind of doubt; what counts comes first."""
+    """Return the places where lines of ink can be read in two ways, in raster order for each kind of doubt; what counts
+    comes first.
+    """
     gaps = tuple(_gaps(ink))
     return (*gaps, *_open(ink, gaps), *_junctions(ink), *_merged(ink), *_narrow(ink))
 
@@ -106,7 +110,9 @@ def _junctions(ink: Mask) -> Iterator[Ambiguity]:
     count, face = cv2.connectedComponents(padded.astype(np.uint8), connectivity=4)
     if count < 4:
         return
-    _, near = cv2.distanceTransformWithLabels((~padded).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    _, near = cv2.distanceTransformWithLabels(
+        (~padded).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
+    )
     of_label = np.zeros(int(near.max()) + 1, np.int32)
     of_label[near[padded]] = face[padded]
     owner = of_label[near]
@@ -213,4 +219,6 @@ def _ends(chain: Chain, thickness: float) -> tuple[Place, ...]:
     turn = int(np.flatnonzero(~back)[0])
     at = np.flatnonzero(np.roll(back, -turn)) + turn
     runs = np.split(at, np.flatnonzero(np.diff(at) != 1) + 1)
-    return tuple((float(col) + 0.5, float(row) + 0.5) for row, col in (pixels[run[len(run) // 2] % len(pixels)] for run in runs))
+    return tuple(
+        (float(col) + 0.5, float(row) + 0.5) for row, col in (pixels[run[len(run) // 2] % len(pixels)] for run in runs)
+    )

@@ -20,7 +20,8 @@ def draw(frame: Frame, contours: Sequence[Contour] | Rows) -> tuple[Plane, Plane
     its pixels are drawn as R, so that the drawn line is 8-connected.
 
     Args:
-        contours: closed, or the rows (n, 8) of closed contours; parts outside the frame are cut off, those left of it still count.
+        contours: closed, or the rows (n, 8) of closed contours; parts outside the frame are cut off, those left of it
+            still count.
 
     Returns:
         (rows, cols) uint8 codes 0, 2, R; (rows,) uint8: 1 where an odd number of crossings lies left of the frame.

@@ -23,8 +23,8 @@ _SLENDER = 20
 def shows(ink: Mask, asked: Shows) -> Shows:
     """Return whether ink is lines or areas, where nobody said.
 
-    Lines are thin everywhere, or most of their ink is narrower than a small part of the largest figure it makes and they
-    enclose more paper than they cover: a bar is thin too, but encloses nothing.
+    Lines are thin everywhere, or most of their ink is narrower than a small part of the largest figure it makes and
+    they enclose more paper than they cover: a bar is thin too, but encloses nothing.
     """
     if asked is not Shows.AUTO:
         return asked

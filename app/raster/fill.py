@@ -36,7 +36,8 @@ def fill(frame: Frame, contours: Sequence[Contour] | Rows, observer: Observer | 
 
     References:
         JPH07107645B2, process 130. The text marks R by the look of the chain code (its formula I), which fails where
-        strands merge, where tracing skips pixels and at acute vertices that do not turn back; see `draw` for the rule used.
+        strands merge, where tracing skips pixels and at acute vertices that do not turn back; see `draw` for the rule
+        used.
     """
     plane, left = draw(frame, contours)
     if observer is not None:
@@ -61,7 +62,9 @@ def _show_tracing(plane: Plane, observer: Observer) -> None:
 
 
 def _scan(plane: Plane, left: Plane) -> Plane:
-    """Return the plane with its inside marked; rows are padded to whole words of eight pixels while they are scanned."""
+    """Return the plane with its inside marked; rows are padded to whole words of eight pixels while they are
+    scanned.
+    """
     from . import kernels
 
     rows, cols = plane.shape

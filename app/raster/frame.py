@@ -17,7 +17,9 @@ POINTS = 400
 
 
 PATH_BYTES, STAGES_BYTES = 26, 90
-"""Of a pixel: what paths on pixels take at a time (labels, distances and those of the squares, codes), and all stages with their files."""
+"""Of a pixel: what paths on pixels take at a time (labels, distances and those of the squares, codes), and all stages
+with their files.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,17 +74,29 @@ class Frame:
         needed, longer = self.rows * self.cols * each, max(self.rows, self.cols)
         fits = fewer(longer, needed, 2)
         pitch = f"{self.pitch * longer / fits:.2g}"
-        remedy = (f"make the picture smaller, at most {fits} px along its longer side" if picture else
-                  f"use at most {fits} px along a side (--bitmap {fits}), or pixels of {pitch} mm or more (--pitch {pitch})")  # fmt: skip
+        remedy = (
+            f"make the picture smaller, at most {fits} px along its longer side"
+            if picture
+            else f"use at most {fits} px along a side (--bitmap {fits}), or pixels of {pitch} mm or more (--pitch "
+            f"{pitch})"
+        )
         ask(needed, f"A bitmap of {self.cols} x {self.rows} px", remedy)
 
     def to_px(self, points: Floats) -> Floats:
-        """Return (n, 2) image coordinates (column, row from the top) of points (n, 2) in mm; px (r, c) spans [c, c+1) x [r, r+1)."""
-        return np.stack([(points[:, 0] - self.x0) / self.pitch, self.rows - (points[:, 1] - self.y0) / self.pitch], axis=1)
+        """Return (n, 2) image coordinates (column, row from the top) of points (n, 2) in mm; px (r, c) spans [c, c+1) x
+        [r, r+1).
+        """
+        return np.stack(
+            [(points[:, 0] - self.x0) / self.pitch, self.rows - (points[:, 1] - self.y0) / self.pitch], axis=1
+        )
 
     def to_mm(self, points: Floats) -> Floats:
-        """Return (n, 2) part coordinates in mm of image coordinates (column, row from the top); the inverse of `to_px`."""
-        return np.stack([self.x0 + points[:, 0] * self.pitch, self.y0 + (self.rows - points[:, 1]) * self.pitch], axis=1)
+        """Return (n, 2) part coordinates in mm of image coordinates (column, row from the top); the inverse of
+        `to_px`.
+        """
+        return np.stack(
+            [self.x0 + points[:, 0] * self.pitch, self.y0 + (self.rows - points[:, 1]) * self.pitch], axis=1
+        )
 
     def centres(self) -> tuple[Floats, Floats]:
         """Return x (cols,) of the columns' and y (rows,) of the rows' pixel centres, mm; y[0] is the top row's."""

@@ -1,4 +1,5 @@
-"""Compiled loops of the display memory, in image coordinates: u = column, v = row, downwards; px (r, c) spans [c, c+1) x [r, r+1).
+"""Compiled loops of the display memory, in image coordinates: u = column, v = row, downwards; px (r, c) spans [c, c+1)
+x [r, r+1).
 
 Codes are those of `PixelCode`, written as numbers. Rows of lines and arcs are (u0, v0, u1, v1, cu, cv, r, turn) with
 turn 0 for a line and the sign of the cross product (u, v) along an arc, which sweeps less than pi.
@@ -77,7 +78,9 @@ def _draw_piece(plane, left, circle, a, b):
 
 @kernel("int64(float64[::1], float64[:, ::1])")
 def _quadrant_ends(row, ends):
-    """Write start, changes of quadrant and end of an arc into ends (6, 2), in its direction; return how many there are."""
+    """Write start, changes of quadrant and end of an arc into ends (6, 2), in its direction; return how many there
+    are.
+    """
     cu, cv, r, turn = row[4], row[5], row[6], row[7]
     quarter = math.pi / 2
     start = turn * math.atan2(row[1] - cv, row[0] - cu)
@@ -158,7 +161,9 @@ def _next_direction(plane, r, c, first):
 
 @kernel("int64(uint8[:, ::1], int64, int64, uint8[::1])")
 def _trace_one(plane, r, c, chain):
-    """Trace the border to whose left pixel (r, c) lies; mark it 2; return how many directions were written, END included."""
+    """Trace the border to whose left pixel (r, c) lies; mark it 2; return how many directions were written, END
+    included.
+    """
     plane[r, c] = 2
     first = _next_direction(plane, r, c, 4)
     d, j, i, length = first, r, c, 0

@@ -62,8 +62,8 @@ class RingSteps:
     Attributes:
         first: the outermost one, >= 0.
         step: from path to path, >= 1.
-        early: by how much all others lie nearer to the frame than steps say: what the outermost one keeps to be safe, they
-            need not; 0 <= early <= step - 1.
+        early: by how much all others lie nearer to the frame than steps say: what the outermost one keeps to be safe,
+            they need not; 0 <= early <= step - 1.
     """
 
     first: float
@@ -72,7 +72,8 @@ class RingSteps:
 
 
 def ring_index(area: Mask, steps: RingSteps) -> Index:
-    """Return which pocket path each pixel lies inside of (steps 141-148): path k is the border of {index >= k}, k = 1, 2, …
+    """Return which pocket path each pixel lies inside of (steps 141-148): path k is the border of {index >= k}, k = 1,
+    2, …
 
     No path is made from the one before it, so nothing adds up.
 
@@ -81,7 +82,9 @@ def ring_index(area: Mask, steps: RingSteps) -> Index:
     """
     first = math.floor(steps.first**2) + 1
     count = min(int((min(area.shape) / 2 - steps.first + steps.early) / steps.step) + 1, 65534)
-    further = [max(math.ceil((steps.first - steps.early + k * steps.step) ** 2), first) for k in range(1, max(count, 1))]
+    further = [
+        max(math.ceil((steps.first - steps.early + k * steps.step) ** 2), first) for k in range(1, max(count, 1))
+    ]
     index = thresholds_reached(inner_pixels(area), [first, *further])
     if steps.first == 0:
         index[area & (index == 0)] = 1

@@ -37,10 +37,10 @@ class PictureOptions:
         threshold: what is darker is ink, 1 ... 255; None = where it parts dark from light best (Otsu).
         invert: the ink is light on dark.
         despeckle: spots of ink or of paper of up to this many pixels are taken away, >= 0.
-        pitch: size of a pixel, mm, > 0. dpi: pixels an inch, > 0, instead. None of both = as the file says. Where the file
-            says that pixels are not square, this is of the square ones that they are made.
-        shows: whether ink lines are the contours of what is to be machined, or inked areas are to be machined; AUTO = lines
-            where the ink is thin for the size of what it draws.
+        pitch: size of a pixel, mm, > 0. dpi: pixels an inch, > 0, instead. None of both = as the file says. Where the
+            file says that pixels are not square, this is of the square ones that they are made.
+        shows: whether ink lines are the contours of what is to be machined, or inked areas are to be machined; AUTO =
+            lines where the ink is thin for the size of what it draws.
     """
 
     threshold: int | None = None
@@ -57,7 +57,9 @@ class PictureOptions:
             raise ParameterError(f"Despeckle is {self.despeckle} px; use 0 or more.")
         for name, value, unit in (("pitch", self.pitch, " mm"), ("resolution", self.dpi, " dpi")):
             if value is not None and not 0 < value < 1e5:
-                raise ParameterError(f"The {name} is {value:g}{unit}; it must be greater than 0 and less than 100000{unit}.")
+                raise ParameterError(
+                    f"The {name} is {value:g}{unit}; it must be greater than 0 and less than 100000{unit}."
+                )
         if self.pitch is not None and self.dpi is not None:
             raise ParameterError("A pitch and a resolution say the same in two ways; give one of them.")
 
@@ -84,8 +86,13 @@ class Picture:
     def remarks(self) -> tuple[str, ...]:
         """What to know of how it was read, a sentence each."""
         rows, cols = self.ink.shape
-        square = (f"The picture's pixels are not square, so it was made {cols} x {rows} square ones; columns and rows count these.",)
-        full = ("All of the picture is ink, so all of it is machined; change the threshold or invert it if that is wrong.",)
+        square = (
+            f"The picture's pixels are not square, so it was made {cols} x {rows} square ones; columns and rows count "
+            "these.",
+        )
+        full = (
+            "All of the picture is ink, so all of it is machined; change the threshold or invert it if that is wrong.",
+        )
         return square * self.stretched + full * bool(self.ink.all())
 
 
@@ -109,8 +116,11 @@ def read_picture(name: str, data: bytes, options: PictureOptions) -> Picture:
 def _check_size(name: str, size: tuple[int, int]) -> None:
     cols, rows = size
     if max(size) > LARGEST_SIDE or cols * rows > LARGEST_AREA:
-        raise InputError(f"{name}: the picture has {cols} x {rows} px; {LARGEST_SIDE} px a side and {LARGEST_AREA // 10**6} million in all "
-                         "are the most, so make it smaller.")
+        raise InputError(
+            f"{name}: the picture has {cols} x {rows} px; {LARGEST_SIDE} px a side and {LARGEST_AREA // 10**6} million "
+            "in all "
+            "are the most, so make it smaller."
+        )
 
 
 def _ask_memory(name: str, size: tuple[int, int]) -> None:
@@ -118,7 +128,9 @@ def _ask_memory(name: str, size: tuple[int, int]) -> None:
     cols, rows = size
     needed = cols * rows * PATH_BYTES
     fits = fewer(max(size), needed, 2)
-    ask(needed, f"{name}, a picture of {cols} x {rows} px,", f"make it smaller, at most {fits} px along its longer side")
+    ask(
+        needed, f"{name}, a picture of {cols} x {rows} px,", f"make it smaller, at most {fits} px along its longer side"
+    )
 
 
 def _squared(name: str, gray: Gray, density: Density) -> Gray:
@@ -171,7 +183,9 @@ def pitch_of(first: tuple[float, float], second: tuple[float, float], distance: 
     """
     apart = math.dist(first, second)
     if apart == 0 or not distance > 0:
-        raise ParameterError(f"Two points {apart:g} px and {distance:g} mm apart say nothing of the pitch; choose two that are apart.")
+        raise ParameterError(
+            f"Two points {apart:g} px and {distance:g} mm apart say nothing of the pitch; choose two that are apart."
+        )
     return distance / apart
 
 
@@ -186,6 +200,8 @@ def _pitch(name: str, density: Density | None, options: PictureOptions) -> float
     if options.dpi is not None:
         return MM_PER_INCH / options.dpi
     if density is None or density.pitch is None:
-        raise InputError(f"{name}: the picture does not say how large it is; give the size of a pixel (--pitch MM) "
-                         "or the resolution (--dpi N).")
+        raise InputError(
+            f"{name}: the picture does not say how large it is; give the size of a pixel (--pitch MM) "
+            "or the resolution (--dpi N)."
+        )
     return density.pitch

@@ -36,7 +36,8 @@ class Density:
     """What a file says of the size of its pixels.
 
     Attributes:
-        across, down: pixels in a unit along rows and along columns. unit: mm; 0 = only how long a pixel is for its width.
+        across, down: pixels in a unit along rows and along columns. unit: mm; 0 = only how long a pixel is for its
+        width.
     """
 
     across: float
@@ -57,7 +58,9 @@ class Density:
         return self.unit / max(self.across, self.down) if self.unit else None
 
     def square_shape(self, shape: tuple[int, ...]) -> tuple[int, int]:
-        """Return rows and columns of a picture of this shape once its pixels are square, as small as its own where they are smallest."""
+        """Return rows and columns of a picture of this shape once its pixels are square, as small as its own where they
+        are smallest.
+        """
         finest = max(self.across, self.down)
         return max(round(shape[0] * finest / self.down), 1), max(round(shape[1] * finest / self.across), 1)
 
@@ -108,7 +111,9 @@ def _jpeg_size(data: bytes) -> tuple[int, int]:
 
 
 def density_of(data: bytes) -> Density | None:
-    """Return how large its pixels are as a picture's file says, once it is turned upright; None = it says nothing that is meant."""
+    """Return how large its pixels are as a picture's file says, once it is turned upright; None = it says nothing that
+    is meant.
+    """
     exif = _exif(data)
     said = [each for each in (*_own_densities(data), _exif_density(exif)) if each is not None and each.meant]
     told = next((each for each in said if each.unit), said[0] if said else None)
@@ -122,10 +127,16 @@ def _own_densities(data: bytes) -> list[Density]:
     if data[:2] == _BMP:
         return [_density(struct.unpack("<ii", data[38:46]), 1000.0)] if len(data) >= 46 else []
     if data[:2] == _JPEG:
-        return [_density(struct.unpack(">HH", body[8:12]), {1: MM_PER_INCH, 2: 10.0}.get(body[7], 0.0))
-                for marker, body in _bodies(data) if marker == 0xE0 and body[:5] == b"JFIF\0" and len(body) >= 12]
-    return [_density(struct.unpack(">II", body[:8]), 1000.0 if body[8] == 1 else 0.0)
-            for kind, body in _chunks(data) if kind == b"pHYs" and len(body) >= 9]
+        return [
+            _density(struct.unpack(">HH", body[8:12]), {1: MM_PER_INCH, 2: 10.0}.get(body[7], 0.0))
+            for marker, body in _bodies(data)
+            if marker == 0xE0 and body[:5] == b"JFIF\0" and len(body) >= 12
+        ]
+    return [
+        _density(struct.unpack(">II", body[:8]), 1000.0 if body[8] == 1 else 0.0)
+        for kind, body in _chunks(data)
+        if kind == b"pHYs" and len(body) >= 9
+    ]
 
 
 def _density(pixels: tuple[int, ...], unit: float) -> Density:
@@ -204,14 +215,19 @@ def decoded(name: str, data: bytes) -> Gray:
 
 
 def _ensure_whole(name: str, data: bytes) -> None:
-    """Refuse a PNG that is cut short, or of whose chunks one says that it is longer than the file: a decoder takes that much memory."""
+    """Refuse a PNG that is cut short, or of whose chunks one says that it is longer than the file: a decoder takes that
+    much memory.
+    """
     at = 8 if data[:8] == _PNG else len(data)
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at : at + 8]) if at + 8 <= len(data) else (0, b"")
         if kind == b"" or at + 12 + length > len(data):
             what = kind.decode("ascii", "replace") or "unknown"
-            raise InputError(f"{name}: the picture is damaged and cannot be decoded: its part {what!r} at byte {at} reaches beyond the "
-                             "end of the file; save it again.")
+            raise InputError(
+                f"{name}: the picture is damaged and cannot be decoded: its part {what!r} at byte {at} reaches beyond "
+                "the "
+                "end of the file; save it again."
+            )
         if kind == b"IEND":
             return
         at += 12 + length

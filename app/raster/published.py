@@ -40,7 +40,9 @@ def _sharp(chain: Chain) -> NDArray[np.bool_]:
 
 
 def _turns_over(chain: Chain) -> NDArray[np.bool_]:
-    """Return for each pixel whether the chain comes from below and leaves downwards, or the reverse, level stretches included."""
+    """Return for each pixel whether the chain comes from below and leaves downwards, or the reverse, level stretches
+    included.
+    """
     up = _UP[chain.directions]
     if not up.any():
         return np.ones(len(up), np.bool_)

@@ -13,9 +13,9 @@ Floats = NDArray[np.float32]
 def thickness_px(ink: Mask) -> Floats:
     """Return how thick ink is at each of its pixels, px; 0 on paper.
 
-    It is the shortest way through the ink along rows, columns or diagonals, from the pixel or one of its neighbours: of a
-    stair one step is thick and the next is not. A line of n pixels has n, and at most half of it more where it runs aslant;
-    where lines cross, the corners between them keep the diagonals short.
+    It is the shortest way through the ink along rows, columns or diagonals, from the pixel or one of its neighbours: of
+    a stair one step is thick and the next is not. A line of n pixels has n, and at most half of it more where it runs
+    aslant; where lines cross, the corners between them keep the diagonals short.
     """
     import cv2
 
@@ -31,7 +31,9 @@ def thickness_px(ink: Mask) -> Floats:
 
 
 def _runs(flat: Mask, step: int) -> NDArray[np.int32]:
-    """Return for each pixel how many pixels of ink follow one another through it, each `step` further on in the raster; 0 on paper."""
+    """Return for each pixel how many pixels of ink follow one another through it, each `step` further on in the raster;
+    0 on paper.
+    """
     rows = -(-len(flat) // step) + 1
     lined = np.zeros(rows * step, np.bool_)
     lined[: len(flat)] = flat
@@ -45,10 +47,12 @@ def _runs(flat: Mask, step: int) -> NDArray[np.int32]:
 
 
 def usual_thickness(thickness: Floats, figure: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return how thick each figure's lines are for half of their length at most, px, by the figure's number; 0 for number 0.
+    """Return how thick each figure's lines are for half of their length at most, px, by the figure's number; 0 for
+    number 0.
 
     Args:
-        thickness: (rows, cols) of ink. figure: (rows, cols) number of the connected figure that ink belongs to, 0 = paper.
+        thickness: (rows, cols) of ink. figure: (rows, cols) number of the connected figure that ink belongs to, 0 =
+            paper.
     """
     usual = np.zeros(int(figure.max(initial=0)) + 1)
     inked = figure > 0

@@ -38,7 +38,9 @@ class Chain:
 
 
 def chain_rows(frame: Frame, chains: Sequence[Chain]) -> Rows:
-    """Return closed lines (n, 8), mm, through the centres of some chains' pixels; a pixel alone is a line without length."""
+    """Return closed lines (n, 8), mm, through the centres of some chains' pixels; a pixel alone is a line without
+    length.
+    """
     rows = [np.zeros((0, 8))]
     for chain in chains:
         centres = frame.to_mm(chain.pixels()[:, ::-1].astype(np.float64) + 0.5)

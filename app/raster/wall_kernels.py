@@ -111,11 +111,15 @@ def close_seams(rows, free):
             continue
         if a[0] == b[0] and 0 < a[0] < free.shape[1]:
             i = int(a[0])
-            for j in range(int(max(math.floor(min(a[1], b[1])), 0)), int(min(math.ceil(max(a[1], b[1])), free.shape[0]))):
+            for j in range(
+                int(max(math.floor(min(a[1], b[1])), 0)), int(min(math.ceil(max(a[1], b[1])), free.shape[0]))
+            ):
                 if free[j, i - 1] == 1:
                     free[j, i] = 0
         elif a[1] == b[1] and 0 < a[1] < free.shape[0]:
             j = int(a[1])
-            for i in range(int(max(math.floor(min(a[0], b[0])), 0)), int(min(math.ceil(max(a[0], b[0])), free.shape[1]))):
+            for i in range(
+                int(max(math.floor(min(a[0], b[0])), 0)), int(min(math.ceil(max(a[0], b[0])), free.shape[1]))
+            ):
                 if free[j - 1, i] == 1:
                     free[j, i] = 0

@@ -96,5 +96,7 @@ def free_contours(frame: Frame, free: Mask) -> tuple[Contour, ...]:
 def _next_side(sides: NDArray[np.int64], k: int, waiting: list[int]) -> int:
     """Return which of the sides that begin where side k ends goes on with the same pixel: the one that turns left."""
     along = sides[k, 2:] - sides[k, :2]
-    turns = [(int(along[0] * -(sides[j, 3] - sides[j, 1]) + along[1] * (sides[j, 2] - sides[j, 0])), j) for j in waiting]
+    turns = [
+        (int(along[0] * -(sides[j, 3] - sides[j, 1]) + along[1] * (sides[j, 2] - sides[j, 0])), j) for j in waiting
+    ]
     return max(turns)[1] if turns else k

@@ -1,8 +1,8 @@
 """A cutter as numbers: a flat disc, rounded by a fillet, that goes over into a cone; every tool kind is a case of it.
 
-The profile is height(radius) over the tip. It is convex and does not fall, so the cutter (all that lies above it, within
-its radius) is convex, and the height of a cell over a straight move has one minimum. A concave form would be several
-convex pieces, each swept for itself: the lowest of their heights.
+The profile is height(radius) over the tip. It is convex and does not fall, so the cutter (all that lies above it,
+within its radius) is convex, and the height of a cell over a straight move has one minimum. A concave form would be
+several convex pieces, each swept for itself: the lowest of their heights.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ class Cutter:
         radius: the largest, mm, > 0.
         flat: radius of the flat disc at the tip, mm, in [0, radius].
         fillet: radius of the rounding between the disc and the cone, or the wall, mm, >= 0.
-        slope: rise of the cone per mm of radius, > 0; infinite where the fillet ends in a vertical wall or there is no cone.
+        slope: rise of the cone per mm of radius, > 0; infinite where the fillet ends in a vertical wall or there is no
+            cone.
         centre_cutting: whether it may go straight down into metal.
         lift: how far the tip is above the point that is led along the path, mm.
     """
@@ -44,15 +45,27 @@ class Cutter:
     lift: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (0 < self.radius < 1e6 and 0 <= self.flat <= self.radius and 0 <= self.fillet <= self.radius and self.slope > 0):
-            raise ParameterError(f"A cutter of radius {self.radius:g} mm with a flat of {self.flat:g} mm, a corner of {self.fillet:g} mm "
-                                 f"and a slope of {self.slope:g} is no shape; the flat and the corner must lie within the radius.")
+        if not (
+            0 < self.radius < 1e6
+            and 0 <= self.flat <= self.radius
+            and 0 <= self.fillet <= self.radius
+            and self.slope > 0
+        ):
+            raise ParameterError(
+                f"A cutter of radius {self.radius:g} mm with a flat of {self.flat:g} mm, a corner of {self.fillet:g} "
+                "mm "
+                f"and a slope of {self.slope:g} is no shape; the flat and the corner must lie within the radius."
+            )
         if self.rim_of_fillet > self.radius * (1 + 1e-12):
-            raise ParameterError(f"A corner of {self.fillet:g} mm round a flat of {self.flat:g} mm reaches over the cutter's "
-                                 f"radius, {self.radius:g} mm; use a smaller corner.")
+            raise ParameterError(
+                f"A corner of {self.fillet:g} mm round a flat of {self.flat:g} mm reaches over the cutter's "
+                f"radius, {self.radius:g} mm; use a smaller corner."
+            )
         if math.isinf(self.slope) and self.rim_of_fillet < self.radius * (1 - 1e-12):
-            raise ParameterError(f"A cutter of radius {self.radius:g} mm has no shape between its corner, at "
-                                 f"{self.rim_of_fillet:g} mm, and its rim; give its angle.")
+            raise ParameterError(
+                f"A cutter of radius {self.radius:g} mm has no shape between its corner, at "
+                f"{self.rim_of_fillet:g} mm, and its rim; give its angle."
+            )
 
     @property
     def fillet_span(self) -> float:
@@ -71,14 +84,19 @@ class Cutter:
         top = self.fillet - math.sqrt(max(self.fillet**2 - self.fillet_span**2, 0.0))
         if height < top:
             return self.flat + math.sqrt(max(self.fillet**2 - (self.fillet - height) ** 2, 0.0))
-        return self.radius if math.isinf(self.slope) else min(self.radius, self.rim_of_fillet + (height - top) / self.slope)
+        return (
+            self.radius
+            if math.isinf(self.slope)
+            else min(self.radius, self.rim_of_fillet + (height - top) / self.slope)
+        )
 
     def grown(self, by: float) -> Cutter:
         """Return the cutter that cuts, at a point, at least as deep as this one does within `by` mm of it; by >= 0."""
         return replace(self, radius=self.radius + by, flat=self.flat + by)
 
     def shrunk(self, by: float) -> Cutter | None:
-        """Return a cutter that cuts, at a point, nowhere deeper than this one does within `by` mm of it; None where nothing is left.
+        """Return a cutter that cuts, at a point, nowhere deeper than this one does within `by` mm of it; None where
+        nothing is left.
 
         The flat goes first, sideways. A fillet that ends in a wall shrinks towards its middle, which the profile moved
         sideways lies below; a cone or a fillet before one, nowhere steeper than the cone, moves up by its rise.
@@ -92,7 +110,9 @@ class Cutter:
             if not whole:
                 return Cutter(radius, lift=self.lift + by * self.slope, slope=self.slope)
             return replace(self, radius=radius, flat=flat, lift=self.lift + rest * self.slope)
-        return replace(self, radius=radius, flat=flat, fillet=min(self.fillet - rest, radius - flat), lift=self.lift + rest)
+        return replace(
+            self, radius=radius, flat=flat, fillet=min(self.fillet - rest, radius - flat), lift=self.lift + rest
+        )
 
     def heights(self, radii: Floats) -> Floats:
         """Return the profile over the tip, mm; infinite beyond the radius.
@@ -111,8 +131,8 @@ class Cutter:
 def cutter_of(tool: Tool) -> Cutter:
     """Return the cutter that a tool is.
 
-    A drill whose angle is not known has 118 degrees. Drills, balls, V tools and tapered mills cut at their centre; flat and
-    bull-nose mills with two or three flutes are taken to, with more they are not.
+    A drill whose angle is not known has 118 degrees. Drills, balls, V tools and tapered mills cut at their centre; flat
+    and bull-nose mills with two or three flutes are taken to, with more they are not.
 
     Raises:
         ParameterError: the tool lacks what its shape needs, or its numbers make no shape.
@@ -135,6 +155,8 @@ def _cone_slope(tool: Tool) -> float:
     """Return how a tool's cone rises per mm of radius."""
     angle = tool.tip_angle or (DRILL_ANGLE if tool.kind is ToolKind.DRILL else 0.0)
     if not LEAST_ANGLE <= angle < math.pi - LEAST_ANGLE:
-        raise ParameterError(f"T{tool.number}: the full angle of its cone is {math.degrees(angle):g} degrees; a {tool.kind.value} tool "
-                             "needs one from 1 to 179 degrees to be cut with.")
+        raise ParameterError(
+            f"T{tool.number}: the full angle of its cone is {math.degrees(angle):g} degrees; a {tool.kind.value} tool "
+            "needs one from 1 to 179 degrees to be cut with."
+        )
     return 1.0 / math.tan(angle / 2)

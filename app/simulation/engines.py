@@ -1,7 +1,7 @@
 """Which engine computes heights, and what happens when the graphics system cannot, or lies.
 
-The engine of record runs on the processor. Graphics systems are tried on a small job before anything is believed of them, and
-what they compute is compared with the engine of record wherever that has run as well.
+The engine of record runs on the processor. Graphics systems are tried on a small job before anything is believed of
+them, and what they compute is compared with the engine of record wherever that has run as well.
 """
 
 from __future__ import annotations
@@ -60,7 +60,9 @@ def quads(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: 
     return quad_heights(ctx, workpiece, course, cutters, progress)
 
 
-def published(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+def published(
+    ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+) -> Heights:
     """Compute heights as it was published, by facets in the depth buffer; see `DepthBuffer`."""
     from .gpu.depth_buffer import DepthBuffer
 
@@ -121,7 +123,10 @@ def trial_of(graphics: Graphics, engine: Engine) -> Trial:
     allowed: float | Floats = TOLERANCE
     if engine is Engine.PATENT:
         piece, course = trial()
-        compute, allowed = graphics.published, _allowed(record(), published_error(piece, course, CUTTERS), piece.grid.pitch)
+        compute, allowed = (
+            graphics.published,
+            _allowed(record(), published_error(piece, course, CUTTERS), piece.grid.pitch),
+        )
     try:
         with graphics.current() as context:
             renderer = renderer_of(context)
@@ -132,7 +137,10 @@ def trial_of(graphics: Graphics, engine: Engine) -> Trial:
         return Trial(renderer, f"{renderer or 'the graphics system'} fails ({_words(error)})")
     if found.agrees:
         return Trial(renderer, "")
-    return Trial(renderer, f"{renderer} computes wrong heights, in a trial up to {found.largest:.3g} mm off in {found.cells} cells")
+    return Trial(
+        renderer,
+        f"{renderer} computes wrong heights, in a trial up to {found.largest:.3g} mm off in {found.cells} cells",
+    )
 
 
 @cache
@@ -177,7 +185,10 @@ class HeightEngine:
 
     def __init__(self, engine: Engine, graphics: Graphics) -> None:
         """Prepare for an engine, not AUTO."""
-        self._graphics, self._compute = graphics, {Engine.GPU: graphics.quads, Engine.PATENT: graphics.published}.get(engine)
+        self._graphics, self._compute = (
+            graphics,
+            {Engine.GPU: graphics.quads, Engine.PATENT: graphics.published}.get(engine),
+        )
         self.told = Told(engine)
         done = trial_of(graphics, engine) if self._compute is not None else Trial("", "")
         if done.fault:
@@ -225,8 +236,11 @@ class HeightEngine:
         error = published_error(*job) if self.told.engine is Engine.PATENT else 0.0
         found = apart(record, heights, _allowed(record, error, job[0].grid.pitch))
         if not found.agrees:
-            self._fall_back(f"{self.told.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by more than "
-                            "its stated error")  # fmt: skip
+            self._fall_back(
+                f"{self.told.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by "
+                "more than "
+                "its stated error"
+            )
             return record
         self.told = replace(self.told, apart=found.joined(self.told.apart), error=max(error, self.told.error))
         return heights
@@ -246,7 +260,9 @@ def published_error(workpiece: Workpiece, course: Course, cutters: Cutters) -> f
 
 
 def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
-    """Return by how much heights may differ from those of the engine of record, mm; of facets that is more where it is steep."""
+    """Return by how much heights may differ from those of the engine of record, mm; of facets that is more where it is
+    steep.
+    """
     if not error:
         return TOLERANCE
     low, high = least_beside(record), -least_beside(-record)

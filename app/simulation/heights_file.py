@@ -28,7 +28,8 @@ def heights_files(workpiece: Workpiece, engine: Engine = Engine.CPU) -> tuple[by
 
 
 def _ensure_whole(name: str, data: bytes) -> None:
-    """Refuse a file whose header is damaged, or promises another number of heights than are there: numpy takes memory for them all.
+    """Refuse a file whose header is damaged, or promises another number of heights than are there: numpy takes memory
+    for them all.
 
     Raises:
         InputError: it is so.
@@ -39,14 +40,18 @@ def _ensure_whole(name: str, data: bytes) -> None:
         version = npy.read_magic(stream)
         shape, _, kind = (npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0)(stream)
         promised = math.prod(shape) * kind.itemsize
-    except Exception as error:  # numpy has Python itself read the header: any fault of a tokenizer, a parser or a number may come
+    except (
+        Exception
+    ) as error:  # numpy has Python itself read the header: any fault of a tokenizer, a parser or a number may come
         said = (str(error).splitlines() or [type(error).__name__])[0][:_QUOTED]
         raise InputError(f"{what}, for its header is damaged ({said}); write it again with --heights.") from None
     rest = len(data) - stream.tell()
     if min(shape, default=1) < 0 or promised != rest:
         size = " x ".join(str(count)[:_QUOTED] for count in shape[:4])
-        raise InputError(f"{what}, for its header promises {size} numbers of {kind.itemsize} bytes and {rest} bytes follow; "
-                         "write it again with --heights.")
+        raise InputError(
+            f"{what}, for its header promises {size} numbers of {kind.itemsize} bytes and {rest} bytes follow; "
+            "write it again with --heights."
+        )
 
 
 def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
@@ -64,13 +69,30 @@ def read_heights(name: str, heights: bytes, where: bytes) -> HeightStock:
         field = np.load(io.BytesIO(heights), allow_pickle=False)
         told = json.loads(where)
         place = [float(told[key]) for key in ("x0", "y0", "pitch")]
-        if field.ndim != 2 or not np.issubdtype(field.dtype, np.floating) or not field.size or not (np.abs(field) <= _FARTHEST).all():
+        if (
+            field.ndim != 2
+            or not np.issubdtype(field.dtype, np.floating)
+            or not field.size
+            or not (np.abs(field) <= _FARTHEST).all()
+        ):
             raise ValueError(f"the heights are no table of numbers up to {_FARTHEST:g} mm")
         floor = float(told.get("floor", field.min()))
         if not all(abs(length) <= _FARTHEST for length in (*place, floor)):
             raise ValueError(f"a length in it is no number up to {_FARTHEST:g} mm")
         grid = Grid(place[0], place[1], place[2], *field.shape)
-    except (ValueError, KeyError, TypeError, AttributeError, EOFError, OSError, OverflowError, RecursionError, ParameterError) as error:
-        raise InputError(f"{name}: this is no field of heights with x0, y0 and pitch in its JSON file ({str(error)[:_QUOTED]}); "
-                         "write it again with --heights.") from error
+    except (
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        EOFError,
+        OSError,
+        OverflowError,
+        RecursionError,
+        ParameterError,
+    ) as error:
+        raise InputError(
+            f"{name}: this is no field of heights with x0, y0 and pitch in its JSON file ({str(error)[:_QUOTED]}); "
+            "write it again with --heights."
+        ) from error
     return HeightStock(Workpiece(grid, np.ascontiguousarray(field, np.float32), floor))

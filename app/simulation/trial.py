@@ -1,4 +1,6 @@
-"""A small job that every way to compute heights is tried on: all kinds of cutters, arcs, plunges, slopes up and down."""
+"""A small job that every way to compute heights is tried on: all kinds of cutters, arcs, plunges, slopes up and
+down.
+"""
 
 from __future__ import annotations
 
@@ -26,15 +28,30 @@ CELLS = 160
 """Along a side of it."""
 
 CUTTERS: dict[int, Cutter] = {
-    1: Cutter(2.0, 0.0, 2.0), 2: Cutter(2.0, 2.0), 3: Cutter(2.0, 1.25, 0.75), 4: Cutter(2.0, 0.4, 0.0, 1.5),
+    1: Cutter(2.0, 0.0, 2.0),
+    2: Cutter(2.0, 2.0),
+    3: Cutter(2.0, 1.25, 0.75),
+    4: Cutter(2.0, 0.4, 0.0, 1.5),
     5: Cutter(2.0, 0.0, 0.5, 3.0),
-}  # fmt: skip
+}
 """A ball, a flat end, a bull nose, a blunt cone, a taper."""
 
-_WALK = np.array([
-    [0.0, 0.0, 2.0], [0.0, 0.0, -1.5], [3.1, 0.7, -1.5], [4.0, 3.0, -3.2], [3.2, 4.1, -0.3], [0.6, 3.7, -2.0], [0.61, 3.71, -2.01],
-    [0.4, 2.0, -6.0], [1.3, 2.3, -5.0], [5.0, 2.9, -4.0], [5.0, 2.9, -7.0], [5.0, 2.9, 2.0],
-])  # fmt: skip
+_WALK = np.array(
+    [
+        [0.0, 0.0, 2.0],
+        [0.0, 0.0, -1.5],
+        [3.1, 0.7, -1.5],
+        [4.0, 3.0, -3.2],
+        [3.2, 4.1, -0.3],
+        [0.6, 3.7, -2.0],
+        [0.61, 3.71, -2.01],
+        [0.4, 2.0, -6.0],
+        [1.3, 2.3, -5.0],
+        [5.0, 2.9, -4.0],
+        [5.0, 2.9, -7.0],
+        [5.0, 2.9, 2.0],
+    ]
+)
 """mm; what each cutter does in a place of its own."""
 
 _PLACES = ((2.3, 2.1), (12.4, 3.2), (21.7, 2.6), (3.1, 13.3), (13.9, 12.7))

@@ -41,8 +41,10 @@ class BitmapCheck:
         if self.wrong == 0:
             return []
         x, y = self.place
-        text = (f"The contour path differs from the bitmap fill in {self.wrong} pixels, first at ({x:.3f}, {y:.3f}). "
-                "Do not machine this; please report the drawing.")
+        text = (
+            f"The contour path differs from the bitmap fill in {self.wrong} pixels, first at ({x:.3f}, {y:.3f}). "
+            "Do not machine this; please report the drawing."
+        )
         return [Finding(FindingKind.TOLERANCE, text, x, y, amount=float(self.wrong))]
 
 
@@ -65,11 +67,15 @@ def check_on_bitmap(field: DistanceField, level: Level, observer: Observer | Non
     differs = ((part.plane == PixelCode.INSIDE) & far) != (shrunk.plane == PixelCode.INSIDE)
     wrong = np.argwhere(differs & ~_near_contours(part) & ~_near_contours(shrunk))
     place = (float(x[wrong[0][1]]), float(y[wrong[0][0]])) if len(wrong) else (0.0, 0.0)
-    return BitmapCheck(area_mm2(shrunk).estimate, sum(ring.area for ring in level.rings), len(wrong), place, frame.pitch)
+    return BitmapCheck(
+        area_mm2(shrunk).estimate, sum(ring.area for ring in level.rings), len(wrong), place, frame.pitch
+    )
 
 
 def _near_contours(codes: Codes) -> NDArray[np.bool_]:
-    """Return the contour pixels and their eight neighbours; here by shifts, since a library for one picture takes longer to load."""
+    """Return the contour pixels and their eight neighbours; here by shifts, since a library for one picture takes
+    longer to load.
+    """
     near: NDArray[np.bool_] = (codes.plane != PixelCode.EMPTY) & (codes.plane != PixelCode.INSIDE)
     for sideways in (near, near.T):
         contour = sideways.copy()

@@ -98,23 +98,33 @@ class Stroke:
             return self.part(0, row + 1), self.part(row + 1, len(self.rows))
         first, second = split_row(self.rows[row], fraction)
         before, after = self.part(0, row + 1), self.part(row, len(self.rows))
-        return (replace(before, rows=np.concatenate([before.rows[:-1], first[None]])),
-                replace(after, rows=np.concatenate([second[None], after.rows[1:]])))
+        return (
+            replace(before, rows=np.concatenate([before.rows[:-1], first[None]])),
+            replace(after, rows=np.concatenate([second[None], after.rows[1:]])),
+        )
 
     def and_then(self, other: Stroke) -> Stroke:
         """Return one stroke of this one and another that begins where it ends."""
         least_z = None
         if self.least_z is not None or other.least_z is not None:
-            least_z = np.concatenate([np.full(len(each.rows), -np.inf) if each.least_z is None else each.least_z for each in (self, other)])
-        return replace(self, rows=np.concatenate([self.rows, other.rows]), purpose=np.concatenate([self.purpose, other.purpose]),
-                       least_z=least_z)
+            least_z = np.concatenate(
+                [np.full(len(each.rows), -np.inf) if each.least_z is None else each.least_z for each in (self, other)]
+            )
+        return replace(
+            self,
+            rows=np.concatenate([self.rows, other.rows]),
+            purpose=np.concatenate([self.purpose, other.purpose]),
+            least_z=least_z,
+        )
 
 
 class MovesBuilder:
     """Appends moves; knows where the tool is."""
 
     def __init__(self) -> None:
-        self._columns: list[tuple[Rows, Rows, NDArray[np.uint8], Purpose | NDArray[np.uint8], Label, int, float | NDArray[np.float64]]] = []
+        self._columns: list[
+            tuple[Rows, Rows, NDArray[np.uint8], Purpose | NDArray[np.uint8], Label, int, float | NDArray[np.float64]]
+        ] = []
 
     @property
     def at(self) -> tuple[float, float, float]:
@@ -142,26 +152,36 @@ class MovesBuilder:
             if first:
                 x, y = stroke.rows[first, :2].tolist()
                 up = heights[first] > heights[first - 1]
-                self.straight((x, y, float(heights[first])), Purpose.TAB if up else Purpose.PLUNGE, label, stroke.region)
+                self.straight(
+                    (x, y, float(heights[first])), Purpose.TAB if up else Purpose.PLUNGE, label, stroke.region
+                )
             self._path(stroke.part(first, k), heights[first:k], label, label.feed)
             first = k
 
     def ramp(self, stroke: Stroke, heights: NDArray[np.float64], label: Label) -> None:
-        """Append a way down along a stroke, each row of it ending at its own height (n,), mm, and no row faster than may be.
+        """Append a way down along a stroke, each row of it ending at its own height (n,), mm, and no row faster than
+        may be.
 
-        The cutter cuts with its end and with all of its width, so it goes at half the feed rate, and down no faster than a plunge.
+        The cutter cuts with its end and with all of its width, so it goes at half the feed rate, and down no faster
+        than a plunge.
         """
         fall = np.abs(np.diff(heights, prepend=self.at[2]))
         slope = fall / np.maximum(np.hypot(lengths(stroke.rows), fall), 1e-12)
-        feed = np.minimum(max(label.feed / 2, min(label.plunge_rate, label.feed)), label.plunge_rate / np.maximum(slope, 1e-9))
+        feed = np.minimum(
+            max(label.feed / 2, min(label.plunge_rate, label.feed)), label.plunge_rate / np.maximum(slope, 1e-9)
+        )
         self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
 
-    def _path(self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: float | NDArray[np.float64]) -> None:
+    def _path(
+        self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: float | NDArray[np.float64]
+    ) -> None:
         rows = stroke.rows
         arcs = rows[:, TURN] != 0
         end = np.column_stack([rows[:, X1:CX], heights])
         centre = np.where(arcs[:, None], rows[:, CX:R], math.nan)
-        kind = np.where(arcs, np.where(rows[:, TURN] > 0, MoveKind.ARC_CCW, MoveKind.ARC_CW), MoveKind.LINE).astype(np.uint8)
+        kind = np.where(arcs, np.where(rows[:, TURN] > 0, MoveKind.ARC_CCW, MoveKind.ARC_CW), MoveKind.LINE).astype(
+            np.uint8
+        )
         self._columns.append((end, centre, kind, stroke.purpose, label, stroke.region, feed))
 
     def moves(self) -> Moves:
@@ -185,17 +205,25 @@ def _spread(values: Sequence[float | NDArray[Any]], counts: NDArray[np.int64], k
     single = np.array([not isinstance(value, np.ndarray) for value in values], np.bool_)
     found = np.empty(int(counts.sum()), kind)
     of = np.repeat(single, counts)
-    found[of] = np.repeat(np.array([value for value in values if not isinstance(value, np.ndarray)], kind), counts[single])
+    found[of] = np.repeat(
+        np.array([value for value in values if not isinstance(value, np.ndarray)], kind), counts[single]
+    )
     found[~of] = np.concatenate([np.zeros(0, kind), *(value for value in values if isinstance(value, np.ndarray))])
     return found
 
 
 def merged(stroke: Stroke) -> Stroke:
-    """Return a stroke whose neighbouring arcs of one circle, purpose and least height are one, but never a full turn or more."""
+    """Return a stroke whose neighbouring arcs of one circle, purpose and least height are one, but never a full turn or
+    more.
+    """
     rows, purpose, least_z = stroke.rows, stroke.purpose, stroke.least_z
-    same = ((rows[1:, TURN] != 0) & (rows[1:, TURN] == rows[:-1, TURN]) & (purpose[1:] == purpose[:-1])
-            & (np.hypot(rows[1:, CX] - rows[:-1, CX], rows[1:, CY] - rows[:-1, CY]) < _SAME_CENTRE)
-            & (np.abs(rows[1:, R] - rows[:-1, R]) < _SAME_CENTRE))
+    same = (
+        (rows[1:, TURN] != 0)
+        & (rows[1:, TURN] == rows[:-1, TURN])
+        & (purpose[1:] == purpose[:-1])
+        & (np.hypot(rows[1:, CX] - rows[:-1, CX], rows[1:, CY] - rows[:-1, CY]) < _SAME_CENTRE)
+        & (np.abs(rows[1:, R] - rows[:-1, R]) < _SAME_CENTRE)
+    )
     if least_z is not None:
         same &= least_z[1:] == least_z[:-1]
     if not same.any():
@@ -210,7 +238,9 @@ def merged(stroke: Stroke) -> Stroke:
         joined.append(rows[i].copy())
         kept.append(i)
         total = turn[i]
-    return replace(stroke, rows=np.array(joined), purpose=purpose[kept], least_z=None if least_z is None else least_z[kept])
+    return replace(
+        stroke, rows=np.array(joined), purpose=purpose[kept], least_z=None if least_z is None else least_z[kept]
+    )
 
 
 def split_row(row: Rows, fraction: float) -> tuple[Rows, Rows]:
@@ -232,4 +262,4 @@ def started_at(rows: Rows, index: int, fraction: float) -> Rows:
     if fraction >= 1:
         return started_at(rows, (index + 1) % len(rows), 0.0)
     first, second = split_row(rows[index], fraction)
-    return np.concatenate([second[None], rows[index + 1:], rows[:index], first[None]])
+    return np.concatenate([second[None], rows[index + 1 :], rows[:index], first[None]])

@@ -48,10 +48,12 @@ class _Ground:
         first, self._count = self._count, self._count + len(rows)
         if self._count > len(self._rows):
             size = 2 * self._count
-            self._rows, self._reach, self._boxes = (_longer(each, size) for each in (self._rows, self._reach, self._boxes))
+            self._rows, self._reach, self._boxes = (
+                _longer(each, size) for each in (self._rows, self._reach, self._boxes)
+            )
             self._order = _longer(self._order, size)
-        self._rows[first:self._count] = rows
-        self._reach[first:self._count, 0], self._reach[first:self._count, 1] = z, radius
+        self._rows[first : self._count] = rows
+        self._reach[first : self._count, 0], self._reach[first : self._count, 1] = z, radius
         for height in set(z.tolist()):
             self._note(height)
         loose = self._trees.pop()[:3] if self._trees and not self._trees[-1][3] else (first, 0, self._nodes_used())
@@ -61,7 +63,9 @@ class _Ground:
         self._forest = None
 
     def beyond(self, place: Point, z: float, enough: float) -> tuple[float, Row | None]:
-        """Return how far a place is from ground cut down to z, mm, negative within it, and the row that it is nearest to."""
+        """Return how far a place is from ground cut down to z, mm, negative within it, and the row that it is nearest
+        to.
+        """
         if not self._count:
             return np.inf, None
         gap, row = kernels.beyond(*self._arrays(), *place, z, enough, np.inf)
@@ -74,7 +78,9 @@ class _Ground:
         return bool(self._count and kernels.covers(*self._arrays(), way, radius, z + _SAME_HEIGHT, slack, _BUDGET))
 
     def covered_after(self, places: NDArray[np.float64], k: int, radius: float, z: float) -> int:
-        """Return the first place (m, 2) from number k on at which a disc lies on ground cut down to z; -1 where there is none."""
+        """Return the first place (m, 2) from number k on at which a disc lies on ground cut down to z; -1 where there
+        is none.
+        """
         if not self._count:
             return -1
         slack = max(_SLACK * radius, tolerances.LEVEL)
@@ -95,18 +101,18 @@ class _Ground:
     def _plant(self) -> None:
         """Make one tree of the loose rows and of all trees before them that are no larger."""
         first, count, node, _ = self._trees.pop()
-        self._boxes[first:self._count] = boxes(self._rows[first:self._count])
+        self._boxes[first : self._count] = boxes(self._rows[first : self._count])
         while self._trees and self._trees[-1][1] <= count:
             first, more, node, _ = self._trees.pop()
             count += more
-        order, nodes = build_tree(self._boxes[first:self._count])
+        order, nodes = build_tree(self._boxes[first : self._count])
         leaves = (len(nodes) + 1) // 2
         if node + len(nodes) > len(self._nodes):
             size = 2 * (node + len(nodes))
             self._nodes, self._best = _longer(self._nodes, size), _longer(self._best, size)
-        self._order[first:self._count] = order
-        self._nodes[node:node + len(nodes)] = nodes
-        self._best[node:node + len(nodes)] = kernels.bounds(self._reach[first:self._count], order, leaves)
+        self._order[first : self._count] = order
+        self._nodes[node : node + len(nodes)] = nodes
+        self._best[node : node + len(nodes)] = kernels.bounds(self._reach[first : self._count], order, leaves)
         self._trees.append((first, count, node, leaves))
 
     def _arrays(self) -> tuple[NDArray[Any], ...]:
@@ -118,7 +124,7 @@ class _Ground:
 
 def _longer(array: NDArray[Any], size: int) -> NDArray[Any]:
     longer = np.empty((size, *array.shape[1:]), array.dtype)
-    longer[:len(array)] = array
+    longer[: len(array)] = array
     return longer
 
 
@@ -126,8 +132,8 @@ def _longer(array: NDArray[Any], size: int) -> NDArray[Any]:
 class Cleared:
     """Ground cut so far, by all tools.
 
-    A flat end clears all that it sweeps. A cutter of another shape is not as wide at its tip, so beside what its flat part
-    sweeps only the very places it has been at are clear, and only for itself.
+    A flat end clears all that it sweeps. A cutter of another shape is not as wide at its tip, so beside what its flat
+    part sweeps only the very places it has been at are clear, and only for itself.
     """
 
     wells: dict[tuple[float, float, float], float] = field(default_factory=dict)
@@ -163,7 +169,9 @@ class Cleared:
         own = self._own.get(tool.number)
         if own is None or more:
             return flat
-        return min(flat, _deepest(own, lambda z: own.beyond(place, z + _SAME_HEIGHT, tolerances.WELD)[0] <= tolerances.WELD))
+        return min(
+            flat, _deepest(own, lambda z: own.beyond(place, z + _SAME_HEIGHT, tolerances.WELD)[0] <= tolerances.WELD)
+        )
 
     def nearest(self, place: Point, z: float) -> tuple[float, Row | None]:
         """Return how far a place is from ground that flat ends have cut down to z, mm, and the path (8,) there.
@@ -177,7 +185,9 @@ class Cleared:
         return z >= 0 or self._flat.covers(a, b, tool.radius, z)
 
     def clear_places(self, tool: Tool, places: Sequence[Point], z: float) -> Iterator[int]:
-        """Give the numbers of the places at which a cutter with its tip at height z touches no metal, in order, each as it is asked for."""
+        """Give the numbers of the places at which a cutter with its tip at height z touches no metal, in order, each as
+        it is asked for.
+        """
         if z >= 0:
             yield from range(len(places))
             return
@@ -198,7 +208,9 @@ def flat_radius(tool: Tool) -> float:
 
 
 def _deepest(ground: _Ground, is_clear: Callable[[float], bool]) -> float:
-    """Return the lowest of a ground's heights that is clear, 0 where none is; what is clear at one is at all higher ones."""
+    """Return the lowest of a ground's heights that is clear, 0 where none is; what is clear at one is at all higher
+    ones.
+    """
     depths = ground.depths()
     low, high = 0, len(depths)
     while low < high:

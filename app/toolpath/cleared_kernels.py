@@ -1,8 +1,10 @@
-"""Compiled inner loops on ground that is cut: how far a place is from it, whether all of a straight way lies on it; and walls along a way.
+"""Compiled inner loops on ground that is cut: how far a place is from it, whether all of a straight way lies on it; and
+walls along a way.
 
-Cut ground is a forest: rows of all paths, one tree of boxes after the other, as `app.geometry.kernels` builds them. Each row
-knows how deep it was cut and how far the cutter reached beside it; each node the deepest and the farthest of its rows. The last
-tree may have no leaves: its rows are looked at one by one. A tree's line says: its first row, how many rows, its first node, its leaves.
+Cut ground is a forest: rows of all paths, one tree of boxes after the other, as `app.geometry.kernels` builds them.
+Each row knows how deep it was cut and how far the cutter reached beside it; each node the deepest and the farthest of
+its rows. The last tree may have no leaves: its rows are looked at one by one. A tree's line says: its first row, how
+many rows, its first node, its leaves.
 """
 
 from __future__ import annotations
@@ -33,7 +35,8 @@ def bounds(reach, order, leaves):
 
 @kernel(f"Tuple((float64, int64))({_FOREST}, float64, float64, float64, float64, float64)")
 def beyond(rows, reach, order, nodes, best, trees, x, y, z, enough, limit):
-    """Return how far a place is from ground cut down to z or deeper, mm, negative within it, and by which row; (limit, -1): no nearer.
+    """Return how far a place is from ground cut down to z or deeper, mm, negative within it, and by which row; (limit,
+    -1): no nearer.
 
     It is looked for no longer when something at or below `enough` is found.
     """
@@ -77,7 +80,8 @@ def beyond(rows, reach, order, nodes, best, trees, x, y, z, enough, limit):
 
 @kernel(f"boolean({_FOREST}, float64[::1], float64, float64, float64, int64)")
 def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget):
-    """Return whether a disc that goes straight from (way[0], way[1]) to (way[2], way[3]) stays on ground cut down to z, within `slack`.
+    """Return whether a disc that goes straight from (way[0], way[1]) to (way[2], way[3]) stays on ground cut down to z,
+    within `slack`.
 
     Squares along the way: one whose centre is farther inside than its corners are away is on it; what is not decided is
     divided in four. Behind an end at which the disc lies within one cut's reach all is on it, however the edges touch.
@@ -108,7 +112,19 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
         budget -= 1
         if budget < 0:
             return False
-        gap = beyond(rows, reach, order, nodes, best, trees, ax + ux * u - uy * v, ay + uy * u + ux * v, z, slack - q, slack + 1e-9)[0]
+        gap = beyond(
+            rows,
+            reach,
+            order,
+            nodes,
+            best,
+            trees,
+            ax + ux * u - uy * v,
+            ay + uy * u + ux * v,
+            z,
+            slack - q,
+            slack + 1e-9,
+        )[0]
         if gap + q <= slack:
             continue
         if (gap > slack and off < radius) or q <= slack / 2.0:
@@ -126,7 +142,9 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
 
 @kernel(f"int64({_FOREST}, float64[:, ::1], int64, float64, float64, float64, int64)")
 def covered_after(rows, reach, order, nodes, best, trees, places, begin, radius, z, slack, budget):
-    """Return the first of some places (m, 2) from number `begin` on at which a disc stays on cut ground, as `covers`; -1: at none."""
+    """Return the first of some places (m, 2) from number `begin` on at which a disc stays on cut ground, as `covers`;
+    -1: at none.
+    """
     way = np.empty(4)
     for k in range(begin, len(places)):
         way[0] = way[2] = places[k, 0]

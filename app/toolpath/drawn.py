@@ -1,4 +1,6 @@
-"""What of a drawing a job machines: contours of its layers, its copies, open lines, and the clamps that no tool may touch."""
+"""What of a drawing a job machines: contours of its layers, its copies, open lines, and the clamps that no tool may
+touch.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,8 @@ class Drawn:
         closed: contours of the wanted layers.
         open: lines that are not closed, and all strokes of letters.
         crossing: True where closed ones may cross, themselves or one another.
-        clamps: what closed outlines of keep-out layers hold, one region an outline, without islands; they may overlap. Not copied.
+        clamps: what closed outlines of keep-out layers hold, one region an outline, without islands; they may overlap.
+            Not copied.
         findings: about the drawing.
     """
 
@@ -75,7 +78,9 @@ def drawn(job: Job) -> Drawn:
     layers = layers_of(job)
     entities = [e for e in job.part.entities if e.layer in layers and not e.lettering]
     chaining = chain(entities, job.join_tolerance)
-    strokes, about_strokes = strokes_of([e for e in job.part.entities if e.layer in layers and e.lettering], job.join_tolerance)
+    strokes, about_strokes = strokes_of(
+        [e for e in job.part.entities if e.layer in layers and e.lettering], job.join_tolerance
+    )
     closed = [contour for contour in chaining.contours if contour.closed]
     lines = [contour for contour in chaining.contours if not contour.closed]
     doubts = about_chaining(entities, chaining, job.join_tolerance)
@@ -95,8 +100,8 @@ def _crosses(findings: Sequence[Finding]) -> bool:
 def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     """Return what the outlines of keep-out layers hold, and what is to say about them.
 
-    An outline holds all that is in it: a bolt that is drawn inside of a clamp is no hole in it, and where two clamps lie over one
-    another is no gap between them.
+    An outline holds all that is in it: a bolt that is drawn inside of a clamp is no hole in it, and where two clamps
+    lie over one another is no gap between them.
     """
     wanted = set(job.keep_out_layers)
     if not wanted:
@@ -104,11 +109,23 @@ def clamps_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     entities = [e for e in job.part.entities if e.layer in wanted and not e.lettering]
     chaining = chain(entities, job.join_tolerance)
     closed = [contour for contour in chaining.contours if contour.closed]
-    findings = [Finding(FindingKind.OPEN_CONTOUR, f"An outline of keep-out layer '{contour.layer}' is open at ({x:.3f}, {y:.3f}), "
-                        "so it keeps nothing out; close it.", x, y, entity_ids=contour.entity_ids)
-                for contour in chaining.contours if not contour.closed for x, y in [contour.primitives[-1].end]]  # fmt: skip
+    findings = [
+        Finding(
+            FindingKind.OPEN_CONTOUR,
+            f"An outline of keep-out layer '{contour.layer}' is open at ({x:.3f}, {y:.3f}), "
+            "so it keeps nothing out; close it.",
+            x,
+            y,
+            entity_ids=contour.entity_ids,
+        )
+        for contour in chaining.contours
+        if not contour.closed
+        for x, y in [contour.primitives[-1].end]
+    ]
     if not closed:
-        findings.append(Finding(FindingKind.LEFT_OUT, f"Keep-out layers {', '.join(job.keep_out_layers)} have no closed outline."))
+        findings.append(
+            Finding(FindingKind.LEFT_OUT, f"Keep-out layers {', '.join(job.keep_out_layers)} have no closed outline.")
+        )
     if _crosses(chaining.findings):
         plain = [without_crossings([contour]) for contour in closed]
         closed = [part for each in plain for part in each.contours]
@@ -123,14 +140,18 @@ def outermost(contours: Sequence[Contour]) -> tuple[Region, ...]:
     around = np.array([extent([each]) for each in contours]).reshape(-1, 4)
 
     def is_held(k: int) -> bool:
-        wide = (around[:, :2] <= around[k, :2] + _CHORD).all(axis=1) & (around[:, 2:] >= around[k, 2:] - _CHORD).all(axis=1)
+        wide = (around[:, :2] <= around[k, :2] + _CHORD).all(axis=1) & (around[:, 2:] >= around[k, 2:] - _CHORD).all(
+            axis=1
+        )
         larger = (areas > areas[k]) | ((areas == areas[k]) & (np.arange(len(areas)) < k))
         left = (even_odd([contours[k]], [contours[j]]) for j in np.flatnonzero(wide & larger).tolist())
         return any(each.area <= each.length * tolerances.WELD for each in left)
 
     kept = [each for k, each in enumerate(contours) if areas[k] > 0 and not is_held(k)]
-    return tuple(Region(number, each if signed_area(contour_rows(each)) > 0 else reversed_contour(each))
-                 for number, each in enumerate(kept, 1))
+    return tuple(
+        Region(number, each if signed_area(contour_rows(each)) > 0 else reversed_contour(each))
+        for number, each in enumerate(kept, 1)
+    )
 
 
 def boxes_near(contours: Sequence[Contour], others: Sequence[Contour]) -> list[int]:
@@ -165,12 +186,18 @@ def _under_clamps(contours: Sequence[Contour], clamps: Sequence[Region]) -> list
     if whole:
         x, y = whole[0].primitives[0].start
         what = "The contour that begins" if len(whole) == 1 else f"{len(whole)} contours, of which the first begins"
-        text = f"{what} at ({x:.3f}, {y:.3f}) {'lies' if len(whole) == 1 else 'lie'} wholly under clamps, and nothing is machined there."
+        text = (
+            f"{what} at ({x:.3f}, {y:.3f}) {'lies' if len(whole) == 1 else 'lie'} wholly under clamps, and nothing "
+            "is machined there."
+        )
         ids = tuple(dict.fromkeys(number for contour in whole for number in contour.entity_ids))
         findings.append(Finding(FindingKind.LEFT_OUT, text, x, y, entity_ids=ids, amount=float(len(whole))))
     partly = int(np.sum(~inside & shapely.intersects(held, shapely.boundary(shapes))))
     if partly:
-        text = f"Clamps lie over parts of {partly} {'contour' if partly == 1 else 'contours'}; what is under them is not machined."
+        text = (
+            f"Clamps lie over parts of {partly} {'contour' if partly == 1 else 'contours'}; what is under them is "
+            "not machined."
+        )
         findings.append(Finding(FindingKind.LEFT_OUT, text, counts=False, amount=float(partly)))
     return findings
 
@@ -190,20 +217,30 @@ def moved(primitive: Primitive, dx: float, dy: float) -> Primitive:
 
 def _copied(contours: Sequence[Contour], shifts: Sequence[Point]) -> tuple[Contour, ...]:
     return tuple(
-        contour if (dx, dy) == (0, 0) else replace(contour, primitives=tuple(moved(each, dx, dy) for each in contour.primitives))
-        for dx, dy in shifts for contour in contours
-    )  # fmt: skip
+        contour
+        if (dx, dy) == (0, 0)
+        else replace(contour, primitives=tuple(moved(each, dx, dy) for each in contour.primitives))
+        for dx, dy in shifts
+        for contour in contours
+    )
 
 
 def _copies_meet(contours: Sequence[Contour], job: Job) -> list[Finding]:
-    """Return the finding that lines of copies meet, if some do; copies that reach into one another without touching are none."""
+    """Return the finding that lines of copies meet, if some do; copies that reach into one another without touching are
+    none.
+    """
     box, copies = extent(contours), job.copies
     if box is None or len(copies.shifts) == 1:
         return []
     lines = shapely.union_all([shapely.boundary(shape) for shape in filled(contours)])
     shapely.prepare(lines)
-    across, up = (min(count - 1, int(size / abs(step)) + 1) if count > 1 else 0
-                  for count, step, size in ((copies.columns, copies.dx, box[2] - box[0]), (copies.rows, copies.dy, box[3] - box[1])))
+    across, up = (
+        min(count - 1, int(size / abs(step)) + 1) if count > 1 else 0
+        for count, step, size in (
+            (copies.columns, copies.dx, box[2] - box[0]),
+            (copies.rows, copies.dy, box[3] - box[1]),
+        )
+    )
     for column, row in ((i, j) for j in range(up + 1) for i in range(-across if j else 1, across + 1)):
         dx, dy = column * copies.dx, row * copies.dy
         gap = float(shapely.distance(lines, shapely.affinity.translate(lines, dx, dy)))

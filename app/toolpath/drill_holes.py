@@ -65,7 +65,12 @@ def circle_of(contour: Contour) -> Hole | None:
 def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:
     """Return the circles of a drill operation, in the order of the drawing."""
     tool, layers = job.tool(operation.cut.tool), frozenset(operation.cut.layers)
-    circles = [hole for contour in drawn.closed if not layers or contour.layer in layers if (hole := circle_of(contour)) is not None]
+    circles = [
+        hole
+        for contour in drawn.closed
+        if not layers or contour.layer in layers
+        if (hole := circle_of(contour)) is not None
+    ]
     least, most = _asked(operation, tool)
     asked = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
     others = tuple(hole for hole in circles if not least - 1e-6 <= hole.diameter <= most + 1e-6)
@@ -87,7 +92,9 @@ def _once_a_place(holes: Iterable[Hole]) -> list[Hole]:
     widest: dict[tuple[int, int], Hole] = {}
     for hole in holes:
         place = round(hole.x / CURVE), round(hole.y / CURVE)
-        key = next((key for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (key := (place[0] + dx, place[1] + dy)) in widest), place)
+        key = next(
+            (key for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (key := (place[0] + dx, place[1] + dy)) in widest), place
+        )
         if key not in widest or hole.diameter > widest[key].diameter:
             widest[key] = hole
     return list(widest.values())
@@ -100,18 +107,24 @@ def _free(holes: list[Hole], job: Job, drawn: Drawn, operation: DrillOperation) 
     clamps = shapely.union_all(region_shapes(drawn.clamps, _CHORD))
     far = shapely.distance(shapely.points([(hole.x, hole.y) for hole in holes]), clamps)
     reach = _reach(job.tool(operation.cut.tool), tip_depth(job, operation), job.keep_out_height) + _CHORD
-    return ([hole for hole, room in zip(holes, far.tolist(), strict=True) if room >= reach],
-            [hole for hole, room in zip(holes, far.tolist(), strict=True) if room < reach])
+    return (
+        [hole for hole, room in zip(holes, far.tolist(), strict=True) if room >= reach],
+        [hole for hole, room in zip(holes, far.tolist(), strict=True) if room < reach],
+    )
 
 
 def _reach(tool: Tool, depth: float, height: float) -> float:
-    """Return how far from the hole's centre there must be no clamp, mm: for the drill, and for a holder that comes as low as clamps."""
+    """Return how far from the hole's centre there must be no clamp, mm: for the drill, and for a holder that comes as
+    low as clamps.
+    """
     low = tool.holder and tool.stick_out and tool.stick_out - depth < height
     return max([tool.radius, *(radius for _, radius in tool.holder)]) if low else tool.radius
 
 
 def tip_depth(job: Job, operation: DrillOperation) -> float:
-    """Return how deep the drill's tip goes, mm: its full width goes to the depth where its angle is known, else the tip does."""
+    """Return how deep the drill's tip goes, mm: its full width goes to the depth where its angle is known, else the tip
+    does.
+    """
     return operation.cut.floor + operation.through + tip_length(job.tool(operation.cut.tool))
 
 
@@ -121,23 +134,43 @@ def tip_length(tool: Tool) -> float:
 
 
 def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Region, ...]:
-    """Return the discs that a drill operation's cutter stays in: its circles, or its own width where it is wider by up to `ALIKE`."""
+    """Return the discs that a drill operation's cutter stays in: its circles, or its own width where it is wider by up
+    to `ALIKE`.
+    """
     radius = job.tool(operation.cut.tool).radius
-    return tuple(Region(number, Contour((Circle((hole.x, hole.y), max(hole.diameter / 2, radius)),)))
-                 for number, hole in enumerate(holes_of(job, drawn, operation).drilled, 1))
+    return tuple(
+        Region(number, Contour((Circle((hole.x, hole.y), max(hole.diameter / 2, radius)),)))
+        for number, hole in enumerate(holes_of(job, drawn, operation).drilled, 1)
+    )
 
 
 def made_by_drills(job: Job, drawn: Drawn) -> frozenset[Hole]:
-    """Return the circles that drill operations make as wide as they are drawn: for mills these are no walls, and no lines to follow."""
+    """Return the circles that drill operations make as wide as they are drawn: for mills these are no walls, and no
+    lines to follow.
+    """
     drills = [each for each in job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
-    return frozenset(hole for each in drills for hole in holes_of(job, drawn, each).drilled
-                     if hole.diameter <= job.tool(each.cut.tool).diameter + ALIKE + 1e-6)  # fmt: skip
+    return frozenset(
+        hole
+        for each in drills
+        for hole in holes_of(job, drawn, each).drilled
+        if hole.diameter <= job.tool(each.cut.tool).diameter + ALIKE + 1e-6
+    )
 
 
 def across_holes(findings: Iterable[Finding], job: Job, drawn: Drawn) -> list[Finding]:
-    """Return findings about a drawing, of which those do not count that tell that something crosses a circle which drills make."""
+    """Return findings about a drawing, of which those do not count that tell that something crosses a circle which
+    drills make.
+    """
     findings = list(findings)
-    made = made_by_drills(job, drawn) if any(each.kind is FindingKind.SELF_INTERSECTION for each in findings) else frozenset()
+    made = (
+        made_by_drills(job, drawn)
+        if any(each.kind is FindingKind.SELF_INTERSECTION for each in findings)
+        else frozenset()
+    )
     ids = {number for contour in drawn.closed if made and circle_of(contour) in made for number in contour.entity_ids}
-    return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION and not ids.isdisjoint(each.entity_ids) else each
-            for each in findings]  # fmt: skip
+    return [
+        replace(each, counts=False)
+        if each.kind is FindingKind.SELF_INTERSECTION and not ids.isdisjoint(each.entity_ids)
+        else each
+        for each in findings
+    ]

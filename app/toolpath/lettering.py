@@ -27,7 +27,9 @@ def strokes_of(entities: Sequence[Entity], join_tolerance: float) -> tuple[tuple
 
 
 def _opened(contour: Contour) -> Contour:
-    return replace(contour, primitives=tuple(part for each in contour.primitives for part in _halves(each)), closed=False)
+    return replace(
+        contour, primitives=tuple(part for each in contour.primitives for part in _halves(each)), closed=False
+    )
 
 
 def _halves(primitive: Primitive) -> tuple[Primitive, ...]:

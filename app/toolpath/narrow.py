@@ -33,7 +33,9 @@ _LOWER = 8
 """Levels below the tool's at which is looked for where parts come together."""
 
 _WINDOWS = ((0.8, 25), (0.8, 161), (2.0, 161), (6.0, 161))
-"""Half sides of grids, in distances between the two parts, and points along a side: a neck may lie far off, or be much narrower."""
+"""Half sides of grids, in distances between the two parts, and points along a side: a neck may lie far off, or be much
+narrower.
+"""
 
 _REFINED = 3
 
@@ -46,7 +48,8 @@ class Need:
 
     Attributes:
         tool: the tool.
-        width: of a gap that it can pass, mm: for a pocket tool, its diameter and what the contour tool takes along both walls.
+        width: of a gap that it can pass, mm: for a pocket tool, its diameter and what the contour tool takes along both
+            walls.
     """
 
     tool: Tool
@@ -55,15 +58,27 @@ class Need:
     @property
     def text(self) -> str:
         """Who needs how much."""
-        why = "" if self.width < self.tool.diameter + 1e-6 else ": its diameter, and the strip that it leaves along each wall"
+        why = (
+            ""
+            if self.width < self.tool.diameter + 1e-6
+            else ": its diameter, and the strip that it leaves along each wall"
+        )
         return f"T{self.tool.number} {self.tool.label} needs {self.width:.3f} mm{why}"
 
 
 def finest(job: Job, operation: Operation) -> float:
-    """Return the least width, mm, of a region that some operation of the job machines in the layers of this one, as deep, on its side."""
+    """Return the least width, mm, of a region that some operation of the job machines in the layers of this one, as
+    deep, on its side.
+    """
 
-    alike = [each.cut for each in job.operations if each.cut.enabled and each.wall_side is operation.wall_side
-             and each.cut.layers == operation.cut.layers and each.cut.floor >= operation.cut.floor]  # fmt: skip
+    alike = [
+        each.cut
+        for each in job.operations
+        if each.cut.enabled
+        and each.wall_side is operation.wall_side
+        and each.cut.layers == operation.cut.layers
+        and each.cut.floor >= operation.cut.floor
+    ]
     return min(2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike)
 
 
@@ -79,16 +94,23 @@ def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float)
     small = [region for region in regions if region.number not in reached]
     findings = []
     for region, (x, y, diameter) in zip(small, largest_discs(small).tolist(), strict=True):
-        text = (f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
-                f"and {need.text}. Use a smaller tool for it.")
+        text = (
+            f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
+            f"and {need.text}. Use a smaller tool for it."
+        )
         counts = diameter < least or 0 < need.width <= least + 1e-9
-        findings.append(Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter,
-                                entity_ids=region.boundary.entity_ids))
+        findings.append(
+            Finding(
+                FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter, entity_ids=region.boundary.entity_ids
+            )
+        )
     return findings
 
 
 def largest_discs(regions: Sequence[Region]) -> Floats:
-    """Return x, y, diameter (n, 3), mm, of the largest disc in each region, within 0.005 mm; none where it begins if it has no area."""
+    """Return x, y, diameter (n, 3), mm, of the largest disc in each region, within 0.005 mm; none where it begins if it
+    has no area.
+    """
     outlines = Outlines.of([contour for region in regions for contour in region.contours])
     group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
     found = np.zeros((len(regions), 3))
@@ -103,7 +125,8 @@ def largest_discs(regions: Sequence[Region]) -> Floats:
 
 
 def necks(level: Level, primitives: Primitives, field: DistanceField, tool: Tool) -> list[Finding]:
-    """Return a finding for each place where a region falls into parts because the tool does not fit through; one for all beyond some.
+    """Return a finding for each place where a region falls into parts because the tool does not fit through; one for
+    all beyond some.
 
     The place is the narrowest one of the widest way between two parts next to each other.
 
@@ -124,7 +147,9 @@ def necks(level: Level, primitives: Primitives, field: DistanceField, tool: Tool
     if len(pairs) > _TELL:
         x, y = (float(value) for value in (pairs[_TELL][0] + pairs[_TELL][1]) / 2)
         text = f"{len(pairs) - _TELL} more necks are too narrow; {need.text}."
-        findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, x, y, counts=False, amount=float(len(pairs) - _TELL)))
+        findings.append(
+            Finding(FindingKind.NECK_TOO_NARROW, text, x, y, counts=False, amount=float(len(pairs) - _TELL))
+        )
     return findings
 
 
@@ -143,7 +168,11 @@ def _nearest_pairs(level: Level) -> list[tuple[Floats, Floats, int]]:
 
 
 def _outline(ring: Ring) -> shapely.Polygon:
-    return shapely.Polygon(sample(ring.rows, _CHORD)) if len(ring.rows) > 2 else shapely.Point(ring.rows[0, :2]).buffer(1e-6)
+    return (
+        shapely.Polygon(sample(ring.rows, _CHORD))
+        if len(ring.rows) > 2
+        else shapely.Point(ring.rows[0, :2]).buffer(1e-6)
+    )
 
 
 def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[NDArray[np.object_]]) -> tuple[Floats, Floats]:
@@ -165,8 +194,10 @@ def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[NDArray[np.object_]]) 
 
 def _narrowest(a: Floats, b: Floats, field: DistanceField) -> tuple[Floats, float]:
     """Return (place, distance from the drawing) of the neck between two points: where the widest way is narrowest."""
-    way, reach = next((widest for window in _WINDOWS if len((widest := _widest_way(a, b, window, field))[0])),
-                      (a + (b - a) * np.linspace(0, 1, 65)[:, None], float(np.hypot(*(b - a))) / 16))  # fmt: skip
+    way, reach = next(
+        (widest for window in _WINDOWS if len((widest := _widest_way(a, b, window, field))[0])),
+        (a + (b - a) * np.linspace(0, 1, 65)[:, None], float(np.hypot(*(b - a))) / 16),
+    )
     for _ in range(_REFINED):
         way = _to_the_middle(way, reach, field)
         room = field.nearest(way)[0]
@@ -179,7 +210,9 @@ def _narrowest(a: Floats, b: Floats, field: DistanceField) -> tuple[Floats, floa
 
 
 def _to_the_middle(way: Floats, reach: float, field: DistanceField) -> Floats:
-    """Return the points (n, 2) of a way moved across it, by `reach` mm or less, to where they have most room; over no wall."""
+    """Return the points (n, 2) of a way moved across it, by `reach` mm or less, to where they have most room; over no
+    wall.
+    """
     along = np.gradient(way, axis=0)
     size = np.hypot(*along.T)
     across = np.stack([-along[:, 1], along[:, 0]], 1) / np.where(size > 0, size, 1.0)[:, None]
@@ -196,7 +229,8 @@ def _to_the_middle(way: Floats, reach: float, field: DistanceField) -> Floats:
 def _widest_way(a: Floats, b: Floats, window: tuple[float, int], field: DistanceField) -> tuple[Floats, float]:
     """Return (points (n, 2) of the way over a grid round two points that keeps most distance, pitch of the grid, mm).
 
-    Two grid points are neighbours when their discs without a wall overlap, so no way crosses one; n = 0 without such a way.
+    Two grid points are neighbours when their discs without a wall overlap, so no way crosses one; n = 0 without such a
+    way.
 
     Args:
         window: half the grid's side in distances of the two points, and how many points it has along a side.
@@ -206,8 +240,12 @@ def _widest_way(a: Floats, b: Floats, window: tuple[float, int], field: Distance
     points = (a + b) / 2 + np.stack(np.meshgrid(axis, axis, indexing="ij"), -1).reshape(-1, 2)
     room = field.nearest(points)[0]
     number = np.arange(side**2).reshape(side, side)
-    sides = ((number[1:], number[:-1]), (number[:, 1:], number[:, :-1]), (number[1:, 1:], number[:-1, :-1]),
-             (number[1:, :-1], number[:-1, 1:]))
+    sides = (
+        (number[1:], number[:-1]),
+        (number[:, 1:], number[:, :-1]),
+        (number[1:, 1:], number[:-1, :-1]),
+        (number[1:, :-1], number[:-1, 1:]),
+    )
     pairs = np.concatenate([np.stack([one.ravel(), other.ravel()], 1) for one, other in sides])
     pairs = pairs[room[pairs].sum(axis=1) > np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T)]
     from scipy.sparse import coo_matrix

@@ -1,4 +1,5 @@
-"""Compiled inner loops of rest machining: what paths have left, which pieces of rings cut it, and which of these are enough.
+"""Compiled inner loops of rest machining: what paths have left, which pieces of rings cut it, and which of these are
+enough.
 
 Paths are rows, and a tree of boxes (`app.geometry.kernels`) over those of each cutter. The depth of a point in
 the metal that paths have left is its distance from them less the radius: it changes by no more than the way gone.
@@ -17,7 +18,8 @@ from ..geometry.kernels import LEAF, box_distance, nearest, point_distance
 
 @kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64)")
 def depth_left(rows, order, nodes, cutters, x, y, limit):
-    """Return how deep a point lies in what paths have left, mm: the least (distance - radius) of all rows, at most `limit`.
+    """Return how deep a point lies in what paths have left, mm: the least (distance - radius) of all rows, at most
+    `limit`.
 
     Args:
         order, nodes: the trees of all cutters, one behind the other.
@@ -65,7 +67,9 @@ def _any_within(rows, order, nodes, x, y, limit):
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64, boolean[::1])")
 def hold(rows, order, nodes, cutters, points, around, out):
-    """Write for each point (m, 2) whether all within `around` of it, mm, lies in what a cutter along some one row has cut."""
+    """Write for each point (m, 2) whether all within `around` of it, mm, lies in what a cutter along some one row has
+    cut.
+    """
     for i in range(len(points)):
         out[i] = False
         o, n = 0, 0
@@ -100,14 +104,19 @@ def _within_one(rows, order, nodes, chunk, limit):
             middle = point_distance(rows, j, mx, my)
             if middle > limit:
                 continue
-            if middle + half <= limit or (point_distance(rows, j, ax, ay) <= limit and point_distance(rows, j, bx, by) <= limit):
+            if middle + half <= limit or (
+                point_distance(rows, j, ax, ay) <= limit and point_distance(rows, j, bx, by) <= limit
+            ):
                 return True
     return False
 
 
-@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64[::1], boolean[::1])")
+@kernel(
+    "void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], float64[::1], boolean[::1])"
+)
 def in_air(rows, order, nodes, cutters, chunks, cutter, out):
-    """Write for each short row, given by its start, middle and end (m, 6), whether a cutter stays within what some one row has cut.
+    """Write for each short row, given by its start, middle and end (m, 6), whether a cutter stays within what some one
+    row has cut.
 
     Args:
         cutter: its radius, and by how much its rim may go beyond what is cut, mm.
@@ -123,15 +132,19 @@ def in_air(rows, order, nodes, cutters, chunks, cutter, out):
             o, n = o1, n1
 
 
-@kernel("int64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[::1],"
-        " float64[:, ::1], float64[::1], float64[:, ::1])")
+@kernel(
+    "int64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[:, ::1], int64[::1], float64[:, "
+    "::1], float64[::1],"
+    " float64[:, ::1], float64[::1], float64[:, ::1])"
+)
 def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rule, squares, sizes, out):
     """Write the centres of the cells in which metal is left; return how many.
 
     A cell is looked into by halves until a point is found that is left by `least` all round, or none can be.
 
     Args:
-        bound, bound_order, bound_nodes, rule: rows and (base, sign): only points with base + sign * distance from them > 0 count.
+        bound, bound_order, bound_nodes, rule: rows and (base, sign): only points with base + sign * distance from them
+        > 0 count.
         squares: centres (n, 2) of the squares that are looked through.
         sizes: half sides of squares and of cells, mm, and `least`, mm.
         out: room for all cells of all squares.
@@ -179,14 +192,27 @@ def _seen(chunks, i, cells, need, starts, grid, found):
 
     Args:
         need: how near the row must come to each cell, mm.
-        starts, grid: cells are sorted by buckets: first of each bucket (rows, columns + 1), and (x0, y0, bucket's side, largest need).
+        starts, grid: cells are sorted by buckets: first of each bucket (rows, columns + 1), and (x0, y0, bucket's side,
+        largest need).
     """
     most, side = grid[3], grid[2]
     low_x = min(chunks[i, 0], chunks[i, 2])
-    pad = most + math.hypot(chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1])  # an arc below a half turn stays within this
-    low_y, high_x, high_y = min(chunks[i, 1], chunks[i, 3]), max(chunks[i, 0], chunks[i, 2]), max(chunks[i, 1], chunks[i, 3])
-    j0, j1 = max(0, math.floor((low_x - pad - grid[0]) / side)), min(starts.shape[1] - 2, math.floor((high_x + pad - grid[0]) / side))
-    i0, i1 = max(0, math.floor((low_y - pad - grid[1]) / side)), min(starts.shape[0] - 1, math.floor((high_y + pad - grid[1]) / side))
+    pad = most + math.hypot(
+        chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1]
+    )  # an arc below a half turn stays within this
+    low_y, high_x, high_y = (
+        min(chunks[i, 1], chunks[i, 3]),
+        max(chunks[i, 0], chunks[i, 2]),
+        max(chunks[i, 1], chunks[i, 3]),
+    )
+    j0, j1 = (
+        max(0, math.floor((low_x - pad - grid[0]) / side)),
+        min(starts.shape[1] - 2, math.floor((high_x + pad - grid[0]) / side)),
+    )
+    i0, i1 = (
+        max(0, math.floor((low_y - pad - grid[1]) / side)),
+        min(starts.shape[0] - 1, math.floor((high_y + pad - grid[1]) / side)),
+    )
     count = 0
     if j1 < j0:
         return 0
@@ -206,8 +232,11 @@ def sees_any(chunks, cells, need, starts, grid, out):
         out[i] = _seen(chunks, i, cells, need, starts, grid, found) > 0
 
 
-@kernel("Tuple((float64, int64, int64))(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], int64[:, ::1],"
-        " float64[::1], boolean[::1], int64[::1], int64[::1])")
+@kernel(
+    "Tuple((float64, int64, int64))(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], int64[:, "
+    "::1],"
+    " float64[::1], boolean[::1], int64[::1], int64[::1])"
+)
 def _worth(chunks, size, span, cells, need, starts, grid, cleared, seen_by, found):
     """Return (cells that a span clears anew per mm, first, stop), without the ends that clear nothing by themselves.
 
@@ -248,9 +277,13 @@ def _worth(chunks, size, span, cells, need, starts, grid, cleared, seen_by, foun
     return gain / (length + grid[4]), first, stop
 
 
-@kernel("int64(float64[:, ::1], float64[::1], int64[:, ::1], float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], int64[:, ::1])")
+@kernel(
+    "int64(float64[:, ::1], float64[::1], int64[:, ::1], float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], "
+    "int64[:, ::1])"
+)
 def choose(chunks, size, spans, cells, need, starts, grid, out):
-    """Write (first row, last + 1) of spans that together clear all cells, those first that clear most per mm; return how many.
+    """Write (first row, last + 1) of spans that together clear all cells, those first that clear most per mm; return
+    how many.
 
     Args:
         chunks, size: short rows and their lengths, mm.

@@ -1,8 +1,8 @@
 """What paths have left of an area within reach of a cutter: cells of a grid that together hold all of it.
 
-Two places are told apart. Where the cutter's centre may be, all metal is within reach, and its depth in what the paths have
-left decides. Nearer to the walls only what lies beside a ring that still cuts something can be left: the straight walls that
-a larger tool has followed are clean, and are not looked at again.
+Two places are told apart. Where the cutter's centre may be, all metal is within reach, and its depth in what the paths
+have left decides. Nearer to the walls only what lies beside a ring that still cuts something can be left: the straight
+walls that a larger tool has followed are clean, and are not looked at again.
 """
 
 from __future__ import annotations
@@ -44,7 +44,8 @@ class Ground:
     """What paths have cut.
 
     Attributes:
-        tree: rows (n, 8), orders and nodes of one tree a cutter, and (k, 3) the radius of each, mm, with where the next one's begin.
+        tree: rows (n, 8), orders and nodes of one tree a cutter, and (k, 3) the radius of each, mm, with where the next
+            one's begin.
     """
 
     tree: tuple[Rows, Indices, Rows, Floats]
@@ -63,7 +64,9 @@ class Ground:
             rows.append(field.rows)
             nodes.append(field.nodes)
             cutters.append((radius, sum(map(len, order)), sum(map(len, nodes))))
-        return Ground((np.concatenate(rows), np.concatenate(order), np.concatenate(nodes), np.array(cutters).reshape(-1, 3)))
+        return Ground(
+            (np.concatenate(rows), np.concatenate(order), np.concatenate(nodes), np.array(cutters).reshape(-1, 3))
+        )
 
     def depth(self, points: Floats, limit: float) -> Floats:
         """Return how deep points (m, 2) lie in what is left, mm, at most `limit`; not above 0 where it is cut."""
@@ -107,14 +110,18 @@ class Reach:
         return self.cell * math.sqrt(2)
 
     def ask_memory(self, needed: float) -> None:
-        """Ask for the memory, bytes, of cells and rings as fine as the tool wants them: both grow with the square of its fineness.
+        """Ask for the memory, bytes, of cells and rings as fine as the tool wants them: both grow with the square of
+        its fineness.
 
         Raises:
             MemoryShortError: there is not as much.
         """
         larger = f"{2 * self.radius / math.sqrt(fitting(needed)) * 1.05:.2g}"
-        ask(needed, f"Clearing what is left with a tool of {2 * self.radius:g} mm",
-            f"use one of {larger} mm or more (--contour-tool {larger}), or a smaller one before it (--pocket-tool)")
+        ask(
+            needed,
+            f"Clearing what is left with a tool of {2 * self.radius:g} mm",
+            f"use one of {larger} mm or more (--contour-tool {larger}), or a smaller one before it (--pocket-tool)",
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +152,9 @@ def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
 
 
 def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progress) -> Iterator[Floats]:
-    """Yield the centres (n, 2) of squares of the last size, and how far from the walls they are, part after part from left to right."""
+    """Yield the centres (n, 2) of squares of the last size, and how far from the walls they are, part after part from
+    left to right.
+    """
     last, found = 2 * reach.cell, 0
     low, high = whole.boxes[:, :2].min(axis=0), whole.boxes[:, 2:].max(axis=0)
     waiting = [_grid((*low, *high), last)]
@@ -183,7 +192,9 @@ def _sieved(ground: Ground, reach: Reach, whole: DistanceField, centres: Floats,
     keep[alone] = whole.inside(centres[alone])
     bytes_each = CELL_BYTES * (half / reach.cell) ** 2
     if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
-        untouched = np.count_nonzero(ground.depth(centres[keep & alone], 4 * q) > q)  # all cells of such a square will be found
+        untouched = np.count_nonzero(
+            ground.depth(centres[keep & alone], 4 * q) > q
+        )  # all cells of such a square will be found
         reach.ask_memory(float(untouched) * bytes_each)
     return np.column_stack([centres[keep], walls[keep]])
 
@@ -192,7 +203,10 @@ def _grid(bounds: tuple[float, float, float, float], last: float) -> tuple[Float
     """Return (centres (n, 2), half side) of the first squares, a power of two times the last ones' size."""
     x0, y0, x1, y1 = bounds
     half = last * 2.0 ** max(0, math.ceil(math.log2(max(x1 - x0, y1 - y0) / 32 / (2 * last))))
-    x, y = (np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half for low, high in ((x0, x1), (y0, y1)))
+    x, y = (
+        np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half
+        for low, high in ((x0, x1), (y0, y1))
+    )
     return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
 
 
@@ -242,6 +256,14 @@ def _cells(ground: Ground, reach: Reach, squares: tuple[Floats, float], rule: _R
     """Return the cells of squares (centres (n, 2), half side) in which metal is left."""
     centres, half = squares
     out = np.empty((len(centres) * round(half / reach.cell) ** 2, 2))
-    count = rest_kernels.left_cells(*ground.tree, rule.bound.rows, rule.bound.order, rule.bound.nodes, np.array([rule.base, rule.sign]),
-                                    np.ascontiguousarray(centres), np.array([half, reach.cell, LEAST]), out)
+    count = rest_kernels.left_cells(
+        *ground.tree,
+        rule.bound.rows,
+        rule.bound.order,
+        rule.bound.nodes,
+        np.array([rule.base, rule.sign]),
+        np.ascontiguousarray(centres),
+        np.array([half, reach.cell, LEAST]),
+        out,
+    )
     return out[:count]

@@ -76,7 +76,9 @@ def emit(setting: Setting, index: int, sheet: Sheet, strokes: Sequence[Stroke], 
     job = setting.job
     cut = job.operations[index].cut
     if cut.depth > job.stock.thickness + 1e-9:
-        raise ParameterError(f"Depth is {cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; reduce the depth.")
+        raise ParameterError(
+            f"Depth is {cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; reduce the depth."
+        )
     groups = in_order(strokes, setting.at, progress.part(0.0, 0.3))
     if not groups:
         return
@@ -88,7 +90,9 @@ def emit(setting: Setting, index: int, sheet: Sheet, strokes: Sequence[Stroke], 
     label = Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
     passes = DepthPasses(setting.builder, label, ground, _levels(setting, cut))
     if cut.entry.kind is EntryKind.PREDRILLED:
-        passes.holes = usable(drilled(setting.builder.moves(), {each.number: each for each in job.tools}), ground, -cut.floor)
+        passes.holes = usable(
+            drilled(setting.builder.moves(), {each.number: each for each in job.tools}), ground, -cut.floor
+        )
     passes.cut(groups, progress.part(0.3, 1.0))
     setting.at = groups[-1][-1].end
     setting.findings.extend(passes.entries.findings(tool, cut.entry.kind))
@@ -101,7 +105,9 @@ def _levels(setting: Setting, cut: Cut) -> Levels:
     if not clamps or job.keep_out_height <= job.retract_z:
         return Levels(heights, job.travel_z, job.retract_z)
     tool = job.tool(cut.tool)
-    outlines = DistanceField.of(np.concatenate([contour_rows(contour) for region in clamps for contour in region.contours]))
+    outlines = DistanceField.of(
+        np.concatenate([contour_rows(contour) for region in clamps for contour in region.contours])
+    )
     wide = max(tool.radius, tool.shank_diameter / 2, *(radius for _, radius in tool.holder), 0.0)
     return Levels(heights, job.travel_z, job.retract_z, outlines, wide)
 

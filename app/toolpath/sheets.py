@@ -1,4 +1,6 @@
-"""The areas that each operation's cutter may be in, with their walls: of its layers, on its side of the lines, without the clamps."""
+"""The areas that each operation's cutter may be in, with their walls: of its layers, on its side of the lines, without
+the clamps.
+"""
 
 from __future__ import annotations
 
@@ -27,10 +29,13 @@ from .leads.lead import lead_size
 from .witness import about_regions
 
 _ON_CLAMP = 2e-5
-"""mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as much."""
+"""mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as
+much.
+"""
 
 _ROOM = 4.0
-"""Tool diameters round the drawing in which the paths outside of it lie, unless their leads ask for more; beyond is nothing that
+"""Tool diameters round the drawing in which the paths outside of it lie, unless their leads ask for more; beyond is
+nothing that
 concerns them."""
 
 _SPARE = 1.0
@@ -44,7 +49,8 @@ class Sheet:
     Attributes:
         regions: where the cutter may be, with all of its width.
         primitives, distances: all that bounds them, as rows, and distances from it.
-        bare: (n,) True where a row bounds a clamp, or is the frame round the area outside: it is kept off, not followed.
+        bare: (n,) True where a row bounds a clamp, or is the frame round the area outside: it is kept off, not
+            followed.
         lines: contours that a path on the line follows, open and closed.
         outlines: of clamps and frame.
     """
@@ -111,7 +117,10 @@ class Sheets:
         return Area(sheet.regions, sheet.lines, operation.CLEARS, sheet.outlines)
 
     def _sheet(self, layers: frozenset[str], side: Side) -> Sheet | None:
-        closed, lines = ([c for c in contours if not layers or c.layer in layers] for contours in (self.drawn.closed, self.drawn.open))
+        closed, lines = (
+            [c for c in contours if not layers or c.layer in layers]
+            for contours in (self.drawn.closed, self.drawn.open)
+        )
         if self._made_by_drills:
             closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
@@ -121,12 +130,23 @@ class Sheets:
         if not regions:
             return None
         primitives = pack(regions)
-        outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (() if side is Side.INSIDE else (frame,))
+        outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (
+            () if side is Side.INSIDE else (frame,)
+        )
         bare = _lies_on(primitives, outlines)
-        return Sheet(regions, primitives, DistanceField.of(primitives.rows), bare, (*closed, *lines) if side is Side.ON else (), outlines)
+        return Sheet(
+            regions,
+            primitives,
+            DistanceField.of(primitives.rows),
+            bare,
+            (*closed, *lines) if side is Side.ON else (),
+            outlines,
+        )
 
     def _regions(self, contours: Sequence[Contour]) -> tuple[Region, ...]:
-        """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about them."""
+        """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about
+        them.
+        """
         plain = without_crossings(contours) if self.drawn.crossing else Overlaid(tuple(contours))
         outlines = [clamp.boundary for clamp in self.drawn.clamps]
         free = without_outlines(plain.contours, outlines)
@@ -139,19 +159,32 @@ class Sheets:
         return frozenset(made_by_drills(self.job, self.drawn))
 
     def _frame(self, contours: Sequence[Contour]) -> Contour | None:
-        """Return a box with room for every tool round all contours, counter-clockwise; None where there is no contour."""
+        """Return a box with room for every tool round all contours, counter-clockwise; None where there is no
+        contour.
+        """
         box = extent(contours)
         if box is None:
             return None
         enabled = [operation for operation in self.job.operations if operation.cut.enabled]
         widest = max((self.job.tool(each.cut.tool).diameter for each in enabled), default=1.0)
         wide = _ROOM * widest + max((each.cut.stock_to_leave for each in enabled), default=0.0)
-        wide = max([wide, *(self._led(each) for each in enabled if isinstance(each, ContourOperation) and each.side is Side.OUTSIDE)])
+        wide = max(
+            [
+                wide,
+                *(
+                    self._led(each)
+                    for each in enabled
+                    if isinstance(each, ContourOperation) and each.side is Side.OUTSIDE
+                ),
+            ]
+        )
         x0, y0, x1, y1 = box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide
         return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
     def _led(self, operation: ContourOperation) -> float:
-        """Return how far round the walls there is room for whole leads, also of what is roughed: they keep off the frame too, mm."""
+        """Return how far round the walls there is room for whole leads, also of what is roughed: they keep off the
+        frame too, mm.
+        """
         tool = self.job.tool(operation.cut.tool)
         wall = tool.radius + operation.cut.stock_to_leave + operation.finish_width
         return 2 * wall + lead_size(operation.lead, tool) + _SPARE

@@ -1,4 +1,6 @@
-"""Which way along the walls a cutter goes: rings, cut open where they run beside clamps, in the order that frees parts last."""
+"""Which way along the walls a cutter goes: rings, cut open where they run beside clamps, in the order that frees parts
+last.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,8 @@ _CHORD = 0.01
 def wall_paths(level: Level, sheet: Sheet, direction: Direction) -> tuple[Path, ...]:
     """Return the paths along all walls that a level's rings follow, but not along clamps or the frame.
 
-    A ring has the area to machine on its left, inside and outside alike, and so the metal that stays on its right: its own
-    direction is climb milling.
+    A ring has the area to machine on its left, inside and outside alike, and so the metal that stays on its right: its
+    own direction is climb milling.
 
     Args:
         level: rings at tool radius + stock to leave.
@@ -41,7 +43,9 @@ def _along_walls(ring: Ring, sheet: Sheet, rank: int) -> list[Path]:
         return [Path(ring.rows, True, ring.region, rank, ring.area)]
     if bare.all():
         return []
-    first = int(np.argmax(bare))  # begin beside something bare, so that no run is cut in two by the ring's own beginning
+    first = int(
+        np.argmax(bare)
+    )  # begin beside something bare, so that no run is cut in two by the ring's own beginning
     rows, bare = np.roll(ring.rows, -first, axis=0), np.roll(bare, -first)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], bare, [True]]).astype(np.int8)))
     return [Path(rows[a:b], False, ring.region, rank, ring.area) for a, b in edges.reshape(-1, 2).tolist()]

@@ -1,7 +1,8 @@
-"""Whether what is machined is what was drawn, link by link: an independent witness measures the drawn curves themselves.
+"""Whether what is machined is what was drawn, link by link: an independent witness measures the drawn curves
+themselves.
 
-Curves → contours → areas of the operations → polygons that the floor is measured with. Each link is asked for its area, and what it
-has to be is known without it; a link that lost something is told, and the job is not clean.
+Curves → contours → areas of the operations → polygons that the floor is measured with. Each link is asked for its area,
+and what it has to be is known without it; a link that lost something is told, and the job is not clean.
 """
 
 from __future__ import annotations
@@ -54,7 +55,10 @@ def about_chaining(entities: Sequence[Entity], chaining: Chaining, join_toleranc
     known = {number for contour in chaining.contours for number in contour.entity_ids}
     known.update(number for finding in chaining.findings for number in finding.entity_ids)
     lost = [each for each in entities if each.id not in known and _long(each.curve, 2 * join_tolerance)]
-    return [*_about_lost(lost), *_about_outlines(entities, [contour for contour in chaining.contours if contour.closed])]
+    return [
+        *_about_lost(lost),
+        *_about_outlines(entities, [contour for contour in chaining.contours if contour.closed]),
+    ]
 
 
 def _long(curve: Curve, least: float) -> bool:
@@ -70,24 +74,35 @@ def _about_lost(lost: Sequence[Entity]) -> list[Finding]:
     if not lost:
         return []
     x, y = lost[0].curve.start
-    names = ", ".join(str(each.id) for each in lost[:_NAMED]) + (f" and {len(lost) - _NAMED} more" if len(lost) > _NAMED else "")
-    text = (f"{'Curve' if len(lost) == 1 else 'Curves'} {names}, the first at {at((x, y))}, came into no contour, and nothing says why; "
-            "do not use this program, draw them again.")  # fmt: skip
+    names = ", ".join(str(each.id) for each in lost[:_NAMED]) + (
+        f" and {len(lost) - _NAMED} more" if len(lost) > _NAMED else ""
+    )
+    text = (
+        f"{'Curve' if len(lost) == 1 else 'Curves'} {names}, the first at {at((x, y))}, came into no contour, and "
+        "nothing says why; "
+        "do not use this program, draw them again."
+    )
     return [Finding(FindingKind.AREA, text, x, y, entity_ids=tuple(each.id for each in lost), amount=float(len(lost)))]
 
 
 def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> list[Finding]:
-    """Return the finding that closed contours have not the area of their curves as drawn, but for gaps and what was cut from them."""
+    """Return the finding that closed contours have not the area of their curves as drawn, but for gaps and what was cut
+    from them.
+    """
     if not contours:
         return []
     wanted = {number for contour in contours for number in contour.entity_ids}
     curves = [each.curve for each in entities if each.id in wanted]
     plain = [Contour((curve,)) for curve in curves if isinstance(curve, Line | Circle | Arc) and not _is_nothing(curve)]
     bent = [_places(curve) for curve in curves if isinstance(curve, Ellipse | Spline)]
-    drawn = even_odd(plain, (), np.concatenate([np.zeros((0, 4)), *(np.hstack([places[:-1], places[1:]]) for places in bent)]))
+    drawn = even_odd(
+        plain, (), np.concatenate([np.zeros((0, 4)), *(np.hstack([places[:-1], places[1:]]) for places in bent)])
+    )
     made = even_odd(contours)
     moved = float(Outlines.of(contours).lengths @ np.array([contour.deviation for contour in contours]))
-    starts = [contour.primitives[0].start[0] for contour in contours] + [p.end[0] for contour in contours for p in contour.primitives]
+    starts = [contour.primitives[0].start[0] for contour in contours] + [
+        p.end[0] for contour in contours for p in contour.primitives
+    ]
     wide = max(starts) - min(starts)
     spare = moved + drawn.loose * wide + drawn.length * 2 * _CHORD * bool(bent)
     return differing(drawn, made.area, contours, spare)
@@ -145,7 +160,10 @@ def _about_edges(curves: Sequence[Contour], regions: Sequence[Region]) -> list[F
     if away[worst] <= tolerances.LEVEL:
         return []
     x, y = middles[worst].tolist()
-    text = f"A wall at {at((x, y))} lies {away[worst]:.4f} mm off everything that is drawn; do not use this program, draw that place again."
+    text = (
+        f"A wall at {at((x, y))} lies {away[worst]:.4f} mm off everything that is drawn; do not use this program, "
+        "draw that place again."
+    )
     return [Finding(FindingKind.AREA, text, x, y, amount=float(away[worst]))]
 
 
@@ -165,7 +183,10 @@ def about_floors(areas: Sequence[Area], chord: float) -> list[Finding]:
         missing = float(walls.areas.sum() - shapely.area(region_shapes(regions, chord)).sum())
         if abs(missing) > walls.lengths.sum() * chord:
             x, y = regions[0].boundary.primitives[0].start
-            text = (f"The floor from {at((x, y))} on is measured {abs(missing):.4f} mm2 too {'small' if missing > 0 else 'large'}, "
-                    "so what is said to be left is not true; do not use this program.")  # fmt: skip
+            text = (
+                f"The floor from {at((x, y))} on is measured {abs(missing):.4f} mm2 too "
+                f"{'small' if missing > 0 else 'large'}, "
+                "so what is said to be left is not true; do not use this program."
+            )
             found.append(Finding(FindingKind.AREA, text, x, y, amount=abs(missing)))
     return found

@@ -53,10 +53,14 @@ class Advised:
         """Return it as plain values: lengths in mm, areas in mm2, times in s, angles in radians."""
         advice = self.advice
         return {
-            "pocket_tool": advice.pocket.number, "contour_tool": advice.contour.number, "why": advice.why,
-            "time_s": advice.times.total, "time_parts_s": asdict(advice.times),
-            "regions": [_region(region) for region in advice.regions], "tools": [_choice(choice) for choice in advice.choices],
-        }  # fmt: skip
+            "pocket_tool": advice.pocket.number,
+            "contour_tool": advice.contour.number,
+            "why": advice.why,
+            "time_s": advice.times.total,
+            "time_parts_s": asdict(advice.times),
+            "regions": [_region(region) for region in advice.regions],
+            "tools": [_choice(choice) for choice in advice.choices],
+        }
 
 
 def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progress = NO_PROGRESS) -> Advised:
@@ -78,7 +82,9 @@ def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progres
     regions, findings = regions_of(with_layers_spelled(job))
     if not regions:
         said = " ".join(finding.text for finding in findings[:3])
-        raise GeometryError(f"{name}: there is no closed contour to choose tools for; draw one, or choose other layers. {said}".rstrip())
+        raise GeometryError(
+            f"{name}: there is no closed contour to choose tools for; draw one, or choose other layers. {said}".rstrip()
+        )
     advice = advise(regions, options.tools, options.plan, progress.part(0.1, 1.0))
     return Advised(advice, (*findings, *drawing.findings))
 
@@ -87,12 +93,24 @@ def _region(region: RegionAdvice) -> Json:
     def spot(place: Any) -> Json | None:
         return None if place is None else asdict(place)
 
-    return {"number": region.number, "area_mm2": region.area_mm2, "narrowest_passage": spot(region.passage),
-            "largest_disc": spot(region.disc), "largest_tool_that_clears": spot(region.clearing), "sharp_corners": region.corners,
-            "smallest_inner_radius": spot(region.inner_radius)}  # fmt: skip
+    return {
+        "number": region.number,
+        "area_mm2": region.area_mm2,
+        "narrowest_passage": spot(region.passage),
+        "largest_disc": spot(region.disc),
+        "largest_tool_that_clears": spot(region.clearing),
+        "sharp_corners": region.corners,
+        "smallest_inner_radius": spot(region.inner_radius),
+    }
 
 
 def _choice(choice: Choice) -> Json:
-    return {"number": choice.tool.number, "diameter_mm": choice.tool.diameter, "share": choice.share, "areas": choice.parts,
-            "left_mm2": choice.left_mm2, "left_disc_mm": choice.left_disc,
-            "time_s": None if choice.times is None else choice.times.total}
+    return {
+        "number": choice.tool.number,
+        "diameter_mm": choice.tool.diameter,
+        "share": choice.share,
+        "areas": choice.parts,
+        "left_mm2": choice.left_mm2,
+        "left_disc_mm": choice.left_disc,
+        "time_s": None if choice.times is None else choice.times.total,
+    }

@@ -63,8 +63,10 @@ def bitmap_job(name: str, data: bytes, options: MakeOptions) -> BitmapJob:
     bitmap = options.bitmap or BitmapOptions()
     if is_picture(name):
         if options.reading != AS_DRAWN:
-            raise InputError(f"{name}: a picture has no layers, types, layouts or units to choose; take --skip-layer, --skip-type, "
-                             "--layout, --to-zero and --px-per-inch away.")
+            raise InputError(
+                f"{name}: a picture has no layers, types, layouts or units to choose; take --skip-layer, --skip-type, "
+                "--layout, --to-zero and --px-per-inch away."
+            )
         return picture_job(read_picture(name, data, bitmap.picture), options, bitmap.picture, PurePath(name).stem)
     options = with_own_job(name, data, options)
     drawing = read_for(name, data, options)
@@ -83,15 +85,20 @@ def drawn_job(job: Job, size: BitmapSize, findings: tuple[Finding, ...] = ()) ->
         ParameterError: the bitmap cannot hold it, or clamps are to be kept off, which paths made from pixels cannot do.
     """
     if job.keep_out_layers:
-        raise ParameterError("Paths made from pixels do not know clamps; compute the drawing exactly, or take the keep-out layers away.")
+        raise ParameterError(
+            "Paths made from pixels do not know clamps; compute the drawing exactly, or take the keep-out layers away."
+        )
     regions, own = regions_of(job)
     if not regions:
-        raise GeometryError(f"{job.part.name}: there is no closed contour to machine; draw one, or choose other layers.")
+        raise GeometryError(
+            f"{job.part.name}: there is no closed contour to machine; draw one, or choose other layers."
+        )
     return BitmapJob(job, part_of_regions(regions, size), (*own, *findings))
 
 
 def picture_job(picture: Picture, options: MakeOptions, read: PictureOptions, name: str) -> BitmapJob:
-    """Return the job for a picture: its ink's areas, or what its lines enclose, one pixel of the picture one of the bitmap.
+    """Return the job for a picture: its ink's areas, or what its lines enclose, one pixel of the picture one of the
+    bitmap.
 
     Raises:
         GeometryError: nothing in it is to be machined.
@@ -117,7 +124,10 @@ def _nothing_shown(name: str, kind: Shows, doubts: list[Finding]) -> str:
         more = f" ({len(open_ones) - 1} more such places)" if len(open_ones) > 1 else ""
         return f"{name}: nothing in the picture is enclosed by lines. {open_ones[0]}{more}"
     what = "is inked" if kind is Shows.AREAS else "is enclosed by lines"
-    return f"{name}: nothing in the picture {what}; change the threshold, invert it, or say whether its ink is lines or areas."
+    return (
+        f"{name}: nothing in the picture {what}; change the threshold, invert it, or say whether its ink is lines or "
+        "areas."
+    )
 
 
 def _as_part(regions: tuple[Region, ...], name: str) -> Part:
@@ -151,7 +161,9 @@ def _doubt(place: Ambiguity, frame: Frame, more: int) -> Finding:
     told = f"{place.doubt.value}{_other_ends(place, others)}" if is_open else place.doubt.value
     text = f"At {place.where}, {_mm((x, y))}, {told}{also}; {_ADVICE.get(place.doubt, _LOOK)}."
     amount = float(np.hypot(x - others[0][0], y - others[0][1])) if others else None
-    return Finding(FindingKind.OPEN_CONTOUR if is_open else FindingKind.AMBIGUOUS, text, x, y, place.counts, amount=amount)
+    return Finding(
+        FindingKind.OPEN_CONTOUR if is_open else FindingKind.AMBIGUOUS, text, x, y, place.counts, amount=amount
+    )
 
 
 def _other_ends(place: Ambiguity, others: list[Place]) -> str:

@@ -40,7 +40,8 @@ class BitmapSize:
             raise ParameterError(f"The pitch is {self.pitch:g} mm; it must be greater than 0 and less than 100000 mm.")
 
     def frame(self, extent: tuple[float, float, float, float]) -> Frame:
-        """Return a frame round an extent x0, y0, x1, y1, mm; its corner lies on a whole multiple of the pitch where one was given.
+        """Return a frame round an extent x0, y0, x1, y1, mm; its corner lies on a whole multiple of the pitch where one
+        was given.
 
         Raises:
             ParameterError: at this pitch the drawing is larger than the largest bitmap.
@@ -48,10 +49,14 @@ class BitmapSize:
         if self.pitch is None:
             return Frame.around(extent, self.points, MARGIN_PX)
         x0, y0 = (int(np.floor(low / self.pitch)) - MARGIN_PX for low in extent[:2])
-        need = max(int(np.ceil(high / self.pitch)) + MARGIN_PX - low for high, low in zip(extent[2:], (x0, y0), strict=True))
+        need = max(
+            int(np.ceil(high / self.pitch)) + MARGIN_PX - low for high, low in zip(extent[2:], (x0, y0), strict=True)
+        )
         if need > LARGEST_SIDE:
-            raise ParameterError(f"At a pitch of {self.pitch:g} mm the drawing is {need} px wide; {LARGEST_SIDE} px are the most, "
-                                 "so use a larger pitch.")
+            raise ParameterError(
+                f"At a pitch of {self.pitch:g} mm the drawing is {need} px wide; {LARGEST_SIDE} px are the most, "
+                "so use a larger pitch."
+            )
         side = max(need, self.points)
         return Frame(side, side, self.pitch, x0 * self.pitch, y0 * self.pitch)
 

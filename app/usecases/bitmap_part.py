@@ -57,9 +57,13 @@ def part_of_regions(regions: Sequence[Region], size: BitmapSize) -> BitmapPart:
     frame.ask_memory(PATH_BYTES)
     free = free_pixels(frame, rows)
     if not free.any():
-        raise ParameterError(f"Nothing of the drawing is as wide as a pixel of {frame.pitch:.3g} mm; "
-                             "use a larger bitmap or a smaller pitch.")
-    return BitmapPart(frame, tuple(regions), draw(frame, rows)[0], free, _labels(frame, free, regions), _squares(frame, free))
+        raise ParameterError(
+            f"Nothing of the drawing is as wide as a pixel of {frame.pitch:.3g} mm; "
+            "use a larger bitmap or a smaller pitch."
+        )
+    return BitmapPart(
+        frame, tuple(regions), draw(frame, rows)[0], free, _labels(frame, free, regions), _squares(frame, free)
+    )
 
 
 def part_of_mask(frame: Frame, free: Mask, regions: Sequence[Region], ink: Mask | None = None) -> BitmapPart:
@@ -88,7 +92,9 @@ def _labels(frame: Frame, free: Mask, regions: Sequence[Region]) -> NDArray[np.i
     centres = frame.to_mm(np.stack([cols + 0.5, rows + 0.5], axis=1))
     number = np.zeros(count, np.int32)
     for region in regions:
-        inside = DistanceField.of(np.concatenate([contour_rows(contour) for contour in region.contours])).inside(centres)
+        inside = DistanceField.of(np.concatenate([contour_rows(contour) for contour in region.contours])).inside(
+            centres
+        )
         number[inside & (number == 0)] = region.number
     number[0] = 0
     labels: NDArray[np.int32] = number[areas]

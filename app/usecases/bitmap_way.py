@@ -45,7 +45,9 @@ SPARE_STEP_PX = 1.5
 """Pixels by which paths lie nearer to one another than would cover everything, were they exact."""
 
 MOST_SKIN_PX = 4.0
-"""Pixels that the rules of `offset_area` and smoothing may keep a path from its wall; what is farther is no skin but metal left."""
+"""Pixels that the rules of `offset_area` and smoothing may keep a path from its wall; what is farther is no skin but
+metal left.
+"""
 
 LEAST_RADIUS_PX = 1.0
 """A tool must be wider than two pixels: below that a bitmap cannot tell where it is."""
@@ -129,7 +131,8 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
         part: the pixels.
 
     Raises:
-        ParameterError: no operation is switched on, a tool is not wider than two pixels, or it cannot do what its operation asks.
+        ParameterError: no operation is switched on, a tool is not wider than two pixels, or it cannot do what its
+            operation asks.
         Cancelled: by progress.
     """
     job.check_operations()
@@ -149,9 +152,16 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     setting.findings.extend(_findings(part, paths, given_up, job))
     setting.findings.extend(_left_out(job))
     findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
-    program = Program(setting.builder.moves(), part.regions, findings, setting.strokes, pitch_mm=part.frame.pitch,
-                      given_up_mm=given_up.most_mm, allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch),
-                      stepovers={each.index: each.distances[1] - each.distances[0] for each in paths if len(each.distances) > 1})
+    program = Program(
+        setting.builder.moves(),
+        part.regions,
+        findings,
+        setting.strokes,
+        pitch_mm=part.frame.pitch,
+        given_up_mm=given_up.most_mm,
+        allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch),
+        stepovers={each.index: each.distances[1] - each.distances[0] for each in paths if len(each.distances) > 1},
+    )
     return BitmapProgram(program, tuple(paths), given_up, rough)
 
 
@@ -163,9 +173,15 @@ def on_pixels(operation: Operation) -> bool:
 def _left_out(job: Job) -> list[Finding]:
     """Return which operations make no moves on pixels."""
     left = [operation for operation in job.operations if operation.cut.enabled and not on_pixels(operation)]
-    return [Finding(FindingKind.LEFT_OUT, f"The {operation.WORD} operation with T{operation.cut.tool} makes no moves: "
-                    "on pixels only pockets, and contours inside the walls, are cut.", counts=operation.COARSE or not operation.CLEARS)
-            for operation in left]  # fmt: skip
+    return [
+        Finding(
+            FindingKind.LEFT_OUT,
+            f"The {operation.WORD} operation with T{operation.cut.tool} makes no moves: "
+            "on pixels only pockets, and contours inside the walls, are cut.",
+            counts=operation.COARSE or not operation.CLEARS,
+        )
+        for operation in left
+    ]
 
 
 def operation_paths(job: Job, index: int, part: BitmapPart, progress: Progress = NO_PROGRESS) -> OperationPaths:
@@ -177,8 +193,10 @@ def operation_paths(job: Job, index: int, part: BitmapPart, progress: Progress =
     operation = job.operations[index]
     tool, pitch = job.tool(operation.cut.tool), part.frame.pitch
     if tool.radius < LEAST_RADIUS_PX * pitch:
-        raise ParameterError(f"T{tool.number} of {tool.diameter:g} mm is not wider than two pixels of {pitch:.3g} mm; "
-                             "use a larger bitmap or a smaller pitch.")
+        raise ParameterError(
+            f"T{tool.number} of {tool.diameter:g} mm is not wider than two pixels of {pitch:.3g} mm; "
+            "use a larger bitmap or a smaller pitch."
+        )
     progress.step(0.0, "Shrink on pixels")
     if operation.FOLLOWS_WALLS:
         return _contour_paths(part, index, (tool, operation.cut), progress)
@@ -213,7 +231,8 @@ def _pocket_paths(job: Job, part: BitmapPart, index: int, progress: Progress) ->
 
 
 def _stepover(operation: PocketOperation, tool: Tool, pitch: float) -> float:
-    """Return the distance between paths, mm: as asked, or what pixels leave of the largest that covers everything by itself.
+    """Return the distance between paths, mm: as asked, or what pixels leave of the largest that covers everything by
+    itself.
 
     Raises:
         ParameterError: it is less than a pixel, or more than the tool.
@@ -221,13 +240,16 @@ def _stepover(operation: PocketOperation, tool: Tool, pitch: float) -> float:
     if operation.stepover is None:
         return max(tool.radius - SPARE_STEP_PX * pitch, pitch)
     if operation.stepover < pitch:
-        raise ParameterError(f"The stepover of {operation.stepover:g} mm is less than a pixel of {pitch:.3g} mm; "
-                             "use a larger bitmap or a smaller pitch.")
+        raise ParameterError(
+            f"The stepover of {operation.stepover:g} mm is less than a pixel of {pitch:.3g} mm; "
+            "use a larger bitmap or a smaller pitch."
+        )
     return stepover_of(operation, tool)
 
 
-def _smoothed(part: BitmapPart, levels: Sequence[Sequence[Border]], made_for: tuple[Sequence[float], Tool],
-              progress: Progress) -> tuple[tuple[PixelPath, ...], ...]:
+def _smoothed(
+    part: BitmapPart, levels: Sequence[Sequence[Border]], made_for: tuple[Sequence[float], Tool], progress: Progress
+) -> tuple[tuple[PixelPath, ...], ...]:
     distances, tool = made_for
     options = SmoothOptions(TOLERANCE_PX * part.frame.pitch, LONG_LINE * tool.diameter)
     result = []
@@ -235,7 +257,9 @@ def _smoothed(part: BitmapPart, levels: Sequence[Sequence[Border]], made_for: tu
         progress.step((k + 1) / (len(levels) + 1), "Smooth paths")
         keep = Keep(distance, distances[0], part.squares, part.frame, part.free)
         chains = [border.chain for border in borders]
-        result.append(tuple(PixelPath(chain, pixel_path(chain_points(part.frame, chain), keep, options)) for chain in chains))
+        result.append(
+            tuple(PixelPath(chain, pixel_path(chain_points(part.frame, chain), keep, options)) for chain in chains)
+        )
     return tuple(result)
 
 
@@ -254,7 +278,9 @@ def _emit(setting: Setting, paths: OperationPaths, walls: tuple[BitmapPart, Shee
     if operation.FOLLOWS_WALLS:
         emit(setting, paths.index, sheet, contour_strokes(levels[0].rings, direction), progress)
         return
-    strokes = link_by_proof(levels, part.squares, direction, max(part.frame.pitch, setting.job.tool(operation.cut.tool).radius / 4))
+    strokes = link_by_proof(
+        levels, part.squares, direction, max(part.frame.pitch, setting.job.tool(operation.cut.tool).radius / 4)
+    )
     setting.strokes += len(strokes) * passes_of(setting, paths.index)
     emit(setting, paths.index, sheet, strokes, progress)
 
@@ -283,13 +309,21 @@ def _along(rows: Rows, step: float) -> Rows:
 def _findings(part: BitmapPart, paths: Sequence[OperationPaths], given_up: GivenUp, job: Job) -> list[Finding]:
     """Return regions without a path, and what was given up."""
     pitch = part.frame.pitch
-    text = (f"On pixels of {pitch:.3g} mm the paths along the walls are up to {given_up.most_mm:.3f} mm farther from them than asked, "
-            f"{given_up.mean_mm:.3f} mm in the mean, so that none is nearer; a larger bitmap gives up less.")
-    return [Finding(FindingKind.TOLERANCE, text, counts=False, amount=given_up.most_mm), *_without_path(part, paths, job)]
+    text = (
+        f"On pixels of {pitch:.3g} mm the paths along the walls are up to {given_up.most_mm:.3f} mm farther from them "
+        "than asked, "
+        f"{given_up.mean_mm:.3f} mm in the mean, so that none is nearer; a larger bitmap gives up less."
+    )
+    return [
+        Finding(FindingKind.TOLERANCE, text, counts=False, amount=given_up.most_mm),
+        *_without_path(part, paths, job),
+    ]
 
 
 def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -> Iterator[Finding]:
-    """Yield the regions in which a tool has no path, once a tool; whether it fits between the lines as drawn is another question."""
+    """Yield the regions in which a tool has no path, once a tool; whether it fits between the lines as drawn is another
+    question.
+    """
     missed: dict[tuple[int, int], bool] = {}
     for each in paths:
         reached = {int(part.label[path.chain.start]) for level in each.levels for path in level}
@@ -301,6 +335,9 @@ def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -
     boundaries = {region.number: region.boundary for region in part.regions}
     for (number, tool_number), counts in missed.items():
         (x, y), tool = boundaries[number].primitives[0].start, job.tool(tool_number)
-        text = (f"Region {number}, which begins at ({x:.3f}, {y:.3f}), has no room for T{tool.number} {tool.label} on pixels of "
-                f"{part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool.")
+        text = (
+            f"Region {number}, which begins at ({x:.3f}, {y:.3f}), has no room for T{tool.number} {tool.label} on "
+            "pixels of "
+            f"{part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool."
+        )
         yield Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, boundaries[number].entity_ids)

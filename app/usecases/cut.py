@@ -88,11 +88,13 @@ class CutOptions:
         cells: along the longer side of the stock, or of the window.
         window: x0, y0, x1, y1, mm: only this part of the stock; None = all of it.
         trace: note who cut each cell last, and what each motion took.
-        judge: measure on the motions and certify, and look on the whole stock for what goes wrong on the way; else the cells alone are
-            compared with the part, which is quick.
-        engine: whose heights are shown, judged and written; what only the engine of record can tell it tells beside them. A look that is
-            neither traced nor judged is graphics hardware's alone under AUTO; then nobody tells of rapids in metal.
-        stop: motions from this one on, counted through all files, are not done; None = all are. The engine of record tells alone then.
+        judge: measure on the motions and certify, and look on the whole stock for what goes wrong on the way; else the
+            cells alone are compared with the part, which is quick.
+        engine: whose heights are shown, judged and written; what only the engine of record can tell it tells beside
+            them. A look that is neither traced nor judged is graphics hardware's alone under AUTO; then nobody tells of
+            rapids in metal.
+        stop: motions from this one on, counted through all files, are not done; None = all are. The engine of record
+            tells alone then.
     """
 
     cells: int = CELLS
@@ -109,10 +111,12 @@ class CutProgram:
 
     Attributes:
         setup: what was cut. options: how it was looked at.
-        cut: what is left after the last file; its owners, and the motions of its rapids, count through the motions of all files.
+        cut: what is left after the last file; its owners, and the motions of its rapids, count through the motions of
+            all files.
         top, floor: of the stock, mm, program coordinates.
         judgement: against the part; None where there is none.
-        findings: what went wrong on the way and what is wrong with the result, what counts first; places in program coordinates.
+        findings: what went wrong on the way and what is wrong with the result, what counts first; places in program
+            coordinates.
         told: what has computed the heights.
         holders: shanks and holders in metal, their motions counted through all files; None where nobody has looked.
     """
@@ -128,8 +132,13 @@ class CutProgram:
     holders: HolderLook | None = None
 
 
-def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress = NO_PROGRESS, exact: Exact | None = None,
-        graphics: Graphics = GRAPHICS) -> CutProgram:  # fmt: skip
+def cut(
+    setup: CutSetup,
+    options: CutOptions = CutOptions(),
+    progress: Progress = NO_PROGRESS,
+    exact: Exact | None = None,
+    graphics: Graphics = GRAPHICS,
+) -> CutProgram:
     """Cut programs out of their stock, and judge what is left.
 
     Args:
@@ -145,9 +154,20 @@ def cut(setup: CutSetup, options: CutOptions = CutOptions(), progress: Progress 
     judgement = run.judged(done.cut, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
     judged = findings_of(judgement, setup.where) if judgement is not None else ()
-    findings = worst_first((*done.accidents, *outside, *judged, *run.unseen(), *_fallen_back(done.told, options.engine)))
-    return CutProgram(setup, options, done.cut, float(run.workpiece.heights.max()), run.workpiece.floor, judgement, findings, done.told,
-                      done.holders)  # fmt: skip
+    findings = worst_first(
+        (*done.accidents, *outside, *judged, *run.unseen(), *_fallen_back(done.told, options.engine))
+    )
+    return CutProgram(
+        setup,
+        options,
+        done.cut,
+        float(run.workpiece.heights.max()),
+        run.workpiece.floor,
+        judgement,
+        findings,
+        done.told,
+        done.holders,
+    )
 
 
 def _fallen_back(told: Told, asked: Engine) -> tuple[Finding, ...]:
@@ -160,7 +180,9 @@ def _fallen_back(told: Told, asked: Engine) -> tuple[Finding, ...]:
 
 @dataclass(frozen=True, eq=False)
 class _Done:
-    """What all programs left, what went wrong on the way, what has computed the heights, and what is known of holders."""
+    """What all programs left, what went wrong on the way, what has computed the heights, and what is known of
+    holders.
+    """
 
     cut: Cut
     accidents: tuple[Finding, ...]
@@ -184,14 +206,26 @@ class _Run:
         grid = Grid.over(options.window or setup.stock.box, options.cells)
         ensure_memory(grid, BYTES_A_CELL if setup.part is not None and options.judge else TRIM_BYTES_A_CELL)
         courses = tuple(course_of(program) for program in setup.programs)
-        return _Run(setup, options, courses, {n: cutter_of(tool) for n, tool in setup.tools.items()}, setup.stock.over(grid), graphics)
+        return _Run(
+            setup,
+            options,
+            courses,
+            {n: cutter_of(tool) for n, tool in setup.tools.items()},
+            setup.stock.over(grid),
+            graphics,
+        )
 
     def cut(self, progress: Progress) -> _Done:
         """Cut all programs, and look for what goes wrong on the way: on the whole stock, whatever the window is."""
         if self.options.window is None or not self.options.judge:
             return self._cut(progress)
-        setup, options = replace(self.setup, part=None), replace(self.options, window=None, trace=False, engine=Engine.CPU)
-        whole = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)), self.graphics)._cut(progress.part(0.0, 0.5))
+        setup, options = (
+            replace(self.setup, part=None),
+            replace(self.options, window=None, trace=False, engine=Engine.CPU),
+        )
+        whole = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)), self.graphics)._cut(
+            progress.part(0.0, 0.5)
+        )
         seen = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
         return replace(whole, cut=replace(seen.cut, rapids=whole.cut.rapids), told=seen.told)
 
@@ -239,7 +273,9 @@ class _Run:
         metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
         header = self.setup.programs[k].header
         rates = {} if header is None else dict(header.plunge_rates)
-        return Stage(self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row), rates)
+        return Stage(
+            self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row), rates
+        )
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""
@@ -251,7 +287,9 @@ class _Run:
         """Return what all programs leave when they are cut with other cutters."""
         workpiece, count = self.workpiece, len(self.courses)
         for k, known in enumerate(self.courses):
-            workpiece = trim(workpiece, known.course, cutters, options, progress.part(k / count, (k + 1) / count)).workpiece
+            workpiece = trim(
+                workpiece, known.course, cutters, options, progress.part(k / count, (k + 1) / count)
+            ).workpiece
         return workpiece.heights
 
     def judged(self, cut: Cut, exact: Exact | None, progress: Progress) -> Judgement:
@@ -263,10 +301,16 @@ class _Run:
         wanted = wanted_over(part, cut, self.setup.stock, cutters, progress.part(0.0, 0.3))
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
-        certificate = certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0)) if self.options.judge else None
+        certificate = (
+            certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0))
+            if self.options.judge
+            else None
+        )
         lines = self.setup.lines()
         probe, lowest = None, self._lowest if isinstance(part, SolidPart) and self.options.judge else None
-        if isinstance(part, SolidPart) and part.block is None and self.options.judge:  # of surfaces the cells tell enough
+        if (
+            isinstance(part, SolidPart) and part.block is None and self.options.judge
+        ):  # of surfaces the cells tell enough
             probe = WallProbe(part, self._lowest, self.workpiece)
         return judge(Judging(part, cut, wanted, exact, lines, lowest, probe), certificate)
 
@@ -297,6 +341,10 @@ def _joined(first: Cut, then: Cut, motions: int) -> Cut:
         owner = np.where(then.owner >= 0, then.owner + np.int32(motions), first.owner)
     rapids = tuple(replace(hit, motion=hit.motion + motions) for hit in then.rapids)
     return Cut(
-        first.before, then.heights, first.rapids + rapids, owner, np.concatenate([first.volume, then.volume]),
+        first.before,
+        then.heights,
+        first.rapids + rapids,
+        owner,
+        np.concatenate([first.volume, then.volume]),
         np.concatenate([first.engaged, then.engaged]),
-    )  # fmt: skip
+    )

@@ -22,8 +22,9 @@ from .written import Written
 _TOLD_ELSEWHERE = (FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE, FindingKind.SKIN)
 
 
-def cut_job(program: Program, job: Job, written: Written, measured: tuple[Depths, Coverage],
-            progress: Progress = NO_PROGRESS) -> CutProgram:  # fmt: skip
+def cut_job(
+    program: Program, job: Job, written: Written, measured: tuple[Depths, Coverage], progress: Progress = NO_PROGRESS
+) -> CutProgram:
     """Cut what was written.
 
     Args:
@@ -41,17 +42,34 @@ def cut_job(program: Program, job: Job, written: Written, measured: tuple[Depths
     stock = BoxStock(StockBox(box.x0 - x, box.y0 - y, box.z0 - z, box.x1 - x, box.y1 - y, box.z1 - z))
     outlines = (*(contour for region in program.regions for contour in region.contours), *program.lines)
     deviation = max((contour.deviation for contour in outlines), default=0.0)
-    part = FlatPart(job, program.regions, origin, FlatPart.wall_tolerance + written.largest_distance_mm + deviation,
-                    allowance=program.allowance_mm, areas=program.areas, lines=program.lines, clamps=program.clamps,
-                    tabs=program.tabs, dog_bones=program.dog_bones, floors=measured[1].wanted)
+    part = FlatPart(
+        job,
+        program.regions,
+        origin,
+        FlatPart.wall_tolerance + written.largest_distance_mm + deviation,
+        allowance=program.allowance_mm,
+        areas=program.areas,
+        lines=program.lines,
+        clamps=program.clamps,
+        tabs=program.tabs,
+        dog_bones=program.dog_bones,
+        floors=measured[1].wanted,
+    )
     programs = tuple(
-        replace(read, states=tuple(replace(state, tool=state.tool or int(program.moves.tool[file.first])) for state in read.states))
+        replace(
+            read,
+            states=tuple(
+                replace(state, tool=state.tool or int(program.moves.tool[file.first])) for state in read.states
+            ),
+        )
         for file, read in zip(written.files, written.programs, strict=True)
     )  # where the control changes no tools, the file names none
     depths, coverage = measured
     motion = np.searchsorted(written.move, depths.move)
     exact = Exact(replace(depths, move=np.minimum(motion, len(written.move) - 1)), coverage)
-    return cut(CutSetup(programs, {tool.number: tool for tool in job.tools}, stock, part), progress=progress, exact=exact)
+    return cut(
+        CutSetup(programs, {tool.number: tool for tool in job.tools}, stock, part), progress=progress, exact=exact
+    )
 
 
 def news(result: CutProgram, known: tuple[Finding, ...]) -> tuple[Finding, ...]:
@@ -66,5 +84,6 @@ def news(result: CutProgram, known: tuple[Finding, ...]) -> tuple[Finding, ...]:
     x, y, _ = part.origin
     return tuple(
         finding if finding.x is None or finding.y is None else replace(finding, x=finding.x + x, y=finding.y + y)
-        for finding in result.findings if finding.kind not in kinds
-    )  # fmt: skip
+        for finding in result.findings
+        if finding.kind not in kinds
+    )

@@ -1,4 +1,6 @@
-"""Curves of a drawing as section curves of a scene: what is selected, joined where ends meet, exactly as it is drawn."""
+"""Curves of a drawing as section curves of a scene: what is selected, joined where ends meet, exactly as it is
+drawn.
+"""
 
 from __future__ import annotations
 
@@ -23,5 +25,7 @@ def drawn_sections(part: Part, ids: Collection[int]) -> tuple[SectionCurve, ...]
         curve = flat_curve(contour, part).curve
         weights = () if np.ptp(curve.weights) == 0 else tuple(curve.weights.tolist())
         points = tuple((x, y) for x, y in curve.points[:, :2].tolist())
-        found.append(SectionCurve(points, CurveForm.CONTROL, curve.degree, weights=weights, knots=tuple(curve.knots.tolist())))
+        found.append(
+            SectionCurve(points, CurveForm.CONTROL, curve.degree, weights=weights, knots=tuple(curve.knots.tolist()))
+        )
     return tuple(found)

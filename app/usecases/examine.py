@@ -1,4 +1,6 @@
-"""Any NC program, read as its control would: what is wrong with it, how far it reaches, how long it takes, on which machine."""
+"""Any NC program, read as its control would: what is wrong with it, how far it reaches, how long it takes, on which
+machine.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,13 @@ from ..model.part import Part
 
 Json = dict[str, Any]
 COORDINATES = "from the zero of the table of work offsets, tool length compensated"
-KINDS = {"G0": MotionKind.RAPID, "G1": MotionKind.LINE, "G2": MotionKind.ARC_CW, "G3": MotionKind.ARC_CCW, "spline": MotionKind.SPLINE}
+KINDS = {
+    "G0": MotionKind.RAPID,
+    "G1": MotionKind.LINE,
+    "G2": MotionKind.ARC_CW,
+    "G3": MotionKind.ARC_CCW,
+    "spline": MotionKind.SPLINE,
+}
 
 
 @dataclass(frozen=True)
@@ -96,7 +104,9 @@ class Examined:
 
         used = [self.program.states[k] for k in np.unique(self.program.motions.state).tolist()]
         if any(any(state.shift) or state.rotation or state.work_offset != "G54" for state in used):
-            raise InputError(f"{self.name}: the frame is made for programs that cut under plain G54; this one shifts its zero.")
+            raise InputError(
+                f"{self.name}: the frame is made for programs that cut under plain G54; this one shifts its zero."
+            )
         if not all(map(math.isfinite, (*self.cut_box.low[:2], self.box.high[2]))):
             raise InputError(f"{self.name}: nothing is cut, or no height is said, so there is no box to go round.")
         job = Job(Part(name=PurePath(self.name).stem), out_units=used[0].units)
@@ -109,23 +119,42 @@ class Examined:
         long, rapid = lengths(motions), motions.kind == MotionKind.RAPID
         stops = sum(event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) for event in self.program.events)
         return {
-            "file": self.name, "control": self.read.dialect.value, "block_delete": self.read.block_delete, "lines": self.program.line_count,
-            "problems": [{"line": each.line, "column": each.column, "word": each.word, "text": each.text, "severity": each.severity.value}
-                         for each in self.problems],
+            "file": self.name,
+            "control": self.read.dialect.value,
+            "block_delete": self.read.block_delete,
+            "lines": self.program.line_count,
+            "problems": [
+                {
+                    "line": each.line,
+                    "column": each.column,
+                    "word": each.word,
+                    "text": each.text,
+                    "severity": each.severity.value,
+                }
+                for each in self.problems
+            ],
             "moves": {name: int(np.sum(motions.kind == kind)) for name, kind in KINDS.items()},
             "length_mm": {"cut": float(np.sum(long[~rapid])), "rapid": float(np.sum(long[rapid]))},
             "extent_mm": {"cut": _box(self.cut_box), "all": _box(self.box), "coordinates": COORDINATES},
-            "time_s": time.total, "time_parts_s": time.parts, "time_method": TIME_METHOD.format(self.machine.title),
-            "tools": [self._tool(number) for number in self.tools], "stops": stops, "feedless": time.feedless,
-        }  # fmt: skip
+            "time_s": time.total,
+            "time_parts_s": time.parts,
+            "time_method": TIME_METHOD.format(self.machine.title),
+            "tools": [self._tool(number) for number in self.tools],
+            "stops": stops,
+            "feedless": time.feedless,
+        }
 
     def _tool(self, number: int) -> Json:
         """Return what is known of a tool: from the program's comments, or else from the table."""
         note = next((note for note in self.program.tools if note.number == number), None)
         row = self.read.tool_table.get(number)
         diameter = note.diameter if note else row.diameter if row else 0.0
-        return {"number": number, "kind": note.kind if note else "", "diameter_mm": diameter or None,
-                "time_s": self.time.by_tool.get(number, 0.0)}  # fmt: skip
+        return {
+            "number": number,
+            "kind": note.kind if note else "",
+            "diameter_mm": diameter or None,
+            "time_s": self.time.by_tool.get(number, 0.0),
+        }
 
     def text(self, differences: Differences | None = None) -> str:
         """Return the report as JSON text, with the differences from another program where there is one."""
@@ -145,7 +174,9 @@ def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    read = ReadOptions(dialect=options.dialect or guess_dialect(data), tool_table=options.tools, block_delete=options.block_delete)
+    read = ReadOptions(
+        dialect=options.dialect or guess_dialect(data), tool_table=options.tools, block_delete=options.block_delete
+    )
     program = read_program(data, read, progress)
     program = replace(program, motions=anchored(program.motions))
     machine = options.machine or load_machine(DEFAULT_MACHINE)
@@ -177,9 +208,21 @@ def _feedless(program: NcProgram, time: Duration) -> tuple[Problem, ...]:
 
 
 def _told(differences: Differences) -> Json:
-    items = [{"kind": item.kind.value, "line": item.a.first_line, "other_line": item.b.first_line, "distance_mm": item.distance,
-              "text": item.text} for item in differences.items]  # fmt: skip
-    return {"same_motion": differences.same_motion, "largest_distance_mm": differences.largest_distance, "differences": items}
+    items = [
+        {
+            "kind": item.kind.value,
+            "line": item.a.first_line,
+            "other_line": item.b.first_line,
+            "distance_mm": item.distance,
+            "text": item.text,
+        }
+        for item in differences.items
+    ]
+    return {
+        "same_motion": differences.same_motion,
+        "largest_distance_mm": differences.largest_distance,
+        "differences": items,
+    }
 
 
 def _box(box: Extent) -> Json:

@@ -17,15 +17,22 @@ def layers_to_read(job: Job) -> tuple[str, ...]:
 
 
 def with_layers_spelled(job: Job) -> Job:
-    """Return the job with its layers' names as its part spells them: drawings tell no case, and some controls write capitals alone.
+    """Return the job with its layers' names as its part spells them: drawings tell no case, and some controls write
+    capitals alone.
 
     Raises:
         InputError: the part has no such layer.
     """
-    operations = tuple(replace(each, cut=replace(each.cut, layers=_spelled(each.cut.layers, job.part))) if each.cut.enabled else each
-                       for each in job.operations)  # fmt: skip
-    return replace(job, operations=operations, layer_names=_spelled(job.layer_names, job.part),
-                   keep_out_layers=_spelled(job.keep_out_layers, job.part))
+    operations = tuple(
+        replace(each, cut=replace(each.cut, layers=_spelled(each.cut.layers, job.part))) if each.cut.enabled else each
+        for each in job.operations
+    )
+    return replace(
+        job,
+        operations=operations,
+        layer_names=_spelled(job.layer_names, job.part),
+        keep_out_layers=_spelled(job.keep_out_layers, job.part),
+    )
 
 
 def _spelled(names: Iterable[str], part: Part) -> tuple[str, ...]:
@@ -33,6 +40,8 @@ def _spelled(names: Iterable[str], part: Part) -> tuple[str, ...]:
     found: dict[str, None] = {}
     for name in names:
         if name.casefold() not in known:
-            raise InputError(f"{part.name}: there is no layer '{name}'; the drawing has {', '.join(known.values()) or 'none'}.")
+            raise InputError(
+                f"{part.name}: there is no layer '{name}'; the drawing has {', '.join(known.values()) or 'none'}."
+            )
         found[known[name.casefold()]] = None
     return tuple(found)

@@ -34,13 +34,20 @@ class Machining:
     def of(**asked: Any) -> Machining:
         """Return what is asked for by names of attributes and keys of parameters."""
         own = {each.name for each in fields(Machining)}
-        return Machining({name: value for name, value in asked.items() if name not in own},
-                         **{name: value for name, value in asked.items() if name in own})
+        return Machining(
+            {name: value for name, value in asked.items() if name not in own},
+            **{name: value for name, value in asked.items() if name in own},
+        )
 
     @property
     def asked(self) -> tuple[str, ...]:
         """Options, without their dashes, of what was asked for."""
-        others = {"drill": self.drills, "copies": self.copies, "keep-out": self.keep_out, "keep-out-height": self.keep_out_height}
+        others = {
+            "drill": self.drills,
+            "copies": self.copies,
+            "keep-out": self.keep_out,
+            "keep-out-height": self.keep_out_height,
+        }
         return (*map(option_of, self.values), *(option for option, value in others.items() if value not in (None, ())))
 
 
@@ -67,7 +74,9 @@ def with_drills(job: Job, diameters: tuple[float, ...], depth: float | None) -> 
     """
     twice = next((diameter for k, diameter in enumerate(diameters) if diameter in diameters[:k]), None)
     if twice is not None:
-        raise ParameterError(f"--drill {twice:g} mm is given twice and would drill the same circles again; give each diameter once.")
+        raise ParameterError(
+            f"--drill {twice:g} mm is given twice and would drill the same circles again; give each diameter once."
+        )
     deepest = max((each.cut.depth for each in job.operations if each.cut.enabled), default=Cut(1).depth)
     first = max((tool.number for tool in job.tools), default=0) + 1
     tools = tuple(Tool(first + k, diameter, ToolKind.DRILL) for k, diameter in enumerate(diameters))
@@ -94,13 +103,23 @@ def with_machining(job: Job, machining: Machining) -> Job:
     if machining.keep_out_height is not None and not keep_out:
         raise no_effect("keep-out-height", "no layer of clamps is named; --keep-out NAME does")
     height = job.keep_out_height if machining.keep_out_height is None else machining.keep_out_height
-    return replace(job, operations=operations, copies=machining.copies or job.copies, keep_out_layers=keep_out, keep_out_height=height)
+    return replace(
+        job,
+        operations=operations,
+        copies=machining.copies or job.copies,
+        keep_out_layers=keep_out,
+        keep_out_height=height,
+    )
 
 
 def _with_values(operation: Operation, values: Mapping[str, Any]) -> Operation:
     """Return an operation with those of the values that have an effect on it."""
     own = parameters_of(type(operation))
-    mine = {key: value for key, value in values.items() if key in own and operation.cut.enabled and own[key].has_effect(operation)}
+    mine = {
+        key: value
+        for key, value in values.items()
+        if key in own and operation.cut.enabled and own[key].has_effect(operation)
+    }
     return with_values(operation, mine) if mine else operation
 
 
@@ -129,7 +148,11 @@ def check_order(job: Job, order: Order | None) -> None:
     """
     contours = [each.FOLLOWS_WALLS for each in job.operations if each.cut.enabled]
     if order is Order.PATENT_1986 and contours and (all(contours) or not any(contours)):
-        lacking = "no operation but contours, which it puts first" if all(contours) else "no contour operation, which it puts first"
+        lacking = (
+            "no operation but contours, which it puts first"
+            if all(contours)
+            else "no contour operation, which it puts first"
+        )
         raise no_effect("order", f"the job has {lacking}")
 
 

@@ -26,7 +26,15 @@ from ..model.tool import ToolKind
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.witness import about_floors
-from ..verify.verdict import Gouge, RapidInMaterial, clamps_met, clear_moves, deepest_of, gouge_depths, rapids_in_material
+from ..verify.verdict import (
+    Gouge,
+    RapidInMaterial,
+    clamps_met,
+    clear_moves,
+    deepest_of,
+    gouge_depths,
+    rapids_in_material,
+)
 from .bitmap_options import is_picture
 from .cut import CutProgram
 from .cut_job import cut_job, news
@@ -148,11 +156,20 @@ def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
     telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
     more = f" ({len(findings) - NAMED} more findings)" if len(findings) > NAMED else ""
     counting = {finding.kind for finding in findings if finding.counts}
-    why = "there is no closed contour, so nothing can be cut." if counting == {FindingKind.OPEN_CONTOUR} else "nothing can be cut."
+    why = (
+        "there is no closed contour, so nothing can be cut."
+        if counting == {FindingKind.OPEN_CONTOUR}
+        else "nothing can be cut."
+    )
     return f"{name}: {why} {' '.join(finding.text for finding in telling[:NAMED])}{more}"
 
 
-def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (), machine: Machine | None = None) -> Made:
+def export(
+    job: Job,
+    progress: Progress = NO_PROGRESS,
+    drawing_findings: tuple[Finding, ...] = (),
+    machine: Machine | None = None,
+) -> Made:
     """Compute a job, write its NC text, read it back, and measure what was made.
 
     Args:
@@ -172,10 +189,14 @@ def export(job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[F
 
 
 def finish(
-    program: Program, job: Job, progress: Progress = NO_PROGRESS, drawing_findings: tuple[Finding, ...] = (),
+    program: Program,
+    job: Job,
+    progress: Progress = NO_PROGRESS,
+    drawing_findings: tuple[Finding, ...] = (),
     machine: Machine | None = None,
-) -> Made:  # fmt: skip
-    """Slow the feed where too much is engaged, write the NC text, read it back, and measure it: for a caller that has the program.
+) -> Made:
+    """Slow the feed where too much is engaged, write the NC text, read it back, and measure it: for a caller that has
+    the program.
 
     Args and errors: as `export`.
     """
@@ -194,9 +215,16 @@ def finish(
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
     metal = cut_job(program, job, written, (depths, coverage), progress.part(0.7, 0.98)) if written.files else None
-    own = (*unsafe, *(news(metal, unsafe) if metal is not None else ()), *_shape_findings(program, job),
-           *written.coarseness(job.out_units), *(written.misfits() if machine else ()),
-           *coverage_findings(coverage), *about_floors(program.areas, CHORD), *_ring_findings(program))
+    own = (
+        *unsafe,
+        *(news(metal, unsafe) if metal is not None else ()),
+        *_shape_findings(program, job),
+        *written.coarseness(job.out_units),
+        *(written.misfits() if machine else ()),
+        *coverage_findings(coverage),
+        *about_floors(program.areas, CHORD),
+        *_ring_findings(program),
+    )
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal))
@@ -204,35 +232,50 @@ def finish(
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
-    """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them to do."""
+    """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them
+    to do.
+    """
     moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines]
     tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
     return tuple(
-        Finding(FindingKind.TOOL_SHAPE, f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
-                f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.")
-        for tool in tools if tool.kind is not ToolKind.FLAT
-    )  # fmt: skip
+        Finding(
+            FindingKind.TOOL_SHAPE,
+            f"T{tool.number} is a {tool.kind.value} cutter, and its path is that of a flat one of "
+            f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.",
+        )
+        for tool in tools
+        if tool.kind is not ToolKind.FLAT
+    )
 
 
 def _ring_findings(program: Program) -> tuple[Finding, ...]:
     """Return the remark that some rings are not exact lines and arcs."""
     count = program.polyline_rings
-    return (Finding(FindingKind.TOLERANCE, f"{rings_in_words(count)}.", counts=False, amount=float(count)),) if count else ()
+    return (
+        (Finding(FindingKind.TOLERANCE, f"{rings_in_words(count)}.", counts=False, amount=float(count)),)
+        if count
+        else ()
+    )
 
 
 def _gouge_findings(gouge: Gouge, program: Program) -> tuple[Finding, ...]:
     if gouge.max_mm <= LEVEL or gouge.x is None or gouge.y is None:
         return ()
-    text = (f"{gouge.count} moves cut into the part, the worst by {gouge.max_mm:.4f} mm at ({gouge.x:.3f}, {gouge.y:.3f}), "
-            f"NC line {program.moves.line[gouge.move]}; do not run this program.")
+    text = (
+        f"{gouge.count} moves cut into the part, the worst by {gouge.max_mm:.4f} mm at ({gouge.x:.3f}, {gouge.y:.3f}), "
+        f"NC line {program.moves.line[gouge.move]}; do not run this program."
+    )
     return (Finding(FindingKind.GOUGE, text, gouge.x, gouge.y, amount=gouge.max_mm),)
 
 
 def _clamp_findings(met: Gouge, program: Program) -> tuple[Finding, ...]:
     if met.max_mm <= LEVEL or met.x is None or met.y is None:
         return ()
-    text = (f"{met.count} moves reach into a keep-out area, the worst by {met.max_mm:.4f} mm at ({met.x:.3f}, {met.y:.3f}), "
-            f"NC line {program.moves.line[met.move]}; do not run this program.")
+    text = (
+        f"{met.count} moves reach into a keep-out area, the worst by {met.max_mm:.4f} mm at ({met.x:.3f}, "
+        f"{met.y:.3f}), "
+        f"NC line {program.moves.line[met.move]}; do not run this program."
+    )
     return (Finding(FindingKind.CLAMP, text, met.x, met.y, amount=met.max_mm),)
 
 
@@ -240,6 +283,8 @@ def _rapid_findings(rapids: tuple[RapidInMaterial, ...], program: Program) -> tu
     if not rapids:
         return ()
     first = rapids[0]
-    text = (f"{len(rapids)} rapids go through material, the first to ({first.x:.3f}, {first.y:.3f}, {first.z:.3f}), "
-            f"NC line {program.moves.line[first.move]}; do not run this program.")
+    text = (
+        f"{len(rapids)} rapids go through material, the first to ({first.x:.3f}, {first.y:.3f}, {first.z:.3f}), "
+        f"NC line {program.moves.line[first.move]}; do not run this program."
+    )
     return (Finding(FindingKind.RAPID_IN_MATERIAL, text, first.x, first.y, amount=float(len(rapids))),)

@@ -105,31 +105,40 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
     operations = tuple(_operation(each, tools, options) for each in operations)
     safe_z = base.safe_z if options.safe_z is None else options.safe_z
     if not safe_z >= LEAST_LENGTH:
-        raise ParameterError(f"Safe Z is {safe_z:g} mm; it must be {LEAST_LENGTH:g} mm or more above the top of the stock.")
+        raise ParameterError(
+            f"Safe Z is {safe_z:g} mm; it must be {LEAST_LENGTH:g} mm or more above the top of the stock."
+        )
     asked = replace(base, tools=tuple(tools.values()), operations=operations)
-    asked = with_machining(with_drills(asked, options.machining.drills, options.machining.values.get("depth")), options.machining)
-    return with_layers_spelled(replace(
-        asked,
-        tools=tuple(_speeds(tool, options) for tool in asked.tools),
-        safe_z=safe_z,
-        retract_z=min(base.retract_z, safe_z),
-        stock=_stock(base, asked.operations, options),
-        origin_xy=options.origin_xy or base.origin_xy,
-        origin_z=options.origin_z or base.origin_z,
-        order=options.order or base.order,
-        post=options.post or base.post,
-        out_units=options.out_units or base.out_units,
-        layer_names=options.layers or base.layer_names,
-        join_tolerance=base.join_tolerance if options.join_tolerance is None else options.join_tolerance,
-        exact_path=options.exact_path or base.exact_path,
-    ))  # fmt: skip
+    asked = with_machining(
+        with_drills(asked, options.machining.drills, options.machining.values.get("depth")), options.machining
+    )
+    return with_layers_spelled(
+        replace(
+            asked,
+            tools=tuple(_speeds(tool, options) for tool in asked.tools),
+            safe_z=safe_z,
+            retract_z=min(base.retract_z, safe_z),
+            stock=_stock(base, asked.operations, options),
+            origin_xy=options.origin_xy or base.origin_xy,
+            origin_z=options.origin_z or base.origin_z,
+            order=options.order or base.order,
+            post=options.post or base.post,
+            out_units=options.out_units or base.out_units,
+            layer_names=options.layers or base.layer_names,
+            join_tolerance=base.join_tolerance if options.join_tolerance is None else options.join_tolerance,
+            exact_path=options.exact_path or base.exact_path,
+        )
+    )
 
 
 def layers_of_drawing(options: MakeOptions) -> tuple[str, ...]:
     """Return the layers that are to be read of a drawing; empty = all."""
     job = options.job or Job(Part())
-    asked = replace(job, layer_names=options.layers or job.layer_names,
-                    keep_out_layers=options.machining.keep_out or job.keep_out_layers)  # fmt: skip
+    asked = replace(
+        job,
+        layer_names=options.layers or job.layer_names,
+        keep_out_layers=options.machining.keep_out or job.keep_out_layers,
+    )
     return layers_to_read(asked)
 
 
@@ -153,7 +162,9 @@ def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Oper
         return tools, base.operations
     if options.job is None and len(diameters) == 1:
         one = replace(base.tools[0], diameter=diameters.pop())
-        return {one.number: one}, tuple(replace(each, cut=replace(each.cut, tool=one.number)) for each in base.operations)
+        return {one.number: one}, tuple(
+            replace(each, cut=replace(each.cut, tool=one.number)) for each in base.operations
+        )
     operations = []
     for operation in base.operations:
         diameter, number = _diameter(operation, options), operation.cut.tool
@@ -185,8 +196,10 @@ def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOption
     if options.overlap is not None:
         stepover = _stepover_of_overlap(options, diameter)
     if stepover is not None and not LEAST_LENGTH <= stepover <= diameter:
-        raise ParameterError(f"Stepover is {stepover:g} mm with a pocket tool of {diameter:g} mm; "
-                             f"it must be {LEAST_LENGTH:g} mm or more and not more than the tool's diameter.")
+        raise ParameterError(
+            f"Stepover is {stepover:g} mm with a pocket tool of {diameter:g} mm; "
+            f"it must be {LEAST_LENGTH:g} mm or more and not more than the tool's diameter."
+        )
     return replace(operation, stepover=stepover)
 
 
@@ -194,10 +207,14 @@ def _stepover_of_overlap(options: MakeOptions, diameter: float) -> float:
     """Return diameter - overlap, checked (SPEC: step s = 2R - overlap, 0 < overlap < 2R)."""
     overlap = options.overlap or 0.0
     if options.stepover is not None:
-        raise ParameterError("Stepover and overlap are both given; give one of them (overlap = tool diameter - stepover).")
+        raise ParameterError(
+            "Stepover and overlap are both given; give one of them (overlap = tool diameter - stepover)."
+        )
     if not 0 < overlap < diameter:
-        raise ParameterError(f"Overlap is {overlap:g} mm with a pocket tool of {diameter:g} mm; "
-                             "it must be greater than 0 and less than the tool's diameter.")
+        raise ParameterError(
+            f"Overlap is {overlap:g} mm with a pocket tool of {diameter:g} mm; "
+            "it must be greater than 0 and less than the tool's diameter."
+        )
     return diameter - overlap
 
 

@@ -9,7 +9,8 @@ from ..model.operation import Operation, parameters
 
 HEAD = """# Parameters of operations
 
-Each stands in a job file under its key, on the command line as its option, in the window under its name, and in every program's header.
+Each stands in a job file under its key, on the command line as its option, in the window under its name,
+and in every program's header.
 
 | Key | Option | Name | What it means | Values | Default | Of |
 |---|---|---|---|---|---|---|

@@ -10,8 +10,17 @@ from ..model.moves import MoveKind, Moves, Program, Purpose
 from ..toolpath.coverage.coverage import Coverage
 from ..toolpath.coverage.flat import move_rows
 
-_STYLES = {Purpose.RAPID: RAPID, Purpose.LINK: LINK, Purpose.LEAD: LINK, Purpose.POCKET: POCKET, Purpose.CONTOUR: CONTOUR,
-           Purpose.TAB: CONTOUR, Purpose.DOG_BONE: CONTOUR, Purpose.PLUNGE: LINK, Purpose.DRILL: LINK}
+_STYLES = {
+    Purpose.RAPID: RAPID,
+    Purpose.LINK: LINK,
+    Purpose.LEAD: LINK,
+    Purpose.POCKET: POCKET,
+    Purpose.CONTOUR: CONTOUR,
+    Purpose.TAB: CONTOUR,
+    Purpose.DOG_BONE: CONTOUR,
+    Purpose.PLUNGE: LINK,
+    Purpose.DRILL: LINK,
+}
 _ORDER = (RAPID, LINK, POCKET, CONTOUR)
 
 

@@ -1,4 +1,6 @@
-"""From a chain of pixels to a path that a machine follows: smoothed, moved out as far as the walls allow, proven clear."""
+"""From a chain of pixels to a path that a machine follows: smoothed, moved out as far as the walls allow, proven
+clear.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ from ..raster.walls import Mask
 Floats = NDArray[np.float64]
 
 TOLERANCE_PX = 1.0
-"""Pixels that smoothing may move a path off its pixels: half a pixel for the path's, and as much for the walls' pixels."""
+"""Pixels that smoothing may move a path off its pixels: half a pixel for the path's, and as much for the walls'
+pixels.
+"""
 
 _STEP_PX = 0.25
 """Pixels between the places at which a path's clearance is measured."""
@@ -91,7 +95,8 @@ class Keep:
         return clearance(rows, self.field, _STEP_PX * self.pitch, self.level + _REACH_PX * self.pitch) - self.level
 
     def holds(self, rows: Rows, spare: Floats) -> bool:
-        """Tell whether closed rows, with what they have to spare, keep the least distance on the right side of the squares.
+        """Tell whether closed rows, with what they have to spare, keep the least distance on the right side of the
+        squares.
 
         Rows that keep any distance from the squares cannot get from one side to the other, so their ends tell.
         """
@@ -104,7 +109,8 @@ class Keep:
 def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
     """Return the path along a chain's points, as near to its level as pixels allow (steps 401-407).
 
-    Where no smoothed path keeps the least distance, not even a less smooth one, it stays a line from pixel to pixel, which does.
+    Where no smoothed path keeps the least distance, not even a less smooth one, it stays a line from pixel to pixel,
+    which does.
 
     Args:
         points: (n, 2) centres of pixels that keep clear of the walls, mm.
@@ -162,8 +168,12 @@ def _per_group(values: Floats, tangent: NDArray[np.bool_]) -> Floats:
 
 
 def _spot(path: Smoothed, pitch: float) -> Smoothed:
-    """Return a path of one pixel as a line a quarter of a pixel long, there and back, so that there is something to cut."""
+    """Return a path of one pixel as a line a quarter of a pixel long, there and back, so that there is something to
+    cut.
+    """
     x, y = path.rows[0, :2]
     rows = np.zeros((2, 8))
     rows[0, :4], rows[1, :4] = (x, y, x + pitch / 4, y), (x + pitch / 4, y, x, y)
-    return Smoothed(rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.uint8), 0.0, False, np.zeros((2, 5)))
+    return Smoothed(
+        rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.uint8), 0.0, False, np.zeros((2, 5))
+    )

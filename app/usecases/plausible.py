@@ -1,6 +1,8 @@
-"""Whether a drawing's size can be meant with the tools that are to cut it; where not, its units are asked for before anything is computed.
+"""Whether a drawing's size can be meant with the tools that are to cut it; where not, its units are asked for before
+anything is computed.
 
-A refusal and no finding: what would be computed is the wrong part, for minutes, and one word of the user settles it either way.
+A refusal and no finding: what would be computed is the wrong part, for minutes, and one word of the user settles it
+either way.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ from ..model.reading import Reading
 from .options import MakeOptions, job_with_options, layers_of_drawing
 
 _WIDEST, _LEAST_WIDE = 2000.0, 5000.0
-"""So many times as long as the widest tool is wide, and so many mm, a part is no part any more: no machine for that tool takes it."""
+"""So many times as long as the widest tool is wide, and so many mm, a part is no part any more: no machine for that
+tool takes it.
+"""
 
 _SMALLEST, _LARGEST_SMALL = 0.05, 0.5
 """Less of the smallest tool's width, and less than so many mm, is nothing to be milled."""
@@ -33,11 +37,13 @@ _SIZED = (".dxf", ".svg")
 """Drawings that may lack a unit, or name one that nobody chose; the others have units in their own words."""
 
 
-def read_plausible(name: str, data: bytes, reading: Reading, diameters: Callable[[Drawing], Iterable[float]]) -> Drawing:
+def read_plausible(
+    name: str, data: bytes, reading: Reading, diameters: Callable[[Drawing], Iterable[float]]
+) -> Drawing:
     """Return a drawing of a size that its tools can cut.
 
-    Units that are given are those of a drawing that names none. Where it names some in which its size cannot be meant, they
-    hold all the same, for that is what was asked.
+    Units that are given are those of a drawing that names none. Where it names some in which its size cannot be meant,
+    they hold all the same, for that is what was asked.
 
     Args:
         name: of the file. data: its bytes.
@@ -45,18 +51,25 @@ def read_plausible(name: str, data: bytes, reading: Reading, diameters: Callable
         diameters: gives those of the tools, mm, for the drawing.
 
     Raises:
-        InputError: the drawing cannot be used; `UndecidedError`: its size cannot be meant and nobody has said its units.
+        InputError: the drawing cannot be used; `UndecidedError`: its size cannot be meant and nobody has said its
+            units.
     """
     drawing = _read(name, data, reading)
     if PurePath(name).suffix.lower() not in _SIZED:
         return drawing
     tools = tuple(diameters(drawing))
     doubt = doubt_of(drawing.part, reading.layers, tools)
-    if not doubt or reading.units is drawing.part.units or (reading.how.pixels_per_inch is not None and not drawing.units_named):
+    if (
+        not doubt
+        or reading.units is drawing.part.units
+        or (reading.how.pixels_per_inch is not None and not drawing.units_named)
+    ):
         return drawing
     if reading.units is None:
         sized = lambda units: _size_in(units, drawing, reading, name, data)  # noqa: E731 (read only when it is asked)
-        raise UndecidedError(f"{PurePath(name).name}: {doubt}. {_options(drawing)}", _question(drawing, reading, tools, sized))
+        raise UndecidedError(
+            f"{PurePath(name).name}: {doubt}. {_options(drawing)}", _question(drawing, reading, tools, sized)
+        )
     return _read(name, data, replace(reading, how=replace(reading.how, overrule=True)))
 
 
@@ -65,7 +78,9 @@ def _read(name: str, data: bytes, reading: Reading) -> Drawing:
 
 
 def _size_in(units: Units, drawing: Drawing, reading: Reading, name: str, data: bytes) -> Size:
-    """Return the size of a drawing in other units, mm: of an SVG, whose page may be scaled, by reading it so; (0, 0) where it cannot be."""
+    """Return the size of a drawing in other units, mm: of an SVG, whose page may be scaled, by reading it so; (0, 0)
+    where it cannot be.
+    """
     if PurePath(name).suffix.lower() == ".svg":
         try:
             return size_of(_read(name, data, reading.in_units(units)).part, reading.layers)
@@ -82,7 +97,11 @@ def _question(drawing: Drawing, reading: Reading, tools: tuple[float, ...], size
         whence = f"It has no real size and was read with {per_inch:g} units to the inch"
         keep = Choice(f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch), size_words(size))
     else:
-        whence = f"The file names {UNIT_WORDS[units]}" if drawing.units_named else f"It names no units and was read in {UNIT_WORDS[units]}"
+        whence = (
+            f"The file names {UNIT_WORDS[units]}"
+            if drawing.units_named
+            else f"It names no units and was read in {UNIT_WORDS[units]}"
+        )
         keep = Choice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size))
     others = [(each, sized(each)) for each in _LIKELY if each is not units or per_inch is not None]
     fitting = [(each, found) for each, found in others if max(found) and not _doubt(found, tools)]
@@ -95,6 +114,7 @@ def read_for(name: str, data: bytes, options: MakeOptions) -> Drawing:
     Raises:
         HitofudeError: it or an option cannot be used, or its size cannot be meant with the job's tools.
     """
+
     def diameters(drawing: Drawing) -> list[float]:
         return diameters_used(job_with_options(drawing.part, options))
 
@@ -124,7 +144,10 @@ def _doubt(found: Size, diameters: tuple[float, ...]) -> str:
     if longest > max(_WIDEST * max(diameters), _LEAST_WIDE):
         return f"{size}, and the largest tool {max(diameters):g} mm: {longest / max(diameters):.0f} tools side by side"
     if longest < min(_SMALLEST * min(diameters), _LARGEST_SMALL):
-        return f"{size}, and the smallest tool {min(diameters):g} mm: {min(diameters) / max(longest, 1e-9):.0f} times as wide"
+        return (
+            f"{size}, and the smallest tool {min(diameters):g} mm: {min(diameters) / max(longest, 1e-9):.0f} times "
+            "as wide"
+        )
     return ""
 
 
@@ -134,6 +157,9 @@ def _options(drawing: Drawing) -> str:
     others = " or ".join(f"--units {each}" for each in ("mm", "in", "m") if each != word)
     per_inch = drawing.contents.per_inch
     if per_inch is not None:
-        return f"It has no real size; say which units are meant, --units mm or {others}, or --px-per-inch {per_inch:g} if this is right."
+        return (
+            f"It has no real size; say which units are meant, --units mm or {others}, or --px-per-inch {per_inch:g} "
+            "if this is right."
+        )
     named = f"It names {word} as its units" if drawing.units_named else f"It names no units, and {word} is assumed"
     return f"{named}; say which are meant, {others}, or --units {word} if this is right."

@@ -38,7 +38,8 @@ class PlayFrame:
 
     Attributes:
         moment: which. row, col: the first cells that differ.
-        heights, owner: (h, w) of the cells from there on; (0, 0) where none differs. Owners count through the motions of all programs.
+        heights, owner: (h, w) of the cells from there on; (0, 0) where none differs. Owners count through the motions
+        of all programs.
         tip: (3,) where the tool's tip is, mm; None: nobody knows.
     """
 
@@ -59,8 +60,13 @@ class Playback:
         timeline: when what happens.
     """
 
-    def __init__(self, done: CutProgram, machine: Machine | None = None, options: HistoryOptions = USUAL,
-                 progress: Progress = NO_PROGRESS) -> None:  # fmt: skip
+    def __init__(
+        self,
+        done: CutProgram,
+        machine: Machine | None = None,
+        options: HistoryOptions = USUAL,
+        progress: Progress = NO_PROGRESS,
+    ) -> None:
         """Cut everything once more, and keep what is needed to go anywhere.
 
         Args:
@@ -75,7 +81,10 @@ class Playback:
         """
         setup, machine = done.setup, machine or load_machine(DEFAULT_MACHINE)
         courses = [course_of(program) for program in setup.programs]
-        known, nowhere = [each.course for each in courses], np.concatenate([each.nowhere.any(axis=1) for each in courses])
+        known, nowhere = (
+            [each.course for each in courses],
+            np.concatenate([each.nowhere.any(axis=1) for each in courses]),
+        )
         cutters = {number: cutter_of(tool) for number, tool in setup.tools.items()}
         times = [duration(program, machine) for program in setup.programs]
         motions = [anchored(program.motions) for program in setup.programs]
@@ -92,7 +101,8 @@ class Playback:
         return self._head.history.bytes
 
     def frame(self, moment: Moment, progress: Progress = NO_PROGRESS) -> PlayFrame:
-        """Go to a moment, and return what has changed since the last one that was asked for; the first time since the end.
+        """Go to a moment, and return what has changed since the last one that was asked for; the first time since the
+        end.
 
         Raises:
             Cancelled: the job was asked to stop; what was shown before still counts.
@@ -102,8 +112,14 @@ class Playback:
             field = self._partly(moment)
             box = changed_box(field, self._shown)
             row, col, end, stop = box or (0, 0, 0, 0)
-            return PlayFrame(moment, row, col, field.heights[row:end, col:stop].copy(), field.owner[row:end, col:stop].copy(),
-                             self.timeline.place(moment))  # fmt: skip
+            return PlayFrame(
+                moment,
+                row,
+                col,
+                field.heights[row:end, col:stop].copy(),
+                field.owner[row:end, col:stop].copy(),
+                self.timeline.place(moment),
+            )
 
     def _partly(self, moment: Moment) -> Field:
         """Return the metal with a part of the next motion done."""

@@ -28,15 +28,28 @@ from .written import Written
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
 BITMAP_ENGINE = "pixels alone, smoothed into lines and arcs that keep clear of the pixels' squares"
-COVERAGE_METHOD = f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not counted"
+COVERAGE_METHOD = (
+    f"polygons of the emitted moves, arcs as chords within {CHORD:g} mm; strips narrower than {STRIP:g} mm are not "
+    "counted"
+)
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
-MOVES_METHOD = ("motions of the control, as the NC text was read back: arcs split and flattened as they are written, cycles step by step; "
-                "where the tool is at the start nobody knows, so the first approach is counted from the clearance position above the "
-                "first XY, and after a tool change from where the tool before was lifted to safe Z")
-CHECK_METHOD = "the written bytes read back and compared with the moves: a bound both ways, all along; kinds, feeds, tools, spindle alike"
+MOVES_METHOD = (
+    "motions of the control, as the NC text was read back: arcs split and flattened as they are written, cycles step "
+    "by step; "
+    "where the tool is at the start nobody knows, so the first approach is counted from the clearance position above "
+    "the "
+    "first XY, and after a tool change from where the tool before was lifted to safe Z"
+)
+CHECK_METHOD = (
+    "the written bytes read back and compared with the moves: a bound both ways, all along; kinds, feeds, tools, "
+    "spindle alike"
+)
 
-CUT_METHOD = ("the files, read back, cut out of the stock on a grid of heights, exactly at the cells' centres, and compared with the "
-              "drawing; the bounds hold between the centres too")
+CUT_METHOD = (
+    "the files, read back, cut out of the stock on a grid of heights, exactly at the cells' centres, and compared with "
+    "the "
+    "drawing; the bounds hold between the centres too"
+)
 
 Json = dict[str, Any]
 
@@ -84,54 +97,73 @@ class Report:
         data = self.data
         minutes, seconds = divmod(round(data["time_s"]), 60)
         length = sum(data["length_mm"].values())
-        return (f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within reach, "
-                f"{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, {data['retracts']} retracts, "
-                f"{length:.0f} mm, {minutes}:{seconds:02d} min; read back within {data['check']['largest_distance_mm']:.4f} mm")
+        return (
+            f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
+            "reach, "
+            f"{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
+            f"{data['retracts']} retracts, "
+            f"{length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
+            f"{data['check']['largest_distance_mm']:.4f} mm"
+        )
 
 
 def make_report(measured: Measured) -> Report:
     """Return the report of what was made and measured."""
     program, job, moves, written = measured.program, measured.job, measured.program.moves, measured.written
     top = -_origin(measured)[2]
-    return Report({
-        "gouge": _gouge(measured),
-        "left": {
-            "reachable_mm2": measured.coverage.reachable_left_mm2,
-            "unreachable_mm2": measured.coverage.unreachable_mm2,
-            "largest_disc_mm": measured.coverage.largest_disc_mm,
-            "floor_mm2": measured.coverage.area_mm2,
-            "floor_depth_mm": measured.coverage.floor_mm,
-            "method": COVERAGE_METHOD,
-            "places": [_place(place) for place in measured.coverage.places[:100]],
-            "places_count": len(measured.coverage.places),
-            **({"given_up_mm2": measured.coverage.given_up_mm2} if program.given_up_mm is not None else {}),
-        },
-        "rapids_in_material": [
-            {"x": hit.x, "y": hit.y, "z": hit.z, **_line(measured, hit.move)} for hit in measured.rapids
-        ],
-        "strokes": measured.program.strokes,
-        "retracts": retracts(moves),
-        "length_mm": path_lengths(moves, written, top), "length_method": LENGTHS_METHOD,
-        **_times(written),
-        "moves": {f"G{kind.value}": int(np.sum(written.kind == kind)) for kind in MoveKind},
-        "moves_method": MOVES_METHOD,
-        "extent_mm": {"cut": _box(written.box(cuts=True)), "all": _box(written.box(cuts=False)), "coordinates": "of the program"},
-        "check": _check(written),
-        "cut": _cut(measured.cut),
-        "skipped": [as_values(each) for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)],
-        "open_contours": [as_values(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
-        "engine": _engine(program),
-        "polyline_rings": program.polyline_rings,
-        "tolerance": _tolerance(measured),
-        "findings": [as_values(each) for each in measured.findings],
-        "regions": _regions(program),
-        "area_check_mm2": {"exact": program.exact_area_mm2, "bitmap": program.bitmap_area_mm2, "pitch_mm": program.pitch_mm},
-        "tools": [_tool(tool, measured) for tool in job.tools],
-        "operations": [operation_values(job, index, program, written, top) for index in range(len(job.operations))],
-        **_setup(measured),
-        "post": job.post,
-        "out_units": "in" if job.out_units.value == 25.4 else "mm",
-    })  # fmt: skip
+    return Report(
+        {
+            "gouge": _gouge(measured),
+            "left": {
+                "reachable_mm2": measured.coverage.reachable_left_mm2,
+                "unreachable_mm2": measured.coverage.unreachable_mm2,
+                "largest_disc_mm": measured.coverage.largest_disc_mm,
+                "floor_mm2": measured.coverage.area_mm2,
+                "floor_depth_mm": measured.coverage.floor_mm,
+                "method": COVERAGE_METHOD,
+                "places": [_place(place) for place in measured.coverage.places[:100]],
+                "places_count": len(measured.coverage.places),
+                **({"given_up_mm2": measured.coverage.given_up_mm2} if program.given_up_mm is not None else {}),
+            },
+            "rapids_in_material": [
+                {"x": hit.x, "y": hit.y, "z": hit.z, **_line(measured, hit.move)} for hit in measured.rapids
+            ],
+            "strokes": measured.program.strokes,
+            "retracts": retracts(moves),
+            "length_mm": path_lengths(moves, written, top),
+            "length_method": LENGTHS_METHOD,
+            **_times(written),
+            "moves": {f"G{kind.value}": int(np.sum(written.kind == kind)) for kind in MoveKind},
+            "moves_method": MOVES_METHOD,
+            "extent_mm": {
+                "cut": _box(written.box(cuts=True)),
+                "all": _box(written.box(cuts=False)),
+                "coordinates": "of the program",
+            },
+            "check": _check(written),
+            "cut": _cut(measured.cut),
+            "skipped": [
+                as_values(each)
+                for each in _of(measured, FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY)
+            ],
+            "open_contours": [as_values(each) for each in _of(measured, FindingKind.OPEN_CONTOUR)],
+            "engine": _engine(program),
+            "polyline_rings": program.polyline_rings,
+            "tolerance": _tolerance(measured),
+            "findings": [as_values(each) for each in measured.findings],
+            "regions": _regions(program),
+            "area_check_mm2": {
+                "exact": program.exact_area_mm2,
+                "bitmap": program.bitmap_area_mm2,
+                "pitch_mm": program.pitch_mm,
+            },
+            "tools": [_tool(tool, measured) for tool in job.tools],
+            "operations": [operation_values(job, index, program, written, top) for index in range(len(job.operations))],
+            **_setup(measured),
+            "post": job.post,
+            "out_units": "in" if job.out_units.value == 25.4 else "mm",
+        }
+    )
 
 
 def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:
@@ -147,10 +179,14 @@ def _line(measured: Measured, move: int) -> Json:
 
 def _check(written: Written) -> Json:
     checks = written.checks
-    return {"largest_distance_mm": written.largest_distance_mm,
-            "tolerance_mm": max((each.tolerance_mm for each in checks), default=0.0),
-            "differences": sum(len(each.problems) for each in checks), "motions": len(written.kind),
-            "files": [file.suffix for file in written.files], "method": CHECK_METHOD}
+    return {
+        "largest_distance_mm": written.largest_distance_mm,
+        "tolerance_mm": max((each.tolerance_mm for each in checks), default=0.0),
+        "differences": sum(len(each.problems) for each in checks),
+        "motions": len(written.kind),
+        "files": [file.suffix for file in written.files],
+        "method": CHECK_METHOD,
+    }
 
 
 def _cut(result: CutProgram | None) -> Json | None:
@@ -158,9 +194,16 @@ def _cut(result: CutProgram | None) -> Json | None:
     if result is None or result.judgement is None or result.judgement.certificate is None:
         return None
     judgement, certificate, grid = result.judgement, result.judgement.certificate, result.cut.before.grid
-    return {"removed_mm3": result.cut.removed_volume, "rows": grid.rows, "cols": grid.cols, "pitch_mm": grid.pitch,
-            "no_point_gouged_deeper_than_mm": certificate.gouge_mm, "no_metal_within_reach_higher_than_mm": certificate.left_mm,
-            "gouged_places": sum(spot.kind is SpotKind.GOUGE for spot in judgement.spots), "method": CUT_METHOD}
+    return {
+        "removed_mm3": result.cut.removed_volume,
+        "rows": grid.rows,
+        "cols": grid.cols,
+        "pitch_mm": grid.pitch,
+        "no_point_gouged_deeper_than_mm": certificate.gouge_mm,
+        "no_metal_within_reach_higher_than_mm": certificate.left_mm,
+        "gouged_places": sum(spot.kind is SpotKind.GOUGE for spot in judgement.spots),
+        "method": CUT_METHOD,
+    }
 
 
 def _box(box: Extent) -> Json:
@@ -171,17 +214,31 @@ def _box(box: Extent) -> Json:
 def _times(written: Written) -> Json:
     parts = [each.parts for each in written.durations]
     waits = written.changes_s + sum(part["wait"] for part in parts)
-    return {"time_s": written.changes_s + sum(each.total for each in written.durations),
-            "time_parts_s": {"cut": sum(part["cut"] for part in parts), "rapid": sum(part["rapid"] for part in parts), "wait": waits},
-            "time_method": TIME_METHOD.format(written.machine.title)}
+    return {
+        "time_s": written.changes_s + sum(each.total for each in written.durations),
+        "time_parts_s": {
+            "cut": sum(part["cut"] for part in parts),
+            "rapid": sum(part["rapid"] for part in parts),
+            "wait": waits,
+        },
+        "time_method": TIME_METHOD.format(written.machine.title),
+    }
 
 
 def _tool(tool: Tool, measured: Measured) -> Json:
     """Return a tool, how thick its chips are where it is in full cut, and how long its motions take."""
     mine = measured.program.moves.tool[measured.written.move] == tool.number
-    return {"number": tool.number, "kind": tool.kind.value, "diameter_mm": tool.diameter, "flutes": tool.flutes,
-            "spindle_rpm": tool.spindle_speed, "feed_mm_min": tool.feed_rate, "plunge_mm_min": tool.plunge_rate,
-            "chip_load_mm": tool.feed_rate / (tool.spindle_speed * tool.flutes), "time_s": float(np.sum(measured.written.moving[mine]))}
+    return {
+        "number": tool.number,
+        "kind": tool.kind.value,
+        "diameter_mm": tool.diameter,
+        "flutes": tool.flutes,
+        "spindle_rpm": tool.spindle_speed,
+        "feed_mm_min": tool.feed_rate,
+        "plunge_mm_min": tool.plunge_rate,
+        "chip_load_mm": tool.feed_rate / (tool.spindle_speed * tool.flutes),
+        "time_s": float(np.sum(measured.written.moving[mine])),
+    }
 
 
 def _origin(measured: Measured) -> tuple[float, float, float]:
@@ -193,27 +250,59 @@ def _origin(measured: Measured) -> tuple[float, float, float]:
 def _setup(measured: Measured) -> Json:
     """Return copies, clamps, and what stands or is cut on purpose."""
     job, program = measured.job, measured.program
-    return {"copies": {"columns": job.copies.columns, "rows": job.copies.rows, "dx_mm": job.copies.dx, "dy_mm": job.copies.dy},
-            "keep_out": {"layers": list(job.keep_out_layers), "height_mm": job.keep_out_height, "travel_z_mm": job.travel_z},
-            "tabs": [{"x": tab.x, "y": tab.y, "width_mm": tab.width, "top_mm": tab.top} for tab in program.tabs],
-            "dog_bones": len(program.dog_bones)}
+    return {
+        "copies": {
+            "columns": job.copies.columns,
+            "rows": job.copies.rows,
+            "dx_mm": job.copies.dx,
+            "dy_mm": job.copies.dy,
+        },
+        "keep_out": {
+            "layers": list(job.keep_out_layers),
+            "height_mm": job.keep_out_height,
+            "travel_z_mm": job.travel_z,
+        },
+        "tabs": [{"x": tab.x, "y": tab.y, "width_mm": tab.width, "top_mm": tab.top} for tab in program.tabs],
+        "dog_bones": len(program.dog_bones),
+    }
 
 
 def _gouge(measured: Measured) -> Json:
     gouge = measured.gouge
-    return {"max_mm": gouge.max_mm, "x": gouge.x, "y": gouge.y, "z": gouge.z, **_line(measured, gouge.move),
-            "count": gouge.count, "counts_from_mm": tolerances.LEVEL, "path": "as computed",
-            "written_within_mm": measured.written.largest_distance_mm, "method": GOUGE_METHOD}
+    return {
+        "max_mm": gouge.max_mm,
+        "x": gouge.x,
+        "y": gouge.y,
+        "z": gouge.z,
+        **_line(measured, gouge.move),
+        "count": gouge.count,
+        "counts_from_mm": tolerances.LEVEL,
+        "path": "as computed",
+        "written_within_mm": measured.written.largest_distance_mm,
+        "method": GOUGE_METHOD,
+    }
 
 
 def _place(place: Place) -> Json:
-    return {"x": place.x, "y": place.y, "area_mm2": place.area_mm2, "disc_mm": place.disc_mm, "reachable": place.reachable}
+    return {
+        "x": place.x,
+        "y": place.y,
+        "area_mm2": place.area_mm2,
+        "disc_mm": place.disc_mm,
+        "reachable": place.reachable,
+    }
 
 
 def as_values(finding: Finding) -> Json:
     """Return a finding as a report lists it."""
-    return {"kind": finding.kind.value, "text": finding.text, "x": finding.x, "y": finding.y, "counts": finding.counts,
-            "amount": finding.amount}
+    return {
+        "kind": finding.kind.value,
+        "text": finding.text,
+        "x": finding.x,
+        "y": finding.y,
+        "counts": finding.counts,
+        "amount": finding.amount,
+    }
 
 
 def _engine(program: Program) -> str:
@@ -231,12 +320,15 @@ def _tolerance(measured: Measured) -> Json:
     contours = [contour for region in measured.program.regions for contour in region.contours]
     return {
         **_path_tolerance(measured.program),
-        "curves_mm": max((contour.deviation for contour in contours), default=0.0), "curves": "measured",
+        "curves_mm": max((contour.deviation for contour in contours), default=0.0),
+        "curves": "measured",
         "join_mm": measured.job.join_tolerance,
-        "writing_mm": writing_tolerance(measured.job, measured.written.post), "writing": "bound",
-        "blend_mm": blend_mm(measured.job, measured.written.post), "blend": "proven on the path; the control may blend by up to this",
+        "writing_mm": writing_tolerance(measured.job, measured.written.post),
+        "writing": "bound",
+        "blend_mm": blend_mm(measured.job, measured.written.post),
+        "blend": "proven on the path; the control may blend by up to this",
         "floor_strip_mm": STRIP,
-    }  # fmt: skip
+    }
 
 
 def _regions(program: Program) -> list[Json]:
@@ -247,8 +339,18 @@ def _regions(program: Program) -> list[Json]:
     found = []
     for region in program.regions:
         x0, y0, x1, y1 = extent(region.contours) or (0.0, 0.0, 0.0, 0.0)
-        found.append({"number": region.number, "islands": len(region.islands), "layer": region.boundary.layer,
-                      "x0": x0, "y0": y0, "x1": x1, "y1": y1, "cut_mm": float(cut[region.number])})
+        found.append(
+            {
+                "number": region.number,
+                "islands": len(region.islands),
+                "layer": region.boundary.layer,
+                "x0": x0,
+                "y0": y0,
+                "x1": x1,
+                "y1": y1,
+                "cut_mm": float(cut[region.number]),
+            }
+        )
     return found
 
 

@@ -16,8 +16,10 @@ from ..model.operation import Operation
 from ..verify.verdict import in_stock
 from .written import Written
 
-LENGTHS_METHOD = ("cut: in metal or where it was; link: between rings; lead: to walls and away from them; entry: ways down below the "
-                  "stock's top; air: at feed above the stock's top; rapid")
+LENGTHS_METHOD = (
+    "cut: in metal or where it was; link: between rings; lead: to walls and away from them; entry: ways down below the "
+    "stock's top; air: at feed above the stock's top; rapid"
+)
 
 _WAYS = {"link": Purpose.LINK, "lead": Purpose.LEAD, "entry": Purpose.PLUNGE}
 
@@ -47,10 +49,15 @@ def _share_above(written: Written, top: float) -> NDArray[np.float64]:
     """Return (m,) which share of each motion lies above the stock's top; along each, Z changes evenly."""
     if not written.programs:
         return np.zeros(0)
-    start, end = (np.concatenate([getattr(each.motions, name)[:, 2] for each in written.programs]) - top for name in ("start", "end"))
+    start, end = (
+        np.concatenate([getattr(each.motions, name)[:, 2] for each in written.programs]) - top
+        for name in ("start", "end")
+    )
     high, low = np.maximum(start, end), np.minimum(start, end)
     span = np.where(high > low, high - low, 1.0)
-    share: NDArray[np.float64] = np.where(high > low, np.clip(high, 0.0, None) - np.clip(low, 0.0, None), low > 0) / span
+    share: NDArray[np.float64] = (
+        np.where(high > low, np.clip(high, 0.0, None) - np.clip(low, 0.0, None), low > 0) / span
+    )
     return share
 
 
@@ -80,14 +87,20 @@ def operation_values(job: Job, index: int, program: Program, written: Written, t
     operation, moves = job.operations[index], program.moves
     mine = moves.operation[written.move] == index
     return {
-        "kind": operation.WORD, **_parameters(operation), **_stepover(job, index, program), "strokes": strokes_of(moves, index),
-        "length_mm": path_lengths(moves, written, top, index), "time_s": float(np.sum(written.moving[mine])),
+        "kind": operation.WORD,
+        **_parameters(operation),
+        **_stepover(job, index, program),
+        "strokes": strokes_of(moves, index),
+        "length_mm": path_lengths(moves, written, top, index),
+        "time_s": float(np.sum(written.moving[mine])),
         "rapid_time_s": float(np.sum(written.moving[mine & (written.kind == MotionKind.RAPID)])),
-    }  # fmt: skip
+    }
 
 
 def _stepover(job: Job, index: int, program: Program) -> Json:
-    """Return the stepover that was asked for, or what the program has chosen, of rest runs the most; None where a pocket makes no rings."""
+    """Return the stepover that was asked for, or what the program has chosen, of rest runs the most; None where a
+    pocket makes no rings.
+    """
     operation = job.operations[index]
     if "stepover" not in parameters_of(type(operation)):
         return {}
@@ -98,8 +111,10 @@ def _stepover(job: Job, index: int, program: Program) -> Json:
 
 def _parameters(operation: Operation) -> Json:
     """Return what was asked of an operation, with the unit behind the name; None where nothing was."""
-    return {f"{key}{_SUFFIXES.get(placed.parameter.unit, '')}": _plain(placed, placed.of(operation))
-            for key, placed in parameters_of(type(operation)).items()}
+    return {
+        f"{key}{_SUFFIXES.get(placed.parameter.unit, '')}": _plain(placed, placed.of(operation))
+        for key, placed in parameters_of(type(operation)).items()
+    }
 
 
 def _plain(placed: Placed, value: Any) -> Any:

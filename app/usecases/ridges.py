@@ -12,14 +12,17 @@ from ..simulation.cutter import Cutter
 Floats = NDArray[np.float64]
 
 MOST = 0.1
-"""Of the cutter's radius: what stands higher between passes on a slope is metal that they have not come to, and no ridge."""
+"""Of the cutter's radius: what stands higher between passes on a slope is metal that they have not come to, and no
+ridge.
+"""
 
 _SLOPES = np.tan(np.radians(np.linspace(0.0, 85.0, 86)))
 _PLACES = 801
 
 
 def ridges(cutter: Cutter, spacing: float, slopes: Floats) -> Floats:
-    """Return how far ridges stand out of planes, square to them, mm; on slopes at most MOST of the cutter's radius, where a level has less.
+    """Return how far ridges stand out of planes, square to them, mm; on slopes at most MOST of the cutter's radius,
+    where a level has less.
 
     Passes farther apart than the cutter is wide leave no ridges but what was there: 0.
 
@@ -34,7 +37,9 @@ def ridges(cutter: Cutter, spacing: float, slopes: Floats) -> Floats:
 
 
 def _ridge(cutter: Cutter, spacing: float, slope: float) -> float:
-    """Return the height of the place that both of two neighbouring passes cut least, square to the plane that they touch."""
+    """Return the height of the place that both of two neighbouring passes cut least, square to the plane that they
+    touch.
+    """
     if spacing > 2 * cutter.radius:
         return 0.0
     across = np.linspace(-cutter.radius, cutter.radius, _PLACES)

@@ -1,4 +1,6 @@
-"""What is wrong with a scene before anything is written: holes in meshes, a size that nobody means, and its place in the stock."""
+"""What is wrong with a scene before anything is written: holes in meshes, a size that nobody means, and its place in
+the stock.
+"""
 
 from __future__ import annotations
 
@@ -52,15 +54,26 @@ def moves_findings(moves: SurfaceMoves, stock: StockBox, tools: Sequence[Tool]) 
     if not cuts.any():
         return
     wide = max(tool.radius for tool in tools)
-    over = (ends[:, 0] > stock.x0 - wide) & (ends[:, 0] < stock.x1 + wide) & (ends[:, 1] > stock.y0 - wide) & (ends[:, 1] < stock.y1 + wide)
+    over = (
+        (ends[:, 0] > stock.x0 - wide)
+        & (ends[:, 0] < stock.x1 + wide)
+        & (ends[:, 1] > stock.y0 - wide)
+        & (ends[:, 1] < stock.y1 + wide)
+    )
     if not (cuts & over & (ends[:, 2] < stock.z1 - LEVEL)).any():
-        yield Finding(FindingKind.SIZE, f"Nothing is cut: no pass goes into the stock, whose top is at Z {stock.z1:.3f}; check the "
-                      "surfaces' scale and place, and the stock's box.")  # fmt: skip
+        yield Finding(
+            FindingKind.SIZE,
+            f"Nothing is cut: no pass goes into the stock, whose top is at Z {stock.z1:.3f}; check the "
+            "surfaces' scale and place, and the stock's box.",
+        )
     low = int(np.argmin(np.where(cuts, ends[:, 2], np.inf)))
     if ends[low, 2] < stock.z0 - LEVEL:
         x, y, z = ends[low].tolist()
-        text = (f"The tool's tip goes {stock.z0 - z:.3f} mm below the stock's underside, Z {stock.z0:.3f}, where the table is, at "
-                f"({x:.3f}, {y:.3f}); give the passes a floor, floor = {stock.z0:g}, or put something under the stock.")
+        text = (
+            f"The tool's tip goes {stock.z0 - z:.3f} mm below the stock's underside, Z {stock.z0:.3f}, where the table "
+            "is, at "
+            f"({x:.3f}, {y:.3f}); give the passes a floor, floor = {stock.z0:g}, or put something under the stock."
+        )
         yield Finding(FindingKind.BELOW_TABLE, text, x, y, amount=stock.z0 - z)
 
 
@@ -69,8 +82,11 @@ def _size(facets: Facets, tools: Sequence[Tool]) -> Iterator[Finding]:
     wide = float(np.ptp(facets.triangles[:, :, :2].reshape(-1, 2), axis=0).max())
     least = min((tool.diameter for tool in tools), default=0.0)
     if wide < SMALL * least:
-        text = (f"The surfaces are only {wide:.3g} mm wide, and the tool has {least:g} mm; if their file is in metres or inches, give the "
-                "mesh scale = 1000 or 25.4.")
+        text = (
+            f"The surfaces are only {wide:.3g} mm wide, and the tool has {least:g} mm; if their file is in metres or "
+            "inches, give the "
+            "mesh scale = 1000 or 25.4."
+        )
         yield Finding(FindingKind.SIZE, text, amount=wide)
     if wide > LARGE:
         text = f"The surfaces are {wide:.0f} mm wide; if their file is in micrometres, give the mesh scale = 0.001."
@@ -83,26 +99,44 @@ def _place(facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[F
     low, high = corners.min(axis=0), corners.max(axis=0)
     x, y, top = corners[int(np.argmax(corners[:, 2]))].tolist()
     if top <= stock.z0:
-        text = (f"The surfaces lie wholly below the stock: they reach up to Z {top:.3f} at ({x:.3f}, {y:.3f}), and its underside is at "
-                f"Z {stock.z0:.3f}; move them up, or correct the stock's box.")
+        text = (
+            f"The surfaces lie wholly below the stock: they reach up to Z {top:.3f} at ({x:.3f}, {y:.3f}), and its "
+            "underside is at "
+            f"Z {stock.z0:.3f}; move them up, or correct the stock's box."
+        )
         yield Finding(FindingKind.BEYOND_STOCK, text, x, y, amount=stock.z0 - top)
     elif top > stock.z1 + LEVEL:
-        text = (f"The surfaces stand {top - stock.z1:.3f} mm over the stock's top, Z {stock.z1:.3f}, at ({x:.3f}, {y:.3f}), where no metal "
-                "is; move them down, or correct the stock's box.")
+        text = (
+            f"The surfaces stand {top - stock.z1:.3f} mm over the stock's top, Z {stock.z1:.3f}, at ({x:.3f}, "
+            f"{y:.3f}), where no metal "
+            "is; move them down, or correct the stock's box."
+        )
         yield Finding(FindingKind.BEYOND_STOCK, text, x, y, amount=top - stock.z1)
     radius, size = max((tool.radius for tool in tools), default=0.0), high - low
-    sides = (("-X", 0, stock.x0 - low[0]), ("+X", 0, high[0] - stock.x1), ("-Y", 1, stock.y0 - low[1]), ("+Y", 1, high[1] - stock.y1))
+    sides = (
+        ("-X", 0, stock.x0 - low[0]),
+        ("+X", 0, high[0] - stock.x1),
+        ("-Y", 1, stock.y0 - low[1]),
+        ("+Y", 1, high[1] - stock.y1),
+    )
     for side, axis, far in sides:
         if far > max(radius, OUTSIDE * size[axis]):
-            text = (f"The surfaces reach {far:.3f} mm beyond the stock towards {side}, of {size[axis]:.3f} mm; move them into it, or "
-                    "correct the stock's box.")
+            text = (
+                f"The surfaces reach {far:.3f} mm beyond the stock towards {side}, of {size[axis]:.3f} mm; move them "
+                "into it, or "
+                "correct the stock's box."
+            )
             yield Finding(FindingKind.BEYOND_STOCK, text, amount=float(far))
 
 
 def _holes(built: Sequence[Built], facets: Facets, tools: Sequence[Tool]) -> Iterator[Finding]:
     """Yield the holes in meshes that a tool sinks into, the largest first."""
-    found = [(each.surface.name, hole) for each in built if isinstance(each.surface.shape, MeshShape) and each.surface.enabled
-             and each.triangles is not None for hole in holes(each.triangles)]  # fmt: skip
+    found = [
+        (each.surface.name, hole)
+        for each in built
+        if isinstance(each.surface.shape, MeshShape) and each.surface.enabled and each.triangles is not None
+        for hole in holes(each.triangles)
+    ]
     found = [(name, hole) for name, hole in found if tools and max(_dip(tool, hole.radius) for tool in tools) > DIP]
     if not found:
         return
@@ -111,17 +145,26 @@ def _holes(built: Sequence[Built], facets: Facets, tools: Sequence[Tool]) -> Ite
     for name, hole in sorted(deep, key=lambda each: -each[1].radius)[:NAMED]:
         yield Finding(FindingKind.HOLE, _hole_words(name, hole), hole.x, hole.y, amount=2 * hole.radius)
     if len(deep) > NAMED:
-        text = f"The meshes have {len(deep) - NAMED} more holes that a tool sinks into; close them in the program that they come from."
+        text = (
+            f"The meshes have {len(deep) - NAMED} more holes that a tool sinks into; close them in the program that "
+            "they come from."
+        )
         yield Finding(FindingKind.HOLE, text, amount=float(len(deep) - NAMED))
 
 
 def _hole_words(name: str, hole: Hole) -> str:
-    return (f"Surface {name} has a hole of {hole.wide:.3f} x {hole.long:.3f} mm at ({hole.x:.3f}, {hole.y:.3f}, {hole.z:.3f}), with "
-            f"{hole.edges} open edges, and the tool sinks into it; close it in the program that it comes from, or keep out by a boundary.")
+    return (
+        f"Surface {name} has a hole of {hole.wide:.3f} x {hole.long:.3f} mm at ({hole.x:.3f}, {hole.y:.3f}, "
+        f"{hole.z:.3f}), with "
+        f"{hole.edges} open edges, and the tool sinks into it; close it in the program that it comes from, or keep out "
+        "by a boundary."
+    )
 
 
 def _dip(tool: Tool, radius: float) -> float:
-    """Return how far a tool's tip sinks into a round hole, mm: as deep as there is nothing, where it is no wider than the hole."""
+    """Return how far a tool's tip sinks into a round hole, mm: as deep as there is nothing, where it is no wider than
+    the hole.
+    """
     if radius >= tool.radius:
         return math.inf
     rounded = tool.radius if tool.kind is ToolKind.BALL else tool.corner_radius if tool.kind is ToolKind.BULL else 0.0

@@ -1,7 +1,8 @@
 """What a scene's program leaves of the metal that its own tools reach, from the cut of the text that was written.
 
-The ridges between passes are what the pitch asks for: on slopes they are told as ridges, with their place. Metal that stands higher than
-that, beside walls between two planes, on sides that passes miss, at a foot where the overrun ends, is left, and counts.
+The ridges between passes are what the pitch asks for: on slopes they are told as ridges, with their place. Metal that
+stands higher than that, beside walls between two planes, on sides that passes miss, at a foot where the overrun ends,
+is left, and counts.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ BENT = 2.0
 """So many times the ridges of a plane are still ridges: in a hollow of twice the cutter's radius they are as high."""
 
 STEEP = 1.0
-"""mm per mm from which on a place is part of a side: its ridges may be as high as those of the steepest place near it."""
+"""mm per mm from which on a place is part of a side: its ridges may be as high as those of the steepest place near
+it.
+"""
 
 STEEPEST = 10.0
 """mm per mm; on steeper places the cells say no less."""
@@ -58,7 +61,9 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Ridge:
-    """The highest ridge between passes: how high, square to the surface, mm; where; and what the passes leave on a level floor."""
+    """The highest ridge between passes: how high, square to the surface, mm; where; and what the passes leave on a
+    level floor.
+    """
 
     height_mm: float
     x: float
@@ -75,8 +80,10 @@ class Left:
         area_mm2, places: of the metal left, seen from above. worst_mm: how high it stands, straight up.
         wide_mm: diameter of the largest disc in the worst place. x, y: where that is.
         ridge: None where there is no metal on the surfaces.
-        within_mm: what stands less high than that, square to a level surface, is not told. cell_mm: what is narrower than two is not.
-        at_rim: the worst place is within a tool's radius of where surfaces end. cut_short: and passes are kept from going on there.
+        within_mm: what stands less high than that, square to a level surface, is not told. cell_mm: what is narrower
+            than two is not.
+        at_rim: the worst place is within a tool's radius of where surfaces end. cut_short: and passes are kept from
+            going on there.
     """
 
     area_mm2: float
@@ -92,7 +99,9 @@ class Left:
     cut_short: bool = False
 
 
-def left_of(metal: Workpiece, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress = NO_PROGRESS) -> Left:
+def left_of(
+    metal: Workpiece, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress = NO_PROGRESS
+) -> Left:
     """Return what is left of a part's metal.
 
     Args:
@@ -122,7 +131,9 @@ def left_of(metal: Workpiece, triangles: Floats, error: float, asked: Sequence[A
     return Left(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
 
 
-def _allowed(sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress) -> tuple[Floats, Heights]:
+def _allowed(
+    sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress
+) -> tuple[Floats, Heights]:
     """Return how much higher than within reach metal may stand, mm straight up, and how low is within reach."""
     grid, found = sheet.grid, []
     low = np.full(sheet.heights.shape, np.inf, np.float32)
@@ -144,7 +155,9 @@ def _allowed(sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Aske
 
 
 def _ridges(asked: Asked, across: Floats, grid: Grid) -> Floats:
-    """Return how high ridges may stand at each cell, square to the surface: on sides as high as at the steepest place near."""
+    """Return how high ridges may stand at each cell, square to the surface: on sides as high as at the steepest place
+    near.
+    """
     import cv2
 
     if asked.ridge is not None:
@@ -156,9 +169,11 @@ def _ridges(asked: Asked, across: Floats, grid: Grid) -> Floats:
 
 
 def _upright(sheet: Sheet, low: Heights, asked: Asked, square: Floats) -> Floats:
-    """Return what heights square to what is within reach are straight up, and beside them how much too low that may be told, mm.
+    """Return what heights square to what is within reach are straight up, and beside them how much too low that may be
+    told, mm.
 
-    On bent surfaces cells make it little too low. In corners, where a wall is known to a cell, it is as low as a cell farther from it.
+    On bent surfaces cells make it little too low. In corners, where a wall is known to a cell, it is as low as a cell
+    farther from it.
     """
     import cv2
 
@@ -166,7 +181,9 @@ def _upright(sheet: Sheet, low: Heights, asked: Asked, square: Floats) -> Floats
     known = np.where(np.isfinite(low), low, 0.0).astype(np.float32)
     with np.errstate(invalid="ignore"):
         corner = low > sheet.heights + asked.wish.leave + TOLERANCE
-    rise = np.where(corner, np.hypot(*np.gradient(known.astype(np.float64), pitch)), np.hypot(*slopes(sheet.heights, pitch)))
+    rise = np.where(
+        corner, np.hypot(*np.gradient(known.astype(np.float64), pitch)), np.hypot(*slopes(sheet.heights, pitch))
+    )
     nearer = cv2.dilate(known, np.ones((3, 3), np.uint8)) - known
     bent = pitch**2 / (4 * radius) * np.hypot(1.0, np.minimum(rise, STEEPEST)) ** 3
     return np.asarray(square * np.hypot(1.0, rise) + bent + np.where(corner, nearer, 0.0))
@@ -182,7 +199,9 @@ def _wide(mask: Mask) -> Mask:
     import cv2
 
     square = np.ones((CELLS_WIDE, CELLS_WIDE), np.uint8)
-    opened = cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_OPEN, square, borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    opened = cv2.morphologyEx(
+        mask.astype(np.uint8), cv2.MORPH_OPEN, square, borderType=cv2.BORDER_CONSTANT, borderValue=0
+    )
     count, labels = cv2.connectedComponents(mask.astype(np.uint8), connectivity=8)
     kept = np.zeros(count, np.bool_)
     kept[labels[opened.astype(bool)]] = True
@@ -227,22 +246,41 @@ def left_findings(left: Left, origin: Floats, angles: Sequence[float]) -> Iterat
     x, y = left.x + float(origin[0]), left.y + float(origin[1])
     if left.places:
         count = "1 place" if left.places == 1 else f"{left.places} places"
-        text = (f"{left.area_mm2:.3f} mm2 of metal that the same tool reaches is left in {count}, the worst {left.worst_mm:.3f} mm high "
-                f"and {left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); {_remedy(left, angles)}.")
+        text = (
+            f"{left.area_mm2:.3f} mm2 of metal that the same tool reaches is left in {count}, the worst "
+            f"{left.worst_mm:.3f} mm high "
+            f"and {left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); {_remedy(left, angles)}."
+        )
         yield Finding(FindingKind.LEFT_REACHABLE, text, x, y, amount=left.area_mm2)
     ridge = left.ridge
     if ridge is not None and ridge.height_mm > BENT * ridge.level_mm + left.within_mm:
-        text = (f"The ridges between passes are up to {ridge.height_mm:.3f} mm high, square to the surface, at ({ridge.x + origin[0]:.3f}, "
-                f"{ridge.y + origin[1]:.3f}), where it slopes by {ridge.slope_deg:.0f} degrees; on a level floor they are "
-                f"{ridge.level_mm:.3f} mm; a smaller pitch, or passes across them, leaves less.")
-        yield Finding(FindingKind.RIDGE, text, ridge.x + float(origin[0]), ridge.y + float(origin[1]), counts=False, amount=ridge.height_mm)
+        text = (
+            f"The ridges between passes are up to {ridge.height_mm:.3f} mm high, square to the surface, at "
+            f"({ridge.x + origin[0]:.3f}, "
+            f"{ridge.y + origin[1]:.3f}), where it slopes by {ridge.slope_deg:.0f} degrees; on a level floor they are "
+            f"{ridge.level_mm:.3f} mm; a smaller pitch, or passes across them, leaves less."
+        )
+        yield Finding(
+            FindingKind.RIDGE,
+            text,
+            ridge.x + float(origin[0]),
+            ridge.y + float(origin[1]),
+            counts=False,
+            amount=ridge.height_mm,
+        )
 
 
 def _remedy(left: Left, angles: Sequence[float]) -> str:
     if left.cut_short:
         return "let the passes go on beside the surfaces: leave overrun out, or make it the tool's radius"
-    free = next((turn for turn in (90.0, 45.0, 135.0) if all(abs((angle + turn - other) % 180.0) > 10.0 for angle in angles[:1]
-                 for other in angles)), None)  # fmt: skip
+    free = next(
+        (
+            turn
+            for turn in (90.0, 45.0, 135.0)
+            if all(abs((angle + turn - other) % 180.0) > 10.0 for angle in angles[:1] for other in angles)
+        ),
+        None,
+    )
     across = f"add passes at angle_deg = {(angles[0] + free) % 180.0:g}, or " if free is not None else ""
     beyond = ", or let the surfaces go on there by the tool's radius" if left.at_rim else ""
     return f"{across}give the passes a smaller pitch{beyond}"

@@ -22,7 +22,8 @@ from ..simulation.sweeps.trim import trim
 from ..verify.course import course_of
 
 CELLS, MOST_CELLS = 256, 512
-"""Along the longer side of the stock: a slot is many cells wide, or the tool is so fine that its load cannot be told; more where passes lie
+"""Along the longer side of the stock: a slot is many cells wide, or the tool is so fine that its load cannot be told;
+more where passes lie
 close, so that what stays between two of them is some cells wide."""
 
 CELLS_A_PASS = 4
@@ -53,7 +54,9 @@ class _Load:
 
 @dataclass(frozen=True, eq=False)
 class SceneCut:
-    """A scene's program, cut: what is left of the metal, program coordinates, and what there is to say of how it was taken."""
+    """A scene's program, cut: what is left of the metal, program coordinates, and what there is to say of how it was
+    taken.
+    """
 
     metal: Workpiece
     findings: tuple[Finding, ...]
@@ -72,17 +75,23 @@ class Block:
     spacing: float
 
     def metal(self, widest: float) -> Workpiece:
-        """Return it on cells, program coordinates: no more of them along the widest tool's radius than the look for what is left takes."""
+        """Return it on cells, program coordinates: no more of them along the widest tool's radius than the look for
+        what is left takes.
+        """
         stock = self.stock
-        low, high = (np.array(corner) - self.origin for corner in ((stock.x0, stock.y0, stock.z0), (stock.x1, stock.y1, stock.z1)))
+        low, high = (
+            np.array(corner) - self.origin
+            for corner in ((stock.x0, stock.y0, stock.z0), (stock.x1, stock.y1, stock.z1))
+        )
         block = BoxStock(StockBox(*low.tolist(), *high.tolist()))
         side = max(stock.x1 - stock.x0, stock.y1 - stock.y0)
         wanted = min(max(CELLS_A_PASS * side / self.spacing, CELLS), MOST_CELLS, side * MOST_REACH / widest)
         return block.over(Grid.over(block.box, max(int(wanted), 1)))
 
 
-def scene_cut(programs: Sequence[NcProgram], tools: Sequence[Mapping[int, Tool]], block: Block,
-              progress: Progress = NO_PROGRESS) -> SceneCut:  # fmt: skip
+def scene_cut(
+    programs: Sequence[NcProgram], tools: Sequence[Mapping[int, Tool]], block: Block, progress: Progress = NO_PROGRESS
+) -> SceneCut:
     """Cut a scene's program, and say, by tool, where it takes more metal at a time than it can be meant to.
 
     That is a slot or a hole deeper than its diameter or flutes.
@@ -98,7 +107,9 @@ def scene_cut(programs: Sequence[NcProgram], tools: Sequence[Mapping[int, Tool]]
     for k, (program, mine) in enumerate(zip(programs, tools, strict=True)):
         course = course_of(program).course
         cutters = {number: cutter_of(tool) for number, tool in mine.items()}
-        done = trim(metal, course, cutters, TrimOptions(trace=True), progress.part(k / len(programs), (k + 1) / len(programs)))
+        done = trim(
+            metal, course, cutters, TrimOptions(trace=True), progress.part(k / len(programs), (k + 1) / len(programs))
+        )
         metal = done.workpiece
         for number, tool in mine.items():
             if tool.diameter < LEAST_CELLS * metal.grid.pitch:
@@ -126,7 +137,12 @@ def _loads(course: Course, volume: Floats, number: int, tool: Tool) -> Iterator[
     upright = np.abs(way[:, 2]) > STEEP * far
     down, along = mine & upright, mine & ~upright
     if down.any():
-        yield _load(course, int(np.argmax(np.where(down, volume, -1.0))), float(np.max(volume[down])) / (math.pi * tool.radius**2), True)
+        yield _load(
+            course,
+            int(np.argmax(np.where(down, volume, -1.0))),
+            float(np.max(volume[down])) / (math.pi * tool.radius**2),
+            True,
+        )
     if along.any():
         rows = np.flatnonzero(along)
         piece = np.floor((np.cumsum(far[rows]) - far[rows]) / tool.diameter).astype(np.int64)
@@ -145,6 +161,11 @@ def _load(course: Course, row: int, depth: float, plunges: bool) -> _Load:
 def _told(tool: Tool, load: _Load, limit: float) -> Finding:
     what = "goes straight down through" if load.plunges else "takes as much as a slot of its full width through"
     than = f"its flutes are {limit:g} mm long" if tool.flute_length else f"it is {limit:g} mm wide"
-    text = (f"T{tool.number} {what} {load.depth:.1f} mm of metal at ({load.x:.3f}, {load.y:.3f}), NC line {load.line}, and {than}; rough "
-            "the part first, or give passes before these stock to leave or a higher floor.")
-    return Finding(FindingKind.ENGAGEMENT, text, load.x, load.y, counts=bool(tool.flute_length), amount=load.depth, line=load.line)
+    text = (
+        f"T{tool.number} {what} {load.depth:.1f} mm of metal at ({load.x:.3f}, {load.y:.3f}), NC line {load.line}, and "
+        f"{than}; rough "
+        "the part first, or give passes before these stock to leave or a higher floor."
+    )
+    return Finding(
+        FindingKind.ENGAGEMENT, text, load.x, load.y, counts=bool(tool.flute_length), amount=load.depth, line=load.line
+    )

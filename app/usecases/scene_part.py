@@ -22,7 +22,9 @@ _BELOW = 1.0
 Origin = tuple[float, float, float]
 
 
-def scene_part(scene: Scene, sources: Sources, zero: Origin | None, leave: float | None, tolerance: float | None) -> SolidPart:
+def scene_part(
+    scene: Scene, sources: Sources, zero: Origin | None, leave: float | None, tolerance: float | None
+) -> SolidPart:
     """Return what is to come out of the metal, in program coordinates.
 
     Args:
@@ -39,13 +41,19 @@ def scene_part(scene: Scene, sources: Sources, zero: Origin | None, leave: float
     box = stock_of(scene, coarse)
     x, y, z = origin_of(scene, box) if zero is None else zero
     block = StockBox(box.x0 - x, box.y0 - y, box.z0 - z, box.x1 - x, box.y1 - y, box.z1 - z)
-    left = min((passes.stock_to_leave for passes in scene.passes if passes.enabled), default=0.0) if leave is None else leave
+    left = (
+        min((passes.stock_to_leave for passes in scene.passes if passes.enabled), default=0.0)
+        if leave is None
+        else leave
+    )
     above = max((passes.chord_tolerance for passes in scene.passes if passes.enabled), default=0.0)
     return SolidPart(SolidStock(_closed(facets.triangles - np.array([x, y, z]))), left, met, block, above)
 
 
 def _closed(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return triangles turned to look up, and for each one below everything that looks down: a line down meets as many of both."""
+    """Return triangles turned to look up, and for each one below everything that looks down: a line down meets as many
+    of both.
+    """
     a, b, c = np.moveaxis(triangles[..., :2], 1, 0)
     down = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) < (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     upper = np.where(down[:, None, None], triangles[:, ::-1], triangles)

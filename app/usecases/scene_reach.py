@@ -1,7 +1,7 @@
 """How low a scene's tools come at all, whatever passes they take: the surfaces' heights closed by each tool's profile.
 
-Nothing of it is what paths are made with: heights of the triangles at the cells' centres, dilated by the profile to where the tip may be,
-and eroded to what is cut from there.
+Nothing of it is what paths are made with: heights of the triangles at the cells' centres, dilated by the profile to
+where the tip may be, and eroded to what is cut from there.
 """
 
 from __future__ import annotations
@@ -59,7 +59,9 @@ class Sheet:
         return Sheet(grid, heights)
 
     def left_thick(self, leave: float) -> Sheet:
-        """Return it with stock left on it, square to it: on planes exactly, beside walls to a cell, in corners a little more."""
+        """Return it with stock left on it, square to it: on planes exactly, beside walls to a cell, in corners a little
+        more.
+        """
         if not leave:
             return self
         rise = np.hypot(1.0, np.hypot(*slopes(self.heights, self.grid.pitch)))
@@ -71,7 +73,8 @@ class Sheet:
 
 
 def slopes(heights: Heights, pitch: float) -> tuple[Floats, Floats]:
-    """Return how heights (rows, cols) rise along X and along Y, mm per mm: at each cell the less steep of the ways to both sides.
+    """Return how heights (rows, cols) rise along X and along Y, mm per mm: at each cell the less steep of the ways to
+    both sides.
 
     So a cell beside an upright wall is as level as what it lies on. Where nothing is known it is 0.
     """
@@ -109,8 +112,10 @@ def reached(triangles: Floats, grid: Grid, wish: Wish, progress: Progress = NO_P
         xs, ys = np.meshgrid(wide.xs(), wide.ys())
         tip[~shapely.contains_xy(wish.area, xs, ys)] = np.inf
     low = -dilated(-tip, form, progress)
-    rows, cols = (np.clip(((at - start) / pitch).astype(np.int64), 0, most - 1)
-                  for at, start, most in ((grid.ys(), wide.y0, wide.rows), (grid.xs(), wide.x0, wide.cols)))
+    rows, cols = (
+        np.clip(((at - start) / pitch).astype(np.int64), 0, most - 1)
+        for at, start, most in ((grid.ys(), wide.y0, wide.rows), (grid.xs(), wide.x0, wide.cols))
+    )
     return np.asarray(low[np.ix_(rows, cols)], np.float32)
 
 

@@ -1,4 +1,6 @@
-"""What is cut out of what, with what, to become what: put together from what was asked and what the program tells of itself."""
+"""What is cut out of what, with what, to become what: put together from what was asked and what the program tells of
+itself.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,8 @@ class Wishes:
         origin: in the plane and along Z, each None where it is not said; None = as told, or the drawing's own zero.
         join_tolerance: mm.
         held: how tools are held, by T number; the others as told.
-        tolerance: metal within this of the part is neither gouged nor left, mm; None = as the path was proven, else TOLERANCE.
+        tolerance: metal within this of the part is neither gouged nor left, mm; None = as the path was proven, else
+            TOLERANCE.
         reading: what else is said about reading the drawing.
     """
 
@@ -99,8 +102,8 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
         progress: told of the steps.
 
     Raises:
-        InputError: a program has an error or cuts nothing; a tool, the depth of a drawing or the stock is told by nobody; or a
-            file cannot be used.
+        InputError: a program has an error or cuts nothing; a tool, the depth of a drawing or the stock is told by
+            nobody; or a file cannot be used.
         Cancelled: the job was asked to stop.
     """
     for examined in programs:
@@ -118,10 +121,21 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
         part, said = _part(programs, tools, wishes)
     progress.step(0.8)
     stock = _stock(programs, tools, part, wishes)
-    setup = CutSetup(tuple(each.program for each in programs), {number: each.tool for number, each in tools.items()}, stock.stock, part,
-                     tuple(each.name for each in programs))  # fmt: skip
+    setup = CutSetup(
+        tuple(each.program for each in programs),
+        {number: each.tool for number, each in tools.items()},
+        stock.stock,
+        part,
+        tuple(each.name for each in programs),
+    )
     of_stock = _wound("the stock", stock.stock) if isinstance(stock.stock, SolidStock) else ()
-    found = (*_unfollowed(programs), *assumed, *of_stock, *((stock.assumed,) if stock.assumed is not None else ()), *said)
+    found = (
+        *_unfollowed(programs),
+        *assumed,
+        *of_stock,
+        *((stock.assumed,) if stock.assumed is not None else ()),
+        *said,
+    )
     return Ready(setup, programs, tools, stock, found)
 
 
@@ -130,7 +144,10 @@ def _unfollowed(programs: tuple[Examined, ...]) -> Iterator[Finding]:
     for each in programs:
         for problem in each.problems:
             if problem.word and problem.word.lower() in ROTARY:
-                text = f"{problem.told(each.name)} What it turns is cut here as if it stood; leave it out, or try it on the machine."
+                text = (
+                    f"{problem.told(each.name)} What it turns is cut here as if it stood; leave it out, or try it on "
+                    "the machine."
+                )
                 yield Finding(FindingKind.LEFT_OUT, text, line=problem.line)
 
 
@@ -142,13 +159,18 @@ def _header(programs: tuple[Examined, ...]) -> HeaderNote:
 def _ensure_readable(examined: Examined) -> None:
     error = examined.program.error
     if error is not None:
-        raise InputError(f"{error.told(examined.name)} What stands behind it cannot be cut; correct it, or choose the control: --dialect.")
+        raise InputError(
+            f"{error.told(examined.name)} What stands behind it cannot be cut; correct it, or choose the control: "
+            "--dialect."
+        )
     motions = examined.program.motions
     if np.all(motions.kind == MotionKind.RAPID):
         raise InputError(f"{examined.name}: nothing is cut; the program has no motion at feed rate.")
 
 
-def _stock(programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Part | None, wishes: Wishes) -> KnownStock:
+def _stock(
+    programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Part | None, wishes: Wishes
+) -> KnownStock:
     """Return the metal: what was asked for, the job's, or what the programs tell."""
     if wishes.stock is not None:
         return KnownStock(wishes.stock, "as given")
@@ -159,7 +181,9 @@ def _stock(programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Pa
         box, (x, y, z) = stock_box(part.job, part.regions, part.lines), part.origin
         moved = replace(box, x0=box.x0 - x, y0=box.y0 - y, z0=box.z0 - z, x1=box.x1 - x, y1=box.y1 - y, z1=box.z1 - z)
         return KnownStock(BoxStock(moved), "the job file, round the drawing")
-    return told_stock(programs, max(each.tool.radius for each in tools.values()), None if part is None else _part_box(part))
+    return told_stock(
+        programs, max(each.tool.radius for each in tools.values()), None if part is None else _part_box(part)
+    )
 
 
 def _part_box(part: Part) -> Floats:
@@ -172,7 +196,9 @@ def _part_box(part: Part) -> Floats:
     return np.array([[box.x0, box.y0, -depth], [box.x1, box.y1, 0.0]]) - part.origin
 
 
-def _part(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Part, tuple[Finding, ...]]:
+def _part(
+    programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes
+) -> tuple[Part, tuple[Finding, ...]]:
     assert wishes.against is not None
     name, data = wishes.against
     suffix = PurePath(name).suffix.lower()
@@ -203,7 +229,9 @@ def _surfaces(scene: Scene, header: HeaderNote, wishes: Wishes) -> SolidPart:
 
 
 def _nothing_beside(name: str) -> bytes:
-    raise InputError(f"{name}: the scene names this file, and it is not known where it lies; put its points into the scene.")
+    raise InputError(
+        f"{name}: the scene names this file, and it is not known where it lies; put its points into the scene."
+    )
 
 
 def _wound(name: str, solid: SolidStock) -> tuple[Finding, ...]:
@@ -228,7 +256,9 @@ def _solid(solid: SolidStock, wishes: Wishes) -> SolidPart:
     return SolidPart(replace(solid, triangles=triangles - zero), wishes.leave or 0.0, tolerance)
 
 
-def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[FlatPart, tuple[Finding, ...]]:
+def _flat(
+    programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes
+) -> tuple[FlatPart, tuple[Finding, ...]]:
     """Return the drawing and what of it is milled, and what there is to say about it."""
     from ..operations.compute import about_drawing, followed_lines, machined
     from ..operations.missed import missed
@@ -242,7 +272,11 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     asked = _job(DrawnPart(), programs, tools, wishes)
     diameters = [each.tool.diameter for each in tools.values()]
     reading = told_reading(wishes.reading, header.reading, name, wishes.units)
-    units = wishes.units or (wishes.job.units if wishes.job else None) or (None if reading.how.pixels_per_inch else header.drawing_units)
+    units = (
+        wishes.units
+        or (wishes.job.units if wishes.job else None)
+        or (None if reading.how.pixels_per_inch else header.drawing_units)
+    )
     drawing = read_plausible(name, data, Reading(units, layers_to_read(asked), reading.how), lambda _: diameters)
     job = with_layers_spelled(replace(asked, part=drawing.part))
     parts = drawn(job)
@@ -250,18 +284,38 @@ def _flat(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: W
     regions = made.regions
     if not regions and not lines:
         said = " ".join(finding.text for finding in parts.findings[:3])
-        raise InputError(f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
-                         f"--join-tolerance. {said}".rstrip())
+        raise InputError(
+            f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
+            f"--join-tolerance. {said}".rstrip()
+        )
     proven = header.path_tolerance if wishes.tolerance is None else None
     tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
     tabs, dog_bones = _on_purpose(programs)
     sheets = Sheets(job, parts)
     areas = sheets.areas()
-    part = FlatPart(job, regions, _origin(job, (regions, lines), wishes, header), tolerance if proven is None else proven, tolerance,
-                    header.allowance or 0.0, areas, lines, clamps=parts.clamps, tabs=tabs, dog_bones=dog_bones)
+    part = FlatPart(
+        job,
+        regions,
+        _origin(job, (regions, lines), wishes, header),
+        tolerance if proven is None else proven,
+        tolerance,
+        header.allowance or 0.0,
+        areas,
+        lines,
+        clamps=parts.clamps,
+        tabs=tabs,
+        dog_bones=dog_bones,
+    )
     told = (*reading.findings, *_differing(wishes, header, drawing.part.units))
-    return part, (*told, *drawing.findings, *about_drawing(job, parts, lines), *made.findings, *sheets.findings,
-                  *about_floors(areas, CHORD), *missed(sheets, regions))
+    return part, (
+        *told,
+        *drawing.findings,
+        *about_drawing(job, parts, lines),
+        *made.findings,
+        *sheets.findings,
+        *about_floors(areas, CHORD),
+        *missed(sheets, regions),
+    )
 
 
 def _differing(wishes: Wishes, header: HeaderNote, units: Units) -> Iterator[Finding]:
@@ -274,13 +328,18 @@ def _differing(wishes: Wishes, header: HeaderNote, units: Units) -> Iterator[Fin
 def _on_purpose(programs: tuple[Examined, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:
     """Return tabs and dog-bones that headers of our own tell of, each once."""
     headers = [each.program.header for each in programs if each.program.header is not None]
-    return (tuple(dict.fromkeys(tab for header in headers for tab in header.tabs)),
-            tuple(dict.fromkeys(bone for header in headers for bone in header.dog_bones)))
+    return (
+        tuple(dict.fromkeys(tab for header in headers for tab in header.tabs)),
+        tuple(dict.fromkeys(bone for header in headers for bone in header.dog_bones)),
+    )
 
 
 def _origin(
-    job: Job, milled: tuple[tuple[Region, ...], tuple[Contour, ...]], wishes: Wishes, header: HeaderNote,
-) -> tuple[float, float, float]:  # fmt: skip
+    job: Job,
+    milled: tuple[tuple[Region, ...], tuple[Contour, ...]],
+    wishes: Wishes,
+    header: HeaderNote,
+) -> tuple[float, float, float]:
     """Return the program's zero in the drawing's coordinates."""
     asked = wishes.origin is not None or (wishes.job is not None and "origin" in wishes.job.tables)
     if not asked:
@@ -293,23 +352,42 @@ def _job(part: DrawnPart, programs: tuple[Examined, ...], tools: dict[int, Known
     base = wishes.job.job if wishes.job is not None else Job(part)
     operations = _operations(programs, tools, wishes)
     missing = dict.fromkeys(each.cut.tool for each in operations if each.cut.tool not in tools)
-    mine = {tool.number: tool for tool in (*(each.tool for each in tools.values()), *other_tools(missing, wishes.tools, programs))}
+    mine = {
+        tool.number: tool
+        for tool in (*(each.tool for each in tools.values()), *other_tools(missing, wishes.tools, programs))
+    }
     operations = tuple(each for each in operations if each.cut.tool in mine)
     header = _header(programs)
     xy, z = wishes.origin or (base.origin_xy, base.origin_z)
-    join = next((t for t in (wishes.join_tolerance, base.join_tolerance if wishes.job else header.join_tolerance) if t is not None), None)
+    join = next(
+        (
+            t
+            for t in (wishes.join_tolerance, base.join_tolerance if wishes.job else header.join_tolerance)
+            if t is not None
+        ),
+        None,
+    )
     layers = wishes.layers or (base.layer_names if wishes.job else ()) or header.layers
     copies, (clamps, height) = base.copies, (base.keep_out_layers, base.keep_out_height)
     return replace(
-        base, part=part, tools=tuple(mine.values()), operations=operations, stock=_job_stock(base, operations, programs, wishes),
-        origin_xy=xy or OriginXY.DRAWING, origin_z=z or OriginZ.TOP,
-        join_tolerance=base.join_tolerance if join is None else join, layer_names=layers,
+        base,
+        part=part,
+        tools=tuple(mine.values()),
+        operations=operations,
+        stock=_job_stock(base, operations, programs, wishes),
+        origin_xy=xy or OriginXY.DRAWING,
+        origin_z=z or OriginZ.TOP,
+        join_tolerance=base.join_tolerance if join is None else join,
+        layer_names=layers,
         copies=copies if wishes.job and "copies" in wishes.job.tables else header.copies or Copies(),
-        keep_out_layers=clamps or header.keep_out[0], keep_out_height=height or header.keep_out[1],
-    )  # fmt: skip
+        keep_out_layers=clamps or header.keep_out[0],
+        keep_out_height=height or header.keep_out[1],
+    )
 
 
-def _job_stock(base: Job, operations: tuple[Operation, ...], programs: tuple[Examined, ...], wishes: Wishes) -> JobStock:
+def _job_stock(
+    base: Job, operations: tuple[Operation, ...], programs: tuple[Examined, ...], wishes: Wishes
+) -> JobStock:
     """Return the stock's margin, and how thick it is: as given, told by a comment, or as the job has it."""
     note = next((each.program.stock for each in programs if each.program.stock is not None), None)
     if isinstance(wishes.stock, BoxStock):
@@ -322,19 +400,30 @@ def _job_stock(base: Job, operations: tuple[Operation, ...], programs: tuple[Exa
 
 
 def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Operation, ...]:
-    """Return what is milled how deep: as the job or the header of our own says, else a pocket a tool, as deep as was asked."""
-    told = wishes.job.job.operations if wishes.job is not None and "operation" in wishes.job.tables else tuple(_noted(programs))
+    """Return what is milled how deep: as the job or the header of our own says, else a pocket a tool, as deep as was
+    asked.
+    """
+    told = (
+        wishes.job.job.operations
+        if wishes.job is not None and "operation" in wishes.job.tables
+        else tuple(_noted(programs))
+    )
     if not told and wishes.depth is None:
         assert wishes.against is not None
-        raise InputError(f"{wishes.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top down "
-                         "to the floor, or a job file with operations.")
+        raise InputError(
+            f"{wishes.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top "
+            "down "
+            "to the floor, or a job file with operations."
+        )
     asked = told or tuple(PocketOperation(Cut(number)) for number in tools)
     return tuple(_with(operation, wishes) for operation in asked)
 
 
 def _noted(programs: tuple[Examined, ...]) -> list[Operation]:
     """Return the operations that headers of our own tell of, each once."""
-    notes = dict.fromkeys(note for each in programs if each.program.header is not None for note in each.program.header.operations)
+    notes = dict.fromkeys(
+        note for each in programs if each.program.header is not None for note in each.program.header.operations
+    )
     return [_as_noted(note) for note in notes]
 
 
@@ -351,7 +440,9 @@ def _as_noted(note: OperationNote) -> Operation:
 
 
 def _with(operation: Operation, wishes: Wishes) -> Operation:
-    """Return an operation with the depth and the stock to leave that were asked for; a step is never in the way of a depth."""
+    """Return an operation with the depth and the stock to leave that were asked for; a step is never in the way of a
+    depth.
+    """
     depth = operation.cut.depth if wishes.depth is None else wishes.depth
     leave = operation.cut.stock_to_leave if wishes.leave is None else wishes.leave
     return replace(operation, cut=replace(operation.cut, depth=depth, stepdown=depth, stock_to_leave=leave))

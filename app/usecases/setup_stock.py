@@ -66,7 +66,9 @@ def read_stock(name: str, data: bytes, beside: bytes) -> Stock:
 
 
 def cut_box(programs: tuple[Examined, ...]) -> Floats:
-    """Return (2, 3) lower and upper corner of the motions at feed rate of all programs, mm; NaN along an axis that none moves."""
+    """Return (2, 3) lower and upper corner of the motions at feed rate of all programs, mm; NaN along an axis that none
+    moves.
+    """
     boxes = [extent(each.program, each.program.motions.kind != MotionKind.RAPID) for each in programs]
     low, high = (np.array([getattr(box, end) for box in boxes]) for end in ("low", "high"))
     return np.array([np.fmin.reduce(low), np.fmax.reduce(high)])
@@ -110,12 +112,17 @@ def _noted(note: StockNote, name: str, cuts: Floats, around: Floats) -> KnownSto
         words.append("where it tells nothing, round the cuts")
     if not np.all(high > low):
         raise _nothing(name)
-    text = f"The {source.removeprefix('the ')} tells the stock but not where it lies: {', '.join(words)}, so {_words(low, high)}; {HINT}."
+    text = (
+        f"The {source.removeprefix('the ')} tells the stock but not where it lies: {', '.join(words)}, so "
+        f"{_words(low, high)}; {HINT}."
+    )
     return KnownStock(BoxStock(_box(low, high)), source, Finding(FindingKind.ASSUMED, text, counts=False))
 
 
 def _placed(low: Floats, size: Floats, cuts: Floats, sized: NDArray[np.bool_]) -> tuple[Floats, list[str]]:
-    """Return the lower corner where only a size is told: where the cuts stick out least, and the top at Z 0 if they go below it."""
+    """Return the lower corner where only a size is told: where the cuts stick out least, and the top at Z 0 if they go
+    below it.
+    """
     low, words = low.copy(), []
     flat = [k for k in (0, 1) if sized[k]]
     if flat:
@@ -135,7 +142,9 @@ def _beyond(low: Floats, size: Floats, cuts: Floats, axes: list[int]) -> float:
 
 
 def _round(cuts: Floats, radius: float) -> Floats:
-    """Return the box round the cuts, wider by a radius; its top is Z 0 where the cuts go below it, else the highest of them."""
+    """Return the box round the cuts, wider by a radius; its top is Z 0 where the cuts go below it, else the highest of
+    them.
+    """
     wide = np.array([radius, radius, 0.0])
     box = np.array([cuts[0] - wide, cuts[1] + wide])
     box[1, 2] = 0.0 if box[0, 2] < 0 else box[1, 2]
@@ -149,8 +158,10 @@ def _with_part(box: Floats, part: Floats) -> Floats:
 
 
 def _nothing(name: str) -> InputError:
-    return InputError(f"{name}: the program does not tell the stock, and no box can be laid round its cuts, as they do not go down; "
-                      "give it: --stock X0,Y0,Z0,X1,Y1,Z1.")
+    return InputError(
+        f"{name}: the program does not tell the stock, and no box can be laid round its cuts, as they do not go down; "
+        "give it: --stock X0,Y0,Z0,X1,Y1,Z1."
+    )
 
 
 def _words(low: Floats, high: Floats) -> str:

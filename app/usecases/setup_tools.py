@@ -1,4 +1,6 @@
-"""Which cutter each T number of a program is: by what was asked, the job, a tool table, or the program's own comments."""
+"""Which cutter each T number of a program is: by what was asked, the job, a tool table, or the program's own
+comments.
+"""
 
 from __future__ import annotations
 
@@ -51,12 +53,13 @@ class ToolsTold:
 
 
 def with_tools(
-    programs: tuple[Examined, ...], told: tuple[ToolsTold, ...],
-) -> tuple[tuple[Examined, ...], dict[int, KnownTool], tuple[Finding, ...]]:  # fmt: skip
+    programs: tuple[Examined, ...],
+    told: tuple[ToolsTold, ...],
+) -> tuple[tuple[Examined, ...], dict[int, KnownTool], tuple[Finding, ...]]:
     """Return the programs, what each tool is that cuts, by T number, and what was assumed.
 
-    A program that cuts without naming a tool gets the number of the one that its comments tell of, else that of the only
-    tool that is given, else one that is free.
+    A program that cuts without naming a tool gets the number of the one that its comments tell of, else that of the
+    only tool that is given, else one that is free.
 
     Raises:
         InputError: nobody tells what a tool is; it names the line from which on it cuts.
@@ -72,7 +75,9 @@ def with_tools(
         for number, line in _cutting(examined.program).items():
             if number not in known:
                 known[number] = _known(examined, number, line, told, [each.program for each in named])
-    findings = tuple(Finding(FindingKind.ASSUMED, each.assumed, counts=False) for each in known.values() if each.assumed)
+    findings = tuple(
+        Finding(FindingKind.ASSUMED, each.assumed, counts=False) for each in known.values() if each.assumed
+    )
     return tuple(named), dict(sorted(known.items())), findings
 
 
@@ -96,8 +101,10 @@ def with_holders(tools: Mapping[int, KnownTool], held: Mapping[int, Held]) -> di
     made = dict(tools)
     for number, each in held.items():
         if number not in made:
-            raise InputError(f"T{number} does not cut, so its holder says nothing; the tools that do are "
-                             f"{', '.join(f'T{known}' for known in made)}.")
+            raise InputError(
+                f"T{number} does not cut, so its holder says nothing; the tools that do are "
+                f"{', '.join(f'T{known}' for known in made)}."
+            )
         try:
             tool = replace(made[number].tool, stick_out=each.stick_out, holder=each.holder)
         except HitofudeError as error:
@@ -123,10 +130,14 @@ def _cutting(program: NcProgram) -> dict[int, int]:
     return {int(number): int(motions.line[cuts[k]]) for number, k in zip(numbers, first, strict=True)}
 
 
-def _with_name(examined: Examined, told: tuple[ToolsTold, ...], known: dict[int, KnownTool], taken: set[int]) -> Examined:
+def _with_name(
+    examined: Examined, told: tuple[ToolsTold, ...], known: dict[int, KnownTool], taken: set[int]
+) -> Examined:
     """Return a program with a number for the tool that it does not name; the number is taken, the tool known."""
     own = dict.fromkeys(note.number for note in examined.program.tools)
-    sure = len(own) == 1 or (own and examined.program.header is not None)  # our own header tells first of the tool that cuts
+    sure = len(own) == 1 or (
+        own and examined.program.header is not None
+    )  # our own header tells first of the tool that cuts
     if sure and NAMELESS not in own and not own.keys() & _cutting(examined.program).keys():
         number = next(iter(own))
         known[number] = _known(examined, number, 0, told, [examined.program])
@@ -154,15 +165,21 @@ def _only(examined: Examined, told: tuple[ToolsTold, ...]) -> KnownTool:
     if len(notes) == 1:
         return _noted(replace(notes[0], number=1), f"{examined.name}:{notes[0].line}")
     line = cutting[NAMELESS]
-    raise InputError(f"{examined.name}:{line}: a tool that the program does not name cuts from here on, and nobody says what it is; "
-                     "give its shape, such as --tool 0=flat:6 (0 = the tool without a name, then kind:diameter).")
+    raise InputError(
+        f"{examined.name}:{line}: a tool that the program does not name cuts from here on, and nobody says what it is; "
+        "give its shape, such as --tool 0=flat:6 (0 = the tool without a name, then kind:diameter)."
+    )
 
 
-def _known(examined: Examined, number: int, line: int, told: tuple[ToolsTold, ...], programs: list[NcProgram]) -> KnownTool:
+def _known(
+    examined: Examined, number: int, line: int, told: tuple[ToolsTold, ...], programs: list[NcProgram]
+) -> KnownTool:
     found = _told(number, told, programs)
     if found is None:
-        raise InputError(f"{examined.name}:{line}: T{number} cuts from here on, and nobody says what it is; give its shape, "
-                         f"such as --tool {number}=flat:6 (number=kind:diameter), or a job file or tool table that has it.")
+        raise InputError(
+            f"{examined.name}:{line}: T{number} cuts from here on, and nobody says what it is; give its shape, "
+            f"such as --tool {number}=flat:6 (number=kind:diameter), or a job file or tool table that has it."
+        )
     return found
 
 
@@ -182,10 +199,15 @@ def _by(told: ToolsTold, number: int) -> KnownTool:
     tool = told.tools[number]
     assumed = ""
     if told.shapeless:
-        assumed = f"T{number}: {told.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says otherwise."
+        assumed = (
+            f"T{number}: {told.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says "
+            "otherwise."
+        )
     elif tool.kind is ToolKind.DRILL and not tool.tip_angle:
-        assumed = (f"T{number}: {told.source} tells a drill of {tool.diameter:g} mm but no angle; it is taken to have "
-                   f"{np.degrees(DRILL_ANGLE):g} degrees; --tool {number}=drill:{tool.diameter:g}:ANGLE says otherwise.")
+        assumed = (
+            f"T{number}: {told.source} tells a drill of {tool.diameter:g} mm but no angle; it is taken to have "
+            f"{np.degrees(DRILL_ANGLE):g} degrees; --tool {number}=drill:{tool.diameter:g}:ANGLE says otherwise."
+        )
     return KnownTool(tool, told.source, assumed)
 
 
@@ -198,8 +220,10 @@ def _noted(note: ToolNote, place: str) -> KnownTool:
     kind = _kind(note)
     if kind in (ToolKind.V, ToolKind.TAPER) and not note.angle:
         example = "v:DIAMETER:ANGLE" if kind is ToolKind.V else "taper:TIP:ANGLE:DIAMETER"
-        raise InputError(f"T{note.number}: {place} tells of a {kind.value} tool of {note.diameter:g} mm but not of its angle; "
-                         f"give it: --tool {note.number}={example}.")
+        raise InputError(
+            f"T{note.number}: {place} tells of a {kind.value} tool of {note.diameter:g} mm but not of its angle; "
+            f"give it: --tool {note.number}={example}."
+        )
     told = {"corner_radius": note.corner_radius, "tip_angle": note.angle, "tip_diameter": note.tip_diameter}
     shape: dict[str, Any] = {key: value for key, value in told.items() if key in shape_keys(kind)}
     try:

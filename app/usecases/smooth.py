@@ -1,7 +1,7 @@
 """`hitofude smooth`: straight feed moves of any NC program become lines, arcs or splines within a proven tolerance.
 
-What goes out is read back from its own bytes, and each stretch that was written anew is judged against the moves it stands
-for. One that does not pass, or takes more blocks than it had, stays as it was.
+What goes out is read back from its own bytes, and each stretch that was written anew is judged against the moves it
+stands for. One that does not pass, or takes more blocks than it had, stays as it was.
 """
 
 from __future__ import annotations
@@ -67,12 +67,14 @@ class SmoothOptions:
         tolerance: by how much curve and moves may be apart, both ways, mm.
         form: what is written.
         middle: half way between two points the curve may be so far away, mm; None: no farther than at them.
-        degree: of splines, 3 or 5; no control knows degree 5, which goes out as cubics that take up part of the tolerance.
+        degree: of splines, 3 or 5; no control knows degree 5, which goes out as cubics that take up part of the
+            tolerance.
         corner: bends of more than this are kept exactly, radians.
         post: in whose words all of the program is written; None = those of the control that it is for.
         dialect: how the program is read; None = as the text looks, whatever the post.
         effective: method D; None: the curve goes by all points.
-        bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the moves do there.
+        bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the
+            moves do there.
     """
 
     tolerance: float = 0.01
@@ -92,13 +94,19 @@ class SmoothOptions:
 
     def __post_init__(self) -> None:
         if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
-            raise ParameterError(f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm.")
+            raise ParameterError(
+                f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm."
+            )
         if self.degree not in (3, 5):
             raise ParameterError(f"a spline of degree {self.degree}; use 3 or 5.")
         if not 0 < self.corner <= math.pi:
-            raise ParameterError(f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180.")
+            raise ParameterError(
+                f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180."
+            )
         if not 0 < self.bend <= math.pi:
-            raise ParameterError(f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180.")
+            raise ParameterError(
+                f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180."
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +149,8 @@ class Smoothed:
         name: of the file that came in.
         options: what was asked.
         source: the program as its own control reads it.
-        before, after: the same in the words that it is written in, before and after smoothing, both as the control of those reads them.
+        before, after: the same in the words that it is written in, before and after smoothing, both as the control of
+        those reads them.
         data: the new text.
         pieces: every stretch, in the order of the text.
         found: stretches, and what is in none.
@@ -196,7 +205,9 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
             del blocks[k]
             kept[k] = fault
     work.require_the_rest(after, new)
-    pieces = tuple(work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches)))
+    pieces = tuple(
+        work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches))
+    )
     dialects = ready.dialect, ready.post.dialect
     done = Smoothed(name, options, ready.source, ready.program, after, new.data, pieces, found, dialects, ready.off)
     return replace(done, data=rewrite(ready.data, found.stretches, blocks, _comments(done, ready)).data)
@@ -240,8 +251,10 @@ class _Work:
         self._post, self._program = source.post, source.program
         own = [source.points(stretch) for stretch in found.stretches]
         self._astray = [k for k, points in enumerate(own) if points is None]
-        self._points = [without_repeats(stretch.points if points is None else points)
-                        for stretch, points in zip(found.stretches, own, strict=True)]  # fmt: skip
+        self._points = [
+            without_repeats(stretch.points if points is None else points)
+            for stretch, points in zip(found.stretches, own, strict=True)
+        ]
         self._tube = Tube(options.tolerance, options.middle)
         self._classes: dict[int, PointClasses] = {}
 
@@ -270,22 +283,31 @@ class _Work:
         step = 10.0 ** -self._post.digits(state.units).X * state.units.value
         slack = 2.0 * step
         if not self._options.tolerance > 2 * slack:
-            raise InputError(f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of {self._post.title}, "
-                             f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals.")
+            raise InputError(
+                f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of "
+                f"{self._post.title}, "
+                f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals."
+            )
         if self._options.effective is not None:
-            classes = self._options.effective.classes(points, corners(points, self._options.corner, _REACH * self._tube.widest))
+            classes = self._options.effective.classes(
+                points, corners(points, self._options.corner, _REACH * self._tube.widest)
+            )
             self._classes[k] = classes
             points, spent = classes.passed, classes.off
             slack += spent
             if not self._tube.radius > slack:
                 raise InputError(
-                    f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm off the path by the "
-                    f"effective ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than {slack:.4g} mm."
+                    f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm "
+                    "off the path by the "
+                    "effective ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than "
+                    f"{slack:.4g} mm."
                 )
         tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
-        arcs = ArcOptions(tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend)
+        arcs = ArcOptions(
+            tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend
+        )
         if form is not Form.NURBS or nurbs is NurbsForm.NONE:
             return fit_arcs(points, arcs, progress)
         level = nurbs is NurbsForm.BEZIER
@@ -293,7 +315,13 @@ class _Work:
         cubic = _FOR_CUBICS * tube.radius if self._options.degree != 3 else 0.0
         tube = tube.narrower(cubic)
         splines = SplineOptions(
-            tube, self._options.degree, cubic, self._options.corner, blocks, level, lambda part, share: fit_arcs(part, uncut, share)
+            tube,
+            self._options.degree,
+            cubic,
+            self._options.corner,
+            blocks,
+            level,
+            lambda part, share: fit_arcs(part, uncut, share),
         )
         return fit_splines(points, splines, progress)
 
@@ -310,7 +338,9 @@ class _Work:
         return answers
 
     def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
-        """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion ends there."""
+        """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion
+        ends there.
+        """
         sharp, legs = bends(points, self._options.corner)
         away = ~near(points[sharp], ends, self._step)
         corner = legs >= self._options.least_leg * (1 - 1e-9)
@@ -332,15 +362,21 @@ class _Work:
             same = before.kind[rows] == after.motions.kind[others]
             ends = np.abs(before.end[rows] - after.motions.end[others]).max(axis=1, initial=0.0) <= self._step
             feeds = np.isclose(before.feed[rows], after.motions.feed[others], rtol=1e-9, atol=0.0, equal_nan=True)
-            pairs, which = np.unique(np.column_stack([before.state[rows], after.motions.state[others]]), axis=0, return_inverse=True)
-            states = np.array([self._program.states[a] == after.states[b] for a, b in pairs.tolist()], np.bool_)[which.ravel()]
+            pairs, which = np.unique(
+                np.column_stack([before.state[rows], after.motions.state[others]]), axis=0, return_inverse=True
+            )
+            states = np.array([self._program.states[a] == after.states[b] for a, b in pairs.tolist()], np.bool_)[
+                which.ravel()
+            ]
             wrong = np.flatnonzero(~(same & ends & feeds & states))
             if not len(wrong):
                 return
             rows = rows[wrong]
         line = int(before.line[rows[0]]) if len(rows) else 1
-        raise HitofudeError(f"What is smoothed is not proven to go on as before at line {line}, so it is not kept; please report this "
-                            "with the program.")  # fmt: skip
+        raise HitofudeError(
+            f"What is smoothed is not proven to go on as before at line {line}, so it is not kept; please report this "
+            "with the program."
+        )
 
     @property
     def _step(self) -> float:
@@ -372,7 +408,20 @@ class _Work:
             return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes, lines)
         after = of_curve(judged.curve, points[at])
         numbers = (count, blocks)
-        return Piece(stretch, points, numbers, judged.curve, judged.judgement, "", before, after, at, classes, lines, judged.rounded)
+        return Piece(
+            stretch,
+            points,
+            numbers,
+            judged.curve,
+            judged.judgement,
+            "",
+            before,
+            after,
+            at,
+            classes,
+            lines,
+            judged.rounded,
+        )
 
 
 def _knots(curve: Nurbs) -> int:

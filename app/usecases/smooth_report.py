@@ -31,13 +31,17 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
     bend, step = _most(done, "bend"), _most(done, "curvature_step")
     return (
         f"{told}, {came} blocks before, {left} after",
-        f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to moves "
+        f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
+        "moves "
         f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
         f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
         f"curvature step {step[0]:.4g} per mm before, {step[1]:.4g} after",
         _corner_words(done),
-        *(f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected" for told in _points(done)),
+        *(
+            f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected"
+            for told in _points(done)
+        ),
         "the control may add what its own blending allows",
         *_other_control(done),
     )
@@ -58,12 +62,17 @@ def _corner_words(done: Smoothed) -> str:
 
 
 def _other_control(done: Smoothed) -> tuple[str, ...]:
-    """Return for which control the program was written, where it came for another one, and how far all else is from what it was."""
+    """Return for which control the program was written, where it came for another one, and how far all else is from
+    what it was.
+    """
     came, left = (HABITS[dialect].title for dialect in done.dialects)
     if came == left:
         return ()
-    return (f"all of it is written for {left} and read back as {left}; what is not smoothed is within {done.off:.4g} mm of the "
-            f"{came} program",)  # fmt: skip
+    return (
+        f"all of it is written for {left} and read back as {left}; what is not smoothed is within {done.off:.4g} mm of "
+        "the "
+        f"{came} program",
+    )
 
 
 def findings(done: Smoothed) -> tuple[Finding, ...]:
@@ -83,23 +92,42 @@ def report(done: Smoothed) -> Json:
     listed = sorted(done.pieces, key=lambda piece: (piece.judgement is None, piece.stretch.first_line))[:LISTED]
     return {
         "program": done.name,
-        "control": {"of_the_program": done.dialects[0].value, "written_for": done.dialects[1].value, "elsewhere_mm": done.off},
+        "control": {
+            "of_the_program": done.dialects[0].value,
+            "written_for": done.dialects[1].value,
+            "elsewhere_mm": done.off,
+        },
         "warnings": [problem.told(done.name) for problem in done.source.problems],
         "as": done.options.form.value,
         "tolerance": {
-            "asked_mm": done.options.tolerance, "middle_mm": done.options.middle, "proven_mm": done.bound,
-            "curve_to_moves_found_mm": max((piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0),
-            "moves_to_curve_found_mm": max((piece.judgement.from_points for piece in changed if piece.judgement), default=0.0),
+            "asked_mm": done.options.tolerance,
+            "middle_mm": done.options.middle,
+            "proven_mm": done.bound,
+            "curve_to_moves_found_mm": max(
+                (piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0
+            ),
+            "moves_to_curve_found_mm": max(
+                (piece.judgement.from_points for piece in changed if piece.judgement), default=0.0
+            ),
         },
-        "blocks": {"before": came, "after": left, "moves_left_alone": {reason.value: n for reason, n in done.found.left.items() if n}},
+        "blocks": {
+            "before": came,
+            "after": left,
+            "moves_left_alone": {reason.value: n for reason, n in done.found.left.items() if n},
+        },
         "largest_bend_deg": {"before": math.degrees(bend[0]), "after": math.degrees(bend[1])},
         "largest_curvature_step_per_mm": {"before": step[0], "after": step[1]},
         "points": next(iter(_points(done)), None),
         "bend_deg": math.degrees(done.options.bend),
-        "corner_deg": math.degrees(done.options.corner), "corner_least_leg_mm": done.options.least_leg,
+        "corner_deg": math.degrees(done.options.corner),
+        "corner_least_leg_mm": done.options.least_leg,
         "bends_rounded": sum(piece.rounded for piece in done.pieces),
-        "stretches": {"found": len(done.pieces), "changed": len(changed), "listed": [_listed(piece) for piece in listed]},
-    }  # fmt: skip
+        "stretches": {
+            "found": len(done.pieces),
+            "changed": len(changed),
+            "listed": [_listed(piece) for piece in listed],
+        },
+    }
 
 
 def report_text(done: Smoothed) -> str:
@@ -117,9 +145,11 @@ def _listed(piece: Piece) -> Json:
     judgement = piece.judgement
     x, y, z = judgement.place
     return told | {
-        "proven_mm": judgement.bound, "curve_to_moves_found_mm": judgement.from_curve, "moves_to_curve_found_mm": judgement.from_points,
+        "proven_mm": judgement.bound,
+        "curve_to_moves_found_mm": judgement.from_curve,
+        "moves_to_curve_found_mm": judgement.from_points,
         "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
-    }  # fmt: skip
+    }
 
 
 def _changed(done: Smoothed) -> list[Piece]:
@@ -131,7 +161,9 @@ def _blocks(done: Smoothed) -> tuple[int, int]:
 
 
 def _points(done: Smoothed) -> list[Json]:
-    """Return how many points of the stretches that changed are effective and corrected, of how many; nothing without method D."""
+    """Return how many points of the stretches that changed are effective and corrected, of how many; nothing without
+    method D.
+    """
     classes = [piece.classes for piece in _changed(done) if piece.classes is not None]
     if not classes:
         return []

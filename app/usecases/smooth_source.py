@@ -1,7 +1,7 @@
 """The program that is smoothed, as its own control reads it and in the words of the control that it is written for.
 
-A program is read as what it looks to be, or as somebody says; never as the control that it is to be written for, whose words may
-mean something else.
+A program is read as what it looks to be, or as somebody says; never as the control that it is to be written for, whose
+words may mean something else.
 """
 
 from __future__ import annotations
@@ -24,7 +24,13 @@ from ..gcode.rework.stretches import Stretch
 from ..gcode.translate.program import translated
 from ..model.motion import Floats
 
-_POSTS = {Dialect.LINUXCNC: "linuxcnc", Dialect.FANUC: "fanuc", Dialect.HAAS: "haas", Dialect.GRBL: "grbl", Dialect.MACH3: "mach3"}
+_POSTS = {
+    Dialect.LINUXCNC: "linuxcnc",
+    Dialect.FANUC: "fanuc",
+    Dialect.HAAS: "haas",
+    Dialect.GRBL: "grbl",
+    Dialect.MACH3: "mach3",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +60,9 @@ class SourceProgram:
         return np.vstack([self.source.motions.start[rows[:1]], self.source.motions.end[rows]])
 
     def lines(self, stretch: Stretch) -> tuple[int, int]:
-        """Return first and last line of a stretch in the text that came in; in the new text where it is not there one by one."""
+        """Return first and last line of a stretch in the text that came in; in the new text where it is not there one
+        by one.
+        """
         rows = self.rows[stretch.first : stretch.stop]
         if np.any(rows < 0):
             return stretch.first_line, stretch.last_line
@@ -62,8 +70,12 @@ class SourceProgram:
 
 
 def read_source(
-    name: str, data: bytes, dialect: Dialect | None, target: Post | None, progress: Progress = NO_PROGRESS,
-) -> SourceProgram:  # fmt: skip
+    name: str,
+    data: bytes,
+    dialect: Dialect | None,
+    target: Post | None,
+    progress: Progress = NO_PROGRESS,
+) -> SourceProgram:
     """Return a program in the words that it is to be written in.
 
     Args:

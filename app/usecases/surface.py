@@ -1,4 +1,6 @@
-"""A scene from its text to tool paths over its surfaces: the compound surface, the cutters' paths, all told apart by surface."""
+"""A scene from its text to tool paths over its surfaces: the compound surface, the cutters' paths, all told apart by
+surface.
+"""
 
 from __future__ import annotations
 
@@ -113,7 +115,9 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
         HitofudeError: a surface cannot be made, or passes cannot be computed. Cancelled: the job was asked to stop.
     """
     built = build(scene, sources, progress.part(0.0, 0.05))
-    order = sorted(range(len(built)), key=lambda k: built[k].surface.name)  # what surfaces coincide is told by names, not by order
+    order = sorted(
+        range(len(built)), key=lambda k: built[k].surface.name
+    )  # what surfaces coincide is told by names, not by order
     facets = scene_facets([built[k] for k in order], progress=progress.part(0.05, 0.15))
     numbers = np.array([*order, len(built)])
     stock = stock_of(scene, facets.facets)
@@ -156,13 +160,19 @@ def origin_of(scene: Scene, stock: StockBox) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _family(scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float, Sources, StockBox], progress: Progress) -> Family:
+def _family(
+    scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float, Sources, StockBox], progress: Progress
+) -> Family:
     """Compute one family of passes; `rest` is the grid, what reads files, and the stock."""
     grid, sources, stock = rest
     tool = _tool(scene, passes)
     overrun = _overrun(passes, tool, stock)
     planes = _planes(facets.facets, passes, tool, overrun.far)
-    below = facets.facets if passes.floor is None else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
+    below = (
+        facets.facets
+        if passes.floor is None
+        else _with_floor(facets.facets, passes.floor, len(scene.surfaces), overrun.far)
+    )
     follower = Follower(below, tool, FollowOptions(passes.stock_to_leave, passes.chord_tolerance, grid))
     area = _area(passes.boundary, tool, sources)
     path = cutter_path(follower, planes, area, progress.part(0.0, 0.7), overrun)
@@ -200,7 +210,11 @@ def _step(passes: Passes, tool: Tool) -> float:
 def _tool(scene: Scene, passes: Passes) -> Tool:
     """Return the passes' tool with their feeds and speed."""
     tool = scene.tool(passes.tool)
-    own = {name: value for name in ("feed_rate", "plunge_rate", "spindle_speed") if (value := getattr(passes, name)) is not None}
+    own = {
+        name: value
+        for name in ("feed_rate", "plunge_rate", "spindle_speed")
+        if (value := getattr(passes, name)) is not None
+    }
     return replace(tool, **own)
 
 
@@ -234,5 +248,13 @@ def _milling(family: Family) -> Milling:
 
 def job_of(scene: Scene, tools: Mapping[int, Tool] | None = None) -> Job:
     """Return a job with a scene's name, tools and way of writing, and without a drawing."""
-    return Job(Part(name=scene.name), tools=tuple((tools or {}).get(tool.number, tool) for tool in scene.tools), operations=(),
-               safe_z=scene.safe_z, retract_z=scene.retract_z, post=scene.post, out_units=scene.out_units, exact_path=scene.exact_path)
+    return Job(
+        Part(name=scene.name),
+        tools=tuple((tools or {}).get(tool.number, tool) for tool in scene.tools),
+        operations=(),
+        safe_z=scene.safe_z,
+        retract_z=scene.retract_z,
+        post=scene.post,
+        out_units=scene.out_units,
+        exact_path=scene.exact_path,
+    )

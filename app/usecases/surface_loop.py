@@ -27,14 +27,16 @@ Texts = tuple[tuple[str, bytes], ...]
 
 
 def closed_loop(written: WrittenScene, sources: Sources, tolerance: float, progress: Progress = NO_PROGRESS) -> Json:
-    """Return what the cut of a scene's program leaves of its surfaces, what smoothing makes of it, and what the cut of that leaves.
+    """Return what the cut of a scene's program leaves of its surfaces, what smoothing makes of it, and what the cut of
+    that leaves.
 
     Args:
         sources: reads the files that the scene names. tolerance: of smoothing, mm.
 
     Returns:
-        "cut" and "cut_smoothed": gouge, metal left, rapids in metal, as `hitofude cut` reports them; "smooth": as `hitofude smooth` does, a
-        list, one for each program; "boundaries_kept": whether every comment on a surface and its boundary points is still there.
+        "cut" and "cut_smoothed": gouge, metal left, rapids in metal, as `hitofude cut` reports them; "smooth": as
+        `hitofude smooth` does, a list, one for each program; "boundaries_kept": whether every comment on a surface and
+        its boundary points is still there.
 
     Raises:
         HitofudeError: a program cannot be cut or smoothed. Cancelled: the job was asked to stop.
@@ -43,14 +45,19 @@ def closed_loop(written: WrittenScene, sources: Sources, tolerance: float, progr
     first = _cut(written, sources, texts, progress.part(0.0, 0.4))
     options = SmoothOptions(tolerance=tolerance, post=written.post, dialect=written.post.dialect)
     share = 0.2 / len(texts)
-    done = [smooth(*text, options, progress.part(0.4 + n * share, 0.4 + (n + 1) * share)) for n, text in enumerate(texts)]
+    done = [
+        smooth(*text, options, progress.part(0.4 + n * share, 0.4 + (n + 1) * share)) for n, text in enumerate(texts)
+    ]
     smoothed = tuple((each.name, each.data) for each in done)
     return {
-        "cut": first, "smooth": [smooth_report(each) for each in done],
-        "boundaries_kept": all(_PROVENANCE.findall(one) == _PROVENANCE.findall(other)
-                               for (_, one), (_, other) in zip(texts, smoothed, strict=True)),
+        "cut": first,
+        "smooth": [smooth_report(each) for each in done],
+        "boundaries_kept": all(
+            _PROVENANCE.findall(one) == _PROVENANCE.findall(other)
+            for (_, one), (_, other) in zip(texts, smoothed, strict=True)
+        ),
         "cut_smoothed": _cut(written, sources, smoothed, progress.part(0.6, 1.0)),
-    }  # fmt: skip
+    }
 
 
 def _cut(written: WrittenScene, sources: Sources, texts: Texts, progress: Progress) -> Json:

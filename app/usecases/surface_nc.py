@@ -65,11 +65,21 @@ class WrittenScene:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return what is wrong with it, and with its scene."""
-        return (*self.computed.findings, *(
-            Finding(FindingKind.GOUGE, f"The move to ({x:.3f}, {y:.3f}, {z:.3f}) could not be proven to stay within {ALLOWED:g} mm of the "
-                    "surfaces; make the chord tolerance larger, or check the surfaces there.", x, y)
-            for x, y, z in self.unproven.tolist()
-        ), *self._left(), *self.loads)  # fmt: skip
+        return (
+            *self.computed.findings,
+            *(
+                Finding(
+                    FindingKind.GOUGE,
+                    f"The move to ({x:.3f}, {y:.3f}, {z:.3f}) could not be proven to stay within {ALLOWED:g} mm of the "
+                    "surfaces; make the chord tolerance larger, or check the surfaces there.",
+                    x,
+                    y,
+                )
+                for x, y, z in self.unproven.tolist()
+            ),
+            *self._left(),
+            *self.loads,
+        )
 
     def _left(self) -> Iterator[Finding]:
         """Yield what there is to say of what is left."""
@@ -87,7 +97,9 @@ def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> Writ
     """
     scene, moves = computed.scene, computed.moves.moves
     if not len(moves):
-        raise GeometryError(f"{scene.name}: no passes are switched on, so there is nothing to write; add passes with a tool.")
+        raise GeometryError(
+            f"{scene.name}: no passes are switched on, so there is nothing to write; add passes with a tool."
+        )
     post = load_post(scene.post)
     tools = {family.tool.number: family.tool for family in computed.families}
     from_origin = replace(moves, end=moves.end - np.array(computed.origin))
@@ -114,7 +126,9 @@ def _cut(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgr
     numbers = computed.moves.moves.tool
     known = [tools | {0: tools[int(numbers[file.first])]} for file in files]
     block = Block(computed.stock, np.array(computed.origin), closest_passes(computed))
-    return scene_cut([replace(program, motions=anchored(program.motions)) for program in programs], known, block, progress)
+    return scene_cut(
+        [replace(program, motions=anchored(program.motions)) for program in programs], known, block, progress
+    )
 
 
 def _require_same(computed: Computed, file: NcFile, motions: Motions) -> None:
@@ -132,9 +146,13 @@ def _unproven(computed: Computed, file: NcFile, motions: Motions, progress: Prog
     """Return the ends of motions that cannot be proven."""
     origin = np.array(computed.origin)
     chords = np.concatenate([motions.start + origin, motions.end + origin], axis=1)
-    family = computed.moves.moves.operation[file.first + np.minimum(np.searchsorted(file.nc.lines, motions.line), len(file.nc.lines) - 1)]
+    family = computed.moves.moves.operation[
+        file.first + np.minimum(np.searchsorted(file.nc.lines, motions.line), len(file.nc.lines) - 1)
+    ]
     top = float(computed.facets.facets.triangles[:, :, 2].max())
-    low = np.minimum(chords[:, 2], chords[:, 5]) < top + max((each.passes.stock_to_leave for each in computed.families), default=0.0)
+    low = np.minimum(chords[:, 2], chords[:, 5]) < top + max(
+        (each.passes.stock_to_leave for each in computed.families), default=0.0
+    )
     low &= np.isfinite(chords).all(axis=1) & ((motions.kind == MotionKind.LINE) | (motions.kind == MotionKind.RAPID))
     found = [np.zeros((0, 3))]
     for number, each in enumerate(computed.families):
@@ -158,8 +176,10 @@ def pass_words(family: Family) -> str:
     passes, count = family.passes, len(family.planes.offsets)
     apart = f"pitch {passes.pitch:g} mm" if passes.pitch is not None else f"scallop {passes.scallop:g} mm"
     name = f" {safe_name(passes.name)}" if passes.name else ""
-    return (f"Passes{name} T{family.tool.number}: {count} planes, {apart}, {passes.strategy.value}, "
-            f"stock to leave {passes.stock_to_leave:g} mm, chords {passes.chord_tolerance:g} mm")
+    return (
+        f"Passes{name} T{family.tool.number}: {count} planes, {apart}, {passes.strategy.value}, "
+        f"stock to leave {passes.stock_to_leave:g} mm, chords {passes.chord_tolerance:g} mm"
+    )
 
 
 def _head(computed: Computed, post: Post) -> list[str]:
@@ -174,8 +194,13 @@ def _head(computed: Computed, post: Post) -> list[str]:
         f"Work origin is at {origin} mm of the scene",
         *(f"{tool_words(tool, units)}, {tool.spindle_speed:.0f} rpm" for tool in tools.values()),
         *(pass_words(family) for family in computed.families),
-        *(f"Surface {number} {safe_name(surface.name)}" for number, surface in enumerate(scene.surfaces, 1) if surface.enabled),
-        f"Every chord is proven to go no deeper than {ALLOWED:.5f} mm into a surface; the control's blending comes on top",
+        *(
+            f"Surface {number} {safe_name(surface.name)}"
+            for number, surface in enumerate(scene.surfaces, 1)
+            if surface.enabled
+        ),
+        f"Every chord is proven to go no deeper than {ALLOWED:.5f} mm into a surface; the control's blending comes on "
+        "top",
     ]
 
 
@@ -183,9 +208,13 @@ def _notes(computed: Computed) -> list[str]:
     """Return the comments that `hitofude cut` reads."""
     scene, box = computed.scene, computed.stock
     tools = {family.tool.number: family.tool for family in computed.families}
-    notes = ["program=1", f"part={safe_name(scene.name)}", f"units={unit_sign(scene.out_units)}",
-             f"origin_mm={plain_numbers(*computed.origin)}",
-             f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"]  # fmt: skip
+    notes = [
+        "program=1",
+        f"part={safe_name(scene.name)}",
+        f"units={unit_sign(scene.out_units)}",
+        f"origin_mm={plain_numbers(*computed.origin)}",
+        f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}",
+    ]
     for tool in tools.values():
         notes.append(f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}")
     fastest: dict[int, float] = {}

@@ -21,7 +21,9 @@ from .surface_plot import boundary_name
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 _SHARE, _FINEST, _FEW = 4e-5, 1e-3, 200_000
-"""Of the surfaces' extent, how far triangles that are looked at are off; the least, mm; and so many are still drawn quickly."""
+"""Of the surfaces' extent, how far triangles that are looked at are off; the least, mm; and so many are still drawn
+quickly.
+"""
 _COARSER = 4.0
 
 
@@ -32,7 +34,9 @@ def move_strands(computed: Computed) -> Iterator[Strand]:
     """Yield all moves but the first, since nobody knows where the tool stands before it: by role, surface and tool."""
     moves, surface = computed.moves.moves, computed.moves.surface
     start, end = moves.start, moves.end
-    role = np.array([list(Role).index(_ROLES.get(Purpose(value), Role.RAPID)) for value in range(len(Purpose))])[moves.purpose]
+    role = np.array([list(Role).index(_ROLES.get(Purpose(value), Role.RAPID)) for value in range(len(Purpose))])[
+        moves.purpose
+    ]
     keys = np.stack([role, surface, moves.tool.astype(np.int64)], axis=1)
     known = np.isfinite(start).all(axis=1) & np.isfinite(end).all(axis=1)
     for key in sorted(set(map(tuple, keys[known].tolist()))):
@@ -52,18 +56,28 @@ def boundary_points(computed: Computed) -> tuple[BoundaryPoint, ...]:
         found = family.surface.boundaries
         for k in np.flatnonzero((found.before >= 0) & (found.after >= 0)).tolist():
             name = boundary_name(int(found.before[k]), int(found.after[k]))
-            rows.append(BoundaryPoint(name, first + int(found.plane[k]), found.place[k], BoundaryKind(int(found.kind[k])).name.lower()))
+            rows.append(
+                BoundaryPoint(
+                    name, first + int(found.plane[k]), found.place[k], BoundaryKind(int(found.kind[k])).name.lower()
+                )
+            )
         first += len(family.planes.offsets)
     return tuple(rows)
 
 
 def outline(tool: Tool) -> Floats:
-    """Return a tool's lower side (k, 2), mm from its tip: out from the axis and up; and on along its side as far as it is wide."""
+    """Return a tool's lower side (k, 2), mm from its tip: out from the axis and up; and on along its side as far as it
+    is wide.
+    """
     disc, corner, cone, radius, bend = shape_of(tool).tolist()
     turn = np.linspace(0.0, 1.0, 25)
     reach = math.asin(min((bend - disc) / corner, 1.0)) if corner > 0 else 0.0
     rows = [(0.0, 0.0), (disc, 0.0)]
-    rows += [(disc + corner * math.sin(reach * share), corner * (1 - math.cos(reach * share))) for share in turn[1:]] if corner > 0 else []
+    rows += (
+        [(disc + corner * math.sin(reach * share), corner * (1 - math.cos(reach * share))) for share in turn[1:]]
+        if corner > 0
+        else []
+    )
     if cone > 0 and radius > bend:
         rows.append((radius, rows[-1][1] + cone * (radius - bend)))
     rows.append((radius, rows[-1][1] + 2 * tool.radius))

@@ -38,7 +38,8 @@ class PlotScene:
     """How a scene is drawn.
 
     Attributes:
-        view: see VIEWS, or any other. look: what tells parts apart. drawn: the cutters' paths, the compound surface, or both.
+        view: see VIEWS, or any other. look: what tells parts apart. drawn: the cutters' paths, the compound surface, or
+            both.
         marks: boundary points get a circle. labels: and their name, where there is room. legend: under the drawing.
         layout: paper, scale, frame.
     """
@@ -89,12 +90,23 @@ def by_surface(computed: Computed, what: PlotScene = PlotScene()) -> BySurface:
         pieces += _path_pieces(computed, number)
         if what.drawn is Drawn.PATHS:
             marks = [mark for family in computed.families for mark in _boundary_marks(family.path.boundaries)]
-    surfaces = [*(Kind(surface.name, surface.colour, surface.line) for surface in computed.scene.surfaces), Kind(computed.names[-1])]
+    surfaces = [
+        *(Kind(surface.name, surface.colour, surface.line) for surface in computed.scene.surfaces),
+        Kind(computed.names[-1]),
+    ]
     places = np.array([place for place, _ in marks]).reshape(-1, 3) if what.marks else np.zeros((0, 3))
     return BySurface(
-        computed.scene.name, surfaces, [Kind(_tool_words(tool)) for tool in tools], pieces, places,
-        [label for _, label in marks] if what.marks and what.labels else (), what.view, what.look,
-        [_passes_words(family.passes, family.tool) for family in computed.families], what.legend)  # fmt: skip
+        computed.scene.name,
+        surfaces,
+        [Kind(_tool_words(tool)) for tool in tools],
+        pieces,
+        places,
+        [label for _, label in marks] if what.marks and what.labels else (),
+        what.view,
+        what.look,
+        [_passes_words(family.passes, family.tool) for family in computed.families],
+        what.legend,
+    )
 
 
 def _surface_pieces(family: Family, tool: int) -> Iterator[Piece]:
@@ -109,7 +121,11 @@ def _path_pieces(computed: Computed, tools: dict[int, int]) -> Iterator[Piece]:
     on = np.where(moves.purpose == Purpose.CONTOUR, computed.moves.surface, NO_SURFACE)
     for first, last in _stretches(np.stack([on, moves.operation], axis=1)):
         if on[first] != NO_SURFACE:
-            yield Piece(int(on[first]), tools[int(moves.tool[first])], np.concatenate([start[first : first + 1], moves.end[first:last]]))
+            yield Piece(
+                int(on[first]),
+                tools[int(moves.tool[first])],
+                np.concatenate([start[first : first + 1], moves.end[first:last]]),
+            )
 
 
 def _stretches(keys: NDArray[np.int64]) -> Iterator[tuple[int, int]]:

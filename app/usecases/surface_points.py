@@ -1,4 +1,6 @@
-"""The compound surface and its boundary points as one table of comma-separated values (RFC 4180), every number to the last bit."""
+"""The compound surface and its boundary points as one table of comma-separated values (RFC 4180), every number to the
+last bit.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +13,27 @@ from numpy.typing import NDArray
 from ..surfaces.sections.compound import NO_SURFACE, Boundaries, BoundaryKind, Compound, Run
 from .surface import Computed
 
-COLUMNS = ("kind", "tool", "pass", "run", "point", "surface", "name", "x", "y", "z", "u", "v",
-           "to_surface", "to_name", "end_x", "end_y", "end_z", "to_u", "to_v")  # fmt: skip
+COLUMNS = (
+    "kind",
+    "tool",
+    "pass",
+    "run",
+    "point",
+    "surface",
+    "name",
+    "x",
+    "y",
+    "z",
+    "u",
+    "v",
+    "to_surface",
+    "to_name",
+    "end_x",
+    "end_y",
+    "end_z",
+    "to_u",
+    "to_v",
+)
 """A point's own first; those from `to_surface` on are the other side of a boundary point, and empty elsewhere."""
 
 _NONE = ",,,,,,,"
@@ -30,7 +51,8 @@ def points_csv(compound: Compound, names: Sequence[str], tool: int | None = None
     Args:
         names: of its surfaces, by number. tool: T number, or None.
 
-    Passes, runs, points and surfaces count from 1. A point's surface is that of the chord behind it, the last one's that before it.
+    Passes, runs, points and surfaces count from 1. A point's surface is that of the chord behind it, the last one's
+    that before it.
     """
     return _text(_rows(compound, names, tool))
 
@@ -58,13 +80,25 @@ def _points(run: Run, head: str, names: Sequence[str], parameters: _Parameters) 
 
 
 def _boundaries(found: Boundaries, head: str, names: Sequence[str]) -> Iterator[str]:
-    columns = (found.plane, found.before, found.after, found.kind, found.place, found.end, found.before_at, found.after_at)
+    columns = (
+        found.plane,
+        found.before,
+        found.after,
+        found.kind,
+        found.place,
+        found.end,
+        found.before_at,
+        found.after_at,
+    )
     rows = zip(*(column.tolist() for column in columns), strict=True)
     for number, (plane, i, j, kind, (x, y, z), (ex, ey, ez), (ui, vi), (uj, vj)) in enumerate(rows, 1):
         one, other = (("", "") if k == NO_SURFACE else (str(k + 1), names[k]) for k in (i, j))
         name = BoundaryKind(kind).name.lower()
-        yield (f"{name},{head},{plane + 1},,{number},{one[0]},{one[1]},{x!r},{y!r},{z!r},{_known(ui)},{_known(vi)},{other[0]},"
-               f"{other[1]},{ex!r},{ey!r},{ez!r},{_known(uj)},{_known(vj)}")  # fmt: skip
+        yield (
+            f"{name},{head},{plane + 1},,{number},{one[0]},{one[1]},{x!r},{y!r},{z!r},{_known(ui)},{_known(vi)},"
+            f"{other[0]},"
+            f"{other[1]},{ex!r},{ey!r},{ez!r},{_known(uj)},{_known(vj)}"
+        )
 
 
 class _Parameters:
@@ -77,15 +111,22 @@ class _Parameters:
             for point, (u, v) in zip(curve.points.tolist(), curve.parameters.tolist(), strict=True):
                 places[tuple(point)] = (_known(u), _known(v))
         marks = compound.boundaries
-        for owners, places_of, at in ((marks.before, marks.place, marks.before_at), (marks.after, marks.end, marks.after_at)):
-            for plane, owner, point, (u, v) in zip(*(each.tolist() for each in (marks.plane, owners, places_of, at)), strict=True):
+        for owners, places_of, at in (
+            (marks.before, marks.place, marks.before_at),
+            (marks.after, marks.end, marks.after_at),
+        ):
+            for plane, owner, point, (u, v) in zip(
+                *(each.tolist() for each in (marks.plane, owners, places_of, at)), strict=True
+            ):
                 self._by_curve.setdefault((plane, owner), {}).setdefault(tuple(point), (_known(u), _known(v)))
 
     def of(self, run: Run, owner: NDArray[np.int64]) -> list[tuple[str, str]]:
         """Return u and v of a run's points as texts, empty where they are not known."""
         nothing: dict[tuple[float, ...], tuple[str, str]] = {}
-        return [self._by_curve.get((run.plane, surface), nothing).get(tuple(point), ("", ""))
-                for surface, point in zip(owner.tolist(), run.points.tolist(), strict=True)]  # fmt: skip
+        return [
+            self._by_curve.get((run.plane, surface), nothing).get(tuple(point), ("", ""))
+            for surface, point in zip(owner.tolist(), run.points.tolist(), strict=True)
+        ]
 
 
 def _known(value: float) -> str:

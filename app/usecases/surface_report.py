@@ -1,4 +1,6 @@
-"""The report of paths over surfaces: what was computed, which surfaces a path is on, and what is proven of what was written."""
+"""The report of paths over surfaces: what was computed, which surfaces a path is on, and what is proven of what was
+written.
+"""
 
 from __future__ import annotations
 
@@ -20,10 +22,16 @@ from .surface import Computed, Family
 from .surface_nc import WrittenScene
 
 ENGINE = "cutters over rational Bezier patches and triangles, exact where they touch; every chord proven"
-GOUGE_METHOD = ("a bound, not a measurement: for each move of the written text a cutter pared by so much is proven to stay clear of every "
-                "surface, all along the move")
-LEFT_METHOD = ("the written text cut out of the stock, on cells, beside the lowest that the same tools reach: the surfaces' heights closed "
-               "by their profiles; ridges of up to twice what the pitch leaves on a plane of that slope are none of it")
+GOUGE_METHOD = (
+    "a bound, not a measurement: for each move of the written text a cutter pared by so much is proven to stay clear "
+    "of every "
+    "surface, all along the move"
+)
+LEFT_METHOD = (
+    "the written text cut out of the stock, on cells, beside the lowest that the same tools reach: the surfaces' "
+    "heights closed "
+    "by their profiles; ridges of up to twice what the pitch leaves on a plane of that slope are none of it"
+)
 _LENGTHS = {"cut": Purpose.CONTOUR, "link": Purpose.LINK, "plunge": Purpose.PLUNGE, "rapid": Purpose.RAPID}
 _KINDS = {"G0": MotionKind.RAPID, "G1": MotionKind.LINE, "G2": MotionKind.ARC_CW, "G3": MotionKind.ARC_CCW}
 
@@ -62,14 +70,30 @@ def surface_report(computed: Computed, written: WrittenScene | None = None) -> S
         "surfaces": list(_surfaces(computed)),
         "passes": [_passes(computed, family) for family in computed.families],
         "engine": ENGINE,
-        "tolerance": {"gouge_mm": ALLOWED, "grid_mm": computed.grid, "facets_mm": float(computed.facets.facets.error.max())},
-        "stock_mm": {"low": [computed.stock.x0, computed.stock.y0, computed.stock.z0],
-                     "high": [computed.stock.x1, computed.stock.y1, computed.stock.z1]},
+        "tolerance": {
+            "gouge_mm": ALLOWED,
+            "grid_mm": computed.grid,
+            "facets_mm": float(computed.facets.facets.error.max()),
+        },
+        "stock_mm": {
+            "low": [computed.stock.x0, computed.stock.y0, computed.stock.z0],
+            "high": [computed.stock.x1, computed.stock.y1, computed.stock.z1],
+        },
         "origin_mm": list(computed.origin),
-        "skipped": [], "open_contours": [],
-        "findings": [{"kind": each.kind.value, "text": each.text, "x": each.x, "y": each.y, "counts": each.counts,
-                      "amount": each.amount} for each in findings],
-    }  # fmt: skip
+        "skipped": [],
+        "open_contours": [],
+        "findings": [
+            {
+                "kind": each.kind.value,
+                "text": each.text,
+                "x": each.x,
+                "y": each.y,
+                "counts": each.counts,
+                "amount": each.amount,
+            }
+            for each in findings
+        ],
+    }
     return SurfaceReport(data, findings)
 
 
@@ -79,15 +103,27 @@ def _program(written: WrittenScene) -> Json:
     x, y, z = unproven[0].tolist() if count else (None, None, None)
     kind = np.concatenate([program.motions.kind for program in written.programs])
     return {
-        "gouge": {"max_mm": None if count else ALLOWED, "x": x, "y": y, "z": z, "line": None, "count": count, "method": GOUGE_METHOD},
+        "gouge": {
+            "max_mm": None if count else ALLOWED,
+            "x": x,
+            "y": y,
+            "z": z,
+            "line": None,
+            "count": count,
+            "method": GOUGE_METHOD,
+        },
         "left": _left(written),
         "rapids_in_material": list(_low_rapids(written)),
-        "time_s": written.time_s, "time_method": TIME_METHOD.format(load_machine(DEFAULT_MACHINE).title),
+        "time_s": written.time_s,
+        "time_method": TIME_METHOD.format(load_machine(DEFAULT_MACHINE).title),
         "moves": {name: int(np.sum(kind == value)) for name, value in _KINDS.items()},
-        "retracts": sum(int(np.sum((motions.kind[1:] == MotionKind.RAPID) & (motions.kind[:-1] != MotionKind.RAPID)))
-                        for motions in (program.motions for program in written.programs)),
-        "post": written.computed.scene.post, "files": len(written.files),
-    }  # fmt: skip
+        "retracts": sum(
+            int(np.sum((motions.kind[1:] == MotionKind.RAPID) & (motions.kind[:-1] != MotionKind.RAPID)))
+            for motions in (program.motions for program in written.programs)
+        ),
+        "post": written.computed.scene.post,
+        "files": len(written.files),
+    }
 
 
 def _left(written: WrittenScene) -> Json | None:
@@ -96,12 +132,26 @@ def _left(written: WrittenScene) -> Json | None:
     if left is None:
         return None
     x, y, _ = written.computed.origin
-    told: Json = {"reachable_mm2": left.area_mm2, "places": left.places, "worst_mm": left.worst_mm, "wide_mm": left.wide_mm,
-                  "x": left.x + x if left.places else None, "y": left.y + y if left.places else None,
-                  "within_mm": left.within_mm, "cell_mm": left.cell_mm, "ridge": None, "method": LEFT_METHOD}  # fmt: skip
+    told: Json = {
+        "reachable_mm2": left.area_mm2,
+        "places": left.places,
+        "worst_mm": left.worst_mm,
+        "wide_mm": left.wide_mm,
+        "x": left.x + x if left.places else None,
+        "y": left.y + y if left.places else None,
+        "within_mm": left.within_mm,
+        "cell_mm": left.cell_mm,
+        "ridge": None,
+        "method": LEFT_METHOD,
+    }
     if (ridge := left.ridge) is not None:
-        told["ridge"] = {"max_mm": ridge.height_mm, "x": ridge.x + x, "y": ridge.y + y, "slope_deg": ridge.slope_deg,
-                         "level_mm": ridge.level_mm}  # fmt: skip
+        told["ridge"] = {
+            "max_mm": ridge.height_mm,
+            "x": ridge.x + x,
+            "y": ridge.y + y,
+            "slope_deg": ridge.slope_deg,
+            "level_mm": ridge.level_mm,
+        }
     return told
 
 
@@ -113,7 +163,13 @@ def _low_rapids(written: WrittenScene) -> Iterator[Json]:
         ends, starts = motions.end + origin, motions.start + origin
         known = np.isfinite(starts).all(axis=1) & (motions.kind == MotionKind.RAPID)
         low, high = np.fmin(starts, ends), np.fmax(starts, ends)
-        inside = (high[:, 0] > box.x0) & (low[:, 0] < box.x1) & (high[:, 1] > box.y0) & (low[:, 1] < box.y1) & (low[:, 2] < box.z1)
+        inside = (
+            (high[:, 0] > box.x0)
+            & (low[:, 0] < box.x1)
+            & (high[:, 1] > box.y0)
+            & (low[:, 1] < box.y1)
+            & (low[:, 2] < box.z1)
+        )
         for row in np.flatnonzero(known & inside).tolist():
             x, y, z = ends[row].tolist()
             yield {"x": x, "y": y, "z": z, "line": int(motions.line[row])}
@@ -133,26 +189,44 @@ def _surfaces(computed: Computed) -> Iterator[Json]:
     for number, surface in enumerate(computed.scene.surfaces):
         mine = on == number
         facets = int(np.sum(computed.facets.facets.owner == number))
-        yield {"number": number + 1, "name": surface.name, "enabled": surface.enabled, "facets": facets, "moves": int(mine.sum()),
-               "length_mm": float(length[mine].sum())}  # fmt: skip
+        yield {
+            "number": number + 1,
+            "name": surface.name,
+            "enabled": surface.enabled,
+            "facets": facets,
+            "moves": int(mine.sum()),
+            "length_mm": float(length[mine].sum()),
+        }
 
 
 def _passes(computed: Computed, family: Family) -> Json:
     passes, tool = family.passes, family.tool
     return {
-        "name": passes.name, "tool": tool.number, "kind": tool.kind.value, "diameter_mm": tool.diameter,
-        "planes": len(family.planes.offsets), "angle_deg": float(np.degrees(family.planes.angle)), "pitch_mm": passes.pitch,
-        "scallop_mm": passes.scallop, "strategy": passes.strategy.value, "stock_to_leave_mm": passes.stock_to_leave,
+        "name": passes.name,
+        "tool": tool.number,
+        "kind": tool.kind.value,
+        "diameter_mm": tool.diameter,
+        "planes": len(family.planes.offsets),
+        "angle_deg": float(np.degrees(family.planes.angle)),
+        "pitch_mm": passes.pitch,
+        "scallop_mm": passes.scallop,
+        "strategy": passes.strategy.value,
+        "stock_to_leave_mm": passes.stock_to_leave,
         "chord_tolerance_mm": passes.chord_tolerance,
-        "compound_surface": _compound(computed, family.surface), "path": _compound(computed, family.path),
-    }  # fmt: skip
+        "compound_surface": _compound(computed, family.surface),
+        "path": _compound(computed, family.path),
+    }
 
 
 def _compound(computed: Computed, compound: Compound) -> Json:
     marks = compound.boundaries
     kinds = {kind.name.lower(): int(np.sum(marks.kind == kind)) for kind in BoundaryKind}
-    return {"runs": len(compound.runs), "points": sum(len(run.points) for run in compound.runs), "boundary_points": kinds,
-            "boundaries": list(boundary_rows(computed, marks))}  # fmt: skip
+    return {
+        "runs": len(compound.runs),
+        "points": sum(len(run.points) for run in compound.runs),
+        "boundary_points": kinds,
+        "boundaries": list(boundary_rows(computed, marks)),
+    }
 
 
 def boundary_rows(computed: Computed, marks: Boundaries) -> Iterator[Json]:
@@ -166,11 +240,19 @@ def boundary_rows(computed: Computed, marks: Boundaries) -> Iterator[Json]:
         i, j = int(marks.before[n]), int(marks.after[n])
         x, y, z = marks.place[n].tolist()
         yield {
-            "plane": int(marks.plane[n]) + 1, "i": None if i == NO_SURFACE else i + 1, "j": None if j == NO_SURFACE else j + 1,
-            "surface_i": names[i], "surface_j": names[j], "kind": BoundaryKind(int(marks.kind[n])).name.lower(),
-            "x": x, "y": y, "z": z, "end": marks.end[n].tolist(), "uv_i": at(marks.before_at[n].tolist()),
+            "plane": int(marks.plane[n]) + 1,
+            "i": None if i == NO_SURFACE else i + 1,
+            "j": None if j == NO_SURFACE else j + 1,
+            "surface_i": names[i],
+            "surface_j": names[j],
+            "kind": BoundaryKind(int(marks.kind[n])).name.lower(),
+            "x": x,
+            "y": y,
+            "z": z,
+            "end": marks.end[n].tolist(),
+            "uv_i": at(marks.before_at[n].tolist()),
             "uv_j": at(marks.after_at[n].tolist()),
-        }  # fmt: skip
+        }
 
 
 def _summary(data: Json) -> Iterator[str]:
@@ -189,5 +271,7 @@ def _summary(data: Json) -> Iterator[str]:
     for each in data["passes"]:
         met = ", ".join(f"{count} {kind}" for kind, count in each["path"]["boundary_points"].items() if count)
         name = f" {each['name']}" if each["name"] else ""
-        yield (f"  T{each['tool']} {each['kind']} {each['diameter_mm']:g} mm{name}: {each['planes']} planes, "
-               f"{each['path']['points']} points; boundary points: {met or 'none'}")
+        yield (
+            f"  T{each['tool']} {each['kind']} {each['diameter_mm']:g} mm{name}: {each['planes']} planes, "
+            f"{each['path']['points']} points; boundary points: {met or 'none'}"
+        )

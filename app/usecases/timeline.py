@@ -34,7 +34,8 @@ class Sampled:
     """A timeline in columns, as it is plotted.
 
     Attributes:
-        mean, most: (columns,) cross-section of the cut, mm²: metal taken by length gone, in the mean and of the motion with the most.
+        mean, most: (columns,) cross-section of the cut, mm²: metal taken by length gone, in the mean and of the motion
+        with the most.
         removed: (columns + 1,) metal taken so far at the columns' borders, mm³.
     """
 
@@ -68,8 +69,9 @@ class Timeline:
     nowhere: NDArray[np.bool_]
 
     @staticmethod
-    def of(programs: Sequence[Motions], times: Sequence[Duration], tool: Ints, volume: Floats,
-           nowhere: NDArray[np.bool_]) -> Timeline:  # fmt: skip
+    def of(
+        programs: Sequence[Motions], times: Sequence[Duration], tool: Ints, volume: Floats, nowhere: NDArray[np.bool_]
+    ) -> Timeline:
         """Return the timeline of programs.
 
         Args:
@@ -81,8 +83,18 @@ class Timeline:
         moving = np.concatenate([each.moving for each in times])
         line = np.concatenate([motions.line for motions in programs])
         first = np.cumsum([0, *(len(motions) for motions in programs)])
-        return Timeline(tuple(programs), first, ends - moving, ends, float(starts[-1]), tool, line,
-                        np.concatenate([lengths(motions) for motions in programs]), volume, nowhere)  # fmt: skip
+        return Timeline(
+            tuple(programs),
+            first,
+            ends - moving,
+            ends,
+            float(starts[-1]),
+            tool,
+            line,
+            np.concatenate([lengths(motions) for motions in programs]),
+            volume,
+            nowhere,
+        )
 
     def __len__(self) -> int:
         return len(self.ends)
@@ -93,7 +105,9 @@ class Timeline:
         return Moment(len(self))
 
     def at(self, time: float) -> Moment:
-        """Return the moment at a time, s; while the control waits nothing changes. Within a motion time and way go alike."""
+        """Return the moment at a time, s; while the control waits nothing changes. Within a motion time and way go
+        alike.
+        """
         motion = int(np.searchsorted(self.ends, time, "right"))
         if motion >= len(self):
             return self.last
@@ -188,13 +202,17 @@ class Timeline:
             return Sampled(np.zeros(columns), np.zeros(columns), np.zeros(columns + 1))
         borders = np.linspace(0.0, self.total, columns + 1)
         knots = np.column_stack([self.begins, self.ends]).ravel()
-        removed, gone = (np.interp(borders, knots, np.column_stack([total - own, total]).ravel())
-                         for total, own in ((self.removed, self._volume), (np.cumsum(self.length), self.length)))  # fmt: skip
+        removed, gone = (
+            np.interp(borders, knots, np.column_stack([total - own, total]).ravel())
+            for total, own in ((self.removed, self._volume), (np.cumsum(self.length), self.length))
+        )
         taken, way = np.diff(removed), np.diff(gone)
         mean = np.divide(taken, way, out=np.zeros(columns), where=way > 1e-9)
         section = np.divide(self._volume, self.length, out=np.zeros(len(self)), where=self.length > 1e-9)
         most = np.zeros(columns)
-        first, last = (np.clip((at * columns / self.total).astype(np.int64), 0, columns - 1) for at in (self.begins, self.ends))
+        first, last = (
+            np.clip((at * columns / self.total).astype(np.int64), 0, columns - 1) for at in (self.begins, self.ends)
+        )
         np.maximum.at(most, first, section)
         np.maximum.at(most, last, section)
         return Sampled(mean, np.maximum(most, mean), removed)

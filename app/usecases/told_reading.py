@@ -1,4 +1,6 @@
-"""How the drawing is read that a program is compared with: as was asked, else as the program's own header tells that it was made."""
+"""How the drawing is read that a program is compared with: as was asked, else as the program's own header tells that it
+was made.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,13 @@ from ..model.finding import Finding, FindingKind
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, ReadOptions
 
-_OPTIONS = {"layout": "--layout", "to_zero": "--to-zero", "pixels_per_inch": "--px-per-inch",
-            "without_layers": "--skip-layer", "without_types": "--skip-type"}  # fmt: skip
+_OPTIONS = {
+    "layout": "--layout",
+    "to_zero": "--to-zero",
+    "pixels_per_inch": "--px-per-inch",
+    "without_layers": "--skip-layer",
+    "without_types": "--skip-type",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +44,11 @@ def told_reading(asked: ReadOptions, told: ReadOptions, name: str, units: Units 
     """
     told = told.fit_for(PurePath(name).suffix.lower())
     told = told if units is None else replace(told, pixels_per_inch=None)
-    given = {each.name: value for each in fields(ReadOptions) if (value := getattr(asked, each.name)) != getattr(AS_DRAWN, each.name)}
+    given = {
+        each.name: value
+        for each in fields(ReadOptions)
+        if (value := getattr(asked, each.name)) != getattr(AS_DRAWN, each.name)
+    }
     lenient = "without_layers" not in given and bool(told.without_layers)
     return ToldReading(replace(told, **given, lenient=lenient), tuple(_differing(given, told)))
 
@@ -68,7 +79,9 @@ def other_length(option: str, asked: float | None, told: float | None) -> Iterat
 
 
 def _as_asked(before: str, now: str) -> Finding:
-    return Finding(FindingKind.ASSUMED, f"The program was made with {before}; here it is {now}, as asked.", counts=False)
+    return Finding(
+        FindingKind.ASSUMED, f"The program was made with {before}; here it is {now}, as asked.", counts=False
+    )
 
 
 def _plain(value: object) -> object:

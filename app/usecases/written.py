@@ -1,4 +1,6 @@
-"""The files of a program, and what they do on a machine: known by reading them back, not by what was meant to be written."""
+"""The files of a program, and what they do on a machine: known by reading them back, not by what was meant to be
+written.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +91,9 @@ class Written:
 
     def box(self, cuts: bool) -> Extent:
         """Return the box round all motions, or round those that cut, mm, program coordinates."""
-        boxes = [extent(program, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self.programs]
+        boxes = [
+            extent(program, program.motions.kind != MotionKind.RAPID if cuts else None) for program in self.programs
+        ]
         low, high = (np.array([getattr(box, end) for box in boxes]) for end in ("low", "high"))
         return Extent(tuple(np.min(low, axis=0).tolist()), tuple(np.max(high, axis=0).tolist())) if boxes else NOWHERE
 
@@ -97,8 +101,9 @@ class Written:
         """Return what the machine cannot do."""
         return tuple(
             Finding(FindingKind.MACHINE, f"NC line {problem.line}{_in_file(file)}: {problem.text}")
-            for file, program in zip(self.files, self.programs, strict=True) for problem in misfits(program, self.machine)
-        )  # fmt: skip
+            for file, program in zip(self.files, self.programs, strict=True)
+            for problem in misfits(program, self.machine)
+        )
 
     def coarseness(self, units: Units) -> tuple[Finding, ...]:
         """Return that the post's decimals are too few.
@@ -110,12 +115,17 @@ class Written:
         if far <= COARSE:
             return ()
         table = "inch" if units is Units.INCH else "mm"
-        text = (f"The post {self.post.title} writes {decimals} decimals: the path written is up to {far:.3f} mm from the computed one, for "
-                f"which gouges and what is left are measured; set more decimals in the post (decimals.{table}).")
+        text = (
+            f"The post {self.post.title} writes {decimals} decimals: the path written is up to {far:.3f} mm from the "
+            "computed one, for "
+            f"which gouges and what is left are measured; set more decimals in the post (decimals.{table})."
+        )
         return (Finding(FindingKind.TOLERANCE, text, amount=far),)
 
 
-def write_and_check(program: Program, job: Job, post: Post, machine: Machine | None, progress: Progress = NO_PROGRESS) -> Written:
+def write_and_check(
+    program: Program, job: Job, post: Post, machine: Machine | None, progress: Progress = NO_PROGRESS
+) -> Written:
     """Return the files of a computed program, each read back and found to be the program's moves.
 
     Args:

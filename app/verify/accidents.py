@@ -1,4 +1,6 @@
-"""What goes wrong on the way, whatever the part is: rapids, holders and plunges in metal, a start in it, unknown places, the table."""
+"""What goes wrong on the way, whatever the part is: rapids, holders and plunges in metal, a start in it, unknown
+places, the table.
+"""
 
 from __future__ import annotations
 
@@ -93,9 +95,16 @@ def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
     """
     looked = narrow_rapids(stage.known.course, stage.metal, stage.before, stage.cut.rapids, progress.part(0.0, 0.3))
     holders = holder_contacts(stage.known.course, stage.before, stage.cutters, stage.tools, progress.part(0.3, 0.7))
-    findings = (*_start(stage), *_rapids(stage, looked), *_sideways_out(stage), *_at_unknown_places(stage),
-                *_plunges(stage, progress.part(0.7, 0.85)), *_fast_plunges(stage, progress.part(0.85, 1.0)),
-                *_holders(stage, holders), *_below_table(stage))  # fmt: skip
+    findings = (
+        *_start(stage),
+        *_rapids(stage, looked),
+        *_sideways_out(stage),
+        *_at_unknown_places(stage),
+        *_plunges(stage, progress.part(0.7, 0.85)),
+        *_fast_plunges(stage, progress.part(0.85, 1.0)),
+        *_holders(stage, holders),
+        *_below_table(stage),
+    )
     return Accidents(findings, looked.rapids, holders)
 
 
@@ -109,8 +118,11 @@ def _start(stage: Stage) -> Iterator[Finding]:
     hit = stage.metal.met(Way(first, places[first : first + 1], cutter), stage.top, stage.before.grid.pitch)
     if hit is not None:
         x, y, z = places[first].tolist()
-        text = (f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in {stage.where(first)}, is {hit.depth:.3f} mm "
-                "deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is.")
+        text = (
+            f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in {stage.where(first)}, is "
+            f"{hit.depth:.3f} mm "
+            "deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is."
+        )
         yield stage.told(FindingKind.START_IN_STOCK, text, first, (x, y), hit.depth)
 
 
@@ -118,20 +130,27 @@ def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
     """Yield the rapids that go through metal, the first ones one by one."""
     hits = looked.rapids
     for hit in hits[:NAMED]:
-        text = (f"A rapid goes through metal, {hit.depth:.3f} mm deep at ({hit.x:.3f}, {hit.y:.3f}, {hit.z:.3f}), "
-                f"{stage.where(hit.motion)}; do not run this program.")
+        text = (
+            f"A rapid goes through metal, {hit.depth:.3f} mm deep at ({hit.x:.3f}, {hit.y:.3f}, {hit.z:.3f}), "
+            f"{stage.where(hit.motion)}; do not run this program."
+        )
         yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, hit.motion, (hit.x, hit.y), hit.depth)
     if len(hits) > NAMED:
-        yield Finding(FindingKind.RAPID_IN_MATERIAL, f"{len(hits) - NAMED} more rapids go through metal; do not run this program.",
-                      amount=float(len(hits) - NAMED))  # fmt: skip
+        yield Finding(
+            FindingKind.RAPID_IN_MATERIAL,
+            f"{len(hits) - NAMED} more rapids go through metal; do not run this program.",
+            amount=float(len(hits) - NAMED),
+        )
     yield from _unseen(stage, looked.unseen, "rapids")
 
 
 def _unseen(stage: Stage, count: int, what: str) -> Iterator[Finding]:
     """Yield a remark where there was too much to look at between the cells."""
     if count:
-        text = (f"{count} {what} of narrow cutters were not, or not all along, looked at between the cells, "
-                f"{stage.before.grid.pitch:.3g} mm wide; use more cells (--grid).")
+        text = (
+            f"{count} {what} of narrow cutters were not, or not all along, looked at between the cells, "
+            f"{stage.before.grid.pitch:.3g} mm wide; use more cells (--grid)."
+        )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
 
 
@@ -145,8 +164,11 @@ def _sideways_out(stage: Stage) -> Iterator[Finding]:
         depth = 0.0 if cutter is None or place[2] >= stage.top - LEVEL else _beside(stage, row, place, cutter)
         if depth > LEVEL:
             x, y, z = place.tolist()
-            text = (f"The rapid in {stage.where(row)} sets out sideways from ({x:.3f}, {y:.3f}, {z:.3f}) for a place that nobody knows, "
-                    f"and the metal there stands {depth:.3f} mm higher than the tool; lift it first, such as by G53 G0 Z0.")
+            text = (
+                f"The rapid in {stage.where(row)} sets out sideways from ({x:.3f}, {y:.3f}, {z:.3f}) for a place that "
+                "nobody knows, "
+                f"and the metal there stands {depth:.3f} mm higher than the tool; lift it first, such as by G53 G0 Z0."
+            )
             yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, row, (x, y), depth)
 
 
@@ -165,11 +187,17 @@ def _beside(stage: Stage, row: int, place: np.ndarray, cutter: Cutter) -> float:
 
 
 def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
-    """Yield that motions at feed rate are not cut as nobody knows where they are, unless they surely stay above the stock."""
+    """Yield that motions at feed rate are not cut as nobody knows where they are, unless they surely stay above the
+    stock.
+    """
     motions, known = stage.motions, stage.known
     left_out = np.isin(np.arange(len(motions)), known.course.left_out) & (motions.kind != MotionKind.RAPID)
     above = ~known.nowhere[:, 2] & (reach(motions)[0][:, 2] >= stage.top - LEVEL)
-    lifts = known.home[:, 2] & ~known.nowhere[:, :2].any(axis=1) & np.all(motions.start[:, :2] == motions.end[:, :2], axis=1)
+    lifts = (
+        known.home[:, 2]
+        & ~known.nowhere[:, :2].any(axis=1)
+        & np.all(motions.start[:, :2] == motions.end[:, :2], axis=1)
+    )
     rows = np.flatnonzero(left_out & ~above & ~lifts)
     if not len(rows):
         return
@@ -177,8 +205,11 @@ def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
     unknown = known.nowhere[row] | known.nowhere[max(row - 1, 0)]
     axes = " and ".join(name for name, one in zip("XYZ", unknown.tolist(), strict=True) if one)
     others = "" if len(rows) == 1 else f", the first of {len(rows)} such motions"
-    text = (f"{stage.where(row)} cuts at a place that the program has not told{others}: {axes} {'is' if len(axes) == 1 else 'are'} "
-            "not known there, so it is not cut here; go to a place that is told first (G0 X... Y... Z...).")
+    text = (
+        f"{stage.where(row)} cuts at a place that the program has not told{others}: {axes} "
+        f"{'is' if len(axes) == 1 else 'are'} "
+        "not known there, so it is not cut here; go to a place that is told first (G0 X... Y... Z...)."
+    )
     yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(rows)), line=int(motions.line[row]))
 
 
@@ -188,12 +219,18 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
     found = all_found.found
     for each in found[:NAMED]:
         aside = "straight down" if each.aside <= ALMOST else f"down, sideways by only {each.aside:.3f} mm,"
-        text = (f"T{each.tool} goes {aside} into metal at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}, and does not cut "
-                "at its centre; ramp in, or use a cutter that does.")
+        text = (
+            f"T{each.tool} goes {aside} into metal at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}, and "
+            "does not cut "
+            "at its centre; ramp in, or use a cutter that does."
+        )
         yield stage.told(FindingKind.PLUNGE, text, each.motion, (each.x, each.y), each.depth)
     if len(found) > NAMED:
-        yield Finding(FindingKind.PLUNGE, f"{len(found) - NAMED} more times a mill goes down into metal that does not cut at its centre.",
-                      amount=float(len(found) - NAMED))  # fmt: skip
+        yield Finding(
+            FindingKind.PLUNGE,
+            f"{len(found) - NAMED} more times a mill goes down into metal that does not cut at its centre.",
+            amount=float(len(found) - NAMED),
+        )
     yield from _unseen(stage, all_found.unseen, "ways down")
 
 
@@ -201,10 +238,17 @@ def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
     """Yield, for each tool, its descents into metal at the feed for going sideways."""
     for each in fast_plunges(stage.metal, stage.before, stage.tools, stage.plunge_rates, progress):
         others = "" if each.count == 1 else f", the deepest of {each.count} such descents"
-        said = "which is how fast it cuts sideways, too" if each.rate is None else f"where its plunge rate is {each.rate:.0f} mm/min"
+        said = (
+            "which is how fast it cuts sideways, too"
+            if each.rate is None
+            else f"where its plunge rate is {each.rate:.0f} mm/min"
+        )
         remedy = "slow it down, or ramp in" if each.rate is not None else "see that it may, or slow it down"
-        text = (f"T{each.tool} goes straight down into metal at {each.feed:.0f} mm/min, {said}: {each.depth:.3f} mm deep at "
-                f"({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}{others}; {remedy}.")
+        text = (
+            f"T{each.tool} goes straight down into metal at {each.feed:.0f} mm/min, {said}: {each.depth:.3f} mm deep "
+            "at "
+            f"({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}{others}; {remedy}."
+        )
         found = stage.told(FindingKind.FEED, text, each.motion, (each.x, each.y), each.depth)
         yield replace(found, counts=each.rate is not None)
 
@@ -214,17 +258,26 @@ def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
     for part, kind in ((Part.HOLDER, FindingKind.HOLDER_CONTACT), (Part.SHANK, FindingKind.SHANK_CONTACT)):
         contacts = [each for each in looked.contacts if each.part is part]
         for contact in contacts[:NAMED]:
-            text = (f"The {part.value} of T{contact.tool} goes into metal, {contact.depth:.3f} mm deep at "
-                    f"({contact.x:.3f}, {contact.y:.3f}, {contact.z:.3f}), {stage.where(contact.motion)}{_through(contact)}; "
-                    f"{_remedy(stage, contact, looked)}")
+            text = (
+                f"The {part.value} of T{contact.tool} goes into metal, {contact.depth:.3f} mm deep at "
+                f"({contact.x:.3f}, {contact.y:.3f}, {contact.z:.3f}), "
+                f"{stage.where(contact.motion)}{_through(contact)}; "
+                f"{_remedy(stage, contact, looked)}"
+            )
             yield stage.told(kind, text, contact.motion, (contact.x, contact.y), contact.depth)
         if len(contacts) > NAMED:
             more = len(contacts) - NAMED
-            text = f"{part.value.capitalize()}s go into metal at {more} more place{'' if more == 1 else 's'}; do not run this program."
+            text = (
+                f"{part.value.capitalize()}s go into metal at {more} more place{'' if more == 1 else 's'}; do not "
+                "run this program."
+            )
             yield Finding(kind, text, amount=float(more))
     if looked.unseen:
-        text = (f"{looked.unseen} motions of which it is not sure whether shank or holder meets metal were not looked at one by one; "
-                "use fewer cells (--grid), or cut less deep.")
+        text = (
+            f"{looked.unseen} motions of which it is not sure whether shank or holder meets metal were not looked at "
+            "one by one; "
+            "use fewer cells (--grid), or cut less deep."
+        )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(looked.unseen))
 
 
@@ -237,7 +290,11 @@ def _remedy(stage: Stage, contact: Contact, looked: HolderLook) -> str:
     tool = stage.tools[contact.tool]
     if contact.part is Part.HOLDER:
         return f"stick it out {looked.least[contact.tool]:.1f} mm or more, it has {tool.stick_out:g}."
-    wider = f"the shank, {tool.shank_diameter:g} mm wide, begins" if tool.shank_diameter > tool.diameter else "its flutes end"
+    wider = (
+        f"the shank, {tool.shank_diameter:g} mm wide, begins"
+        if tool.shank_diameter > tool.diameter
+        else "its flutes end"
+    )
     return f"{wider} {tool.flute_length:g} mm over the tip; use longer flutes, or clear the metal above first."
 
 
@@ -253,6 +310,9 @@ def _below_table(stage: Stage) -> Iterator[Finding]:
     x, y, _ = stage.motions.end[row].tolist()
     depth = floor - float(low[row])
     motions = "A motion goes" if len(below) == 1 else f"{len(below)} motions, the first in {stage.where(first)}, go"
-    text = (f"{motions} below the stock's underside, Z {floor:.3f}, where the table is{'' if len(below) == 1 else ', the deepest'} "
-            f"{depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; put something under the stock, or cut less deep.")
+    text = (
+        f"{motions} below the stock's underside, Z {floor:.3f}, where the table "
+        f"is{'' if len(below) == 1 else ', the deepest'} "
+        f"{depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; put something under the stock, or cut less deep."
+    )
     yield stage.told(FindingKind.BELOW_TABLE, text, row, (x, y), depth)

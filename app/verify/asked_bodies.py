@@ -1,16 +1,19 @@
-"""How deep what of a tool does not cut goes into metal: its bodies are led along its motions as rapids that are only asked.
+"""How deep what of a tool does not cut goes into metal: its bodies are led along its motions as rapids that are only
+asked.
 
 A body follows the cutter, so it meets a motion's metal before or after the cutter has cut there:
 
-- A rapid, or a motion that nowhere descends, is asked before it cuts. Flutes reach no metal above themselves, so what stands in the
-  way of a body then is what it meets, exactly.
-- A motion straight down is asked after it: what it cuts away, it cuts before the body gets there; what is beside, stays.
-- Of any other that descends both are asked. What is met after it was met; before it metal may be met that the motion cuts away
-  first. Where the two differ by more than `STEP` the motion is cut and asked in pieces that descend no more than that.
+- A rapid, or a motion that nowhere descends, is asked before it cuts. Flutes reach no metal above themselves, so what
+  stands in the way of a body then is what it meets, exactly.
+- A motion straight down is asked after it: what it cuts away, it cuts before the body gets there; what is beside,
+  stays.
+- Of any other that descends both are asked. What is met after it was met; before it metal may be met that the motion
+  cuts away first. Where the two differ by more than `STEP` the motion is cut and asked in pieces that descend no more
+  than that.
 
-So a contact is told at most STEP too deep, never too little, and what is no contact is not told, as STEP is no more than `TOUCH`.
-Curves are asked by chords within `CHORD` of them, and bodies are taken slimmer by TOUCH: what is met at a cell's centre by more than
-TOUCH upwards and TOUCH + CHORD sideways is always told.
+So a contact is told at most STEP too deep, never too little, and what is no contact is not told, as STEP is no more
+than `TOUCH`. Curves are asked by chords within `CHORD` of them, and bodies are taken slimmer by TOUCH: what is met at a
+cell's centre by more than TOUCH upwards and TOUCH + CHORD sideways is always told.
 """
 
 from __future__ import annotations
@@ -58,8 +61,8 @@ class Touch:
     """A body in metal.
 
     Attributes:
-        row: of the motion. body: which of its tool's bodies. x, y: where it is deepest, mm. z: of the body there, mm; the metal stands
-            `depth` higher.
+        row: of the motion. body: which of its tool's bodies. x, y: where it is deepest, mm. z: of the body there, mm;
+            the metal stands `depth` higher.
     """
 
     row: int
@@ -72,7 +75,9 @@ class Touch:
 
 @dataclass(frozen=True, eq=False)
 class Chords:
-    """Straight ways, (n,) in the order of motions: start and end (n, 3) mm, and the row of the motion that each is of."""
+    """Straight ways, (n,) in the order of motions: start and end (n, 3) mm, and the row of the motion that each is
+    of.
+    """
 
     start: Floats
     end: Floats
@@ -99,7 +104,8 @@ class Asked:
 
     Attributes:
         touches: where bodies are deepest in metal, by motion and body.
-        open: touches that may be as deep as this or less, or none, by motion and body: there were too many to ask step by step.
+        open: touches that may be as deep as this or less, or none, by motion and body: there were too many to ask step
+            by step.
     """
 
     touches: dict[Key, Touch]
@@ -115,7 +121,9 @@ class Asking:
     cutters: Mapping[int, Cutter]
     bodies: Mapping[int, Sequence[Body]]
 
-    def touches(self, chords: Chords, keys: Collection[Key], cells: float = math.inf, progress: Progress = NO_PROGRESS) -> Asked:
+    def touches(
+        self, chords: Chords, keys: Collection[Key], cells: float = math.inf, progress: Progress = NO_PROGRESS
+    ) -> Asked:
         """Return where bodies are in metal.
 
         Args:
@@ -132,7 +140,11 @@ class Asking:
         upright, slanted = self._sorts(chords)
         early, after = self._asked(chords, items, (~upright, upright | slanted), progress.part(0.0, 0.7))
         both = set(chords.row[slanted].tolist())
-        doubtful = {key for key, touch in early.items() if key[0] in both and (key not in after or touch.depth - after[key].depth > STEP)}
+        doubtful = {
+            key
+            for key, touch in early.items()
+            if key[0] in both and (key not in after or touch.depth - after[key].depth > STEP)
+        }
         closer, asked = self._stepwise(chords, doubtful, cells, progress.part(0.7, 1.0))
         found = {key: touch for key, touch in {**after, **early}.items() if key not in doubtful}
         for key in doubtful & (closer.keys() | after.keys()):
@@ -143,12 +155,21 @@ class Asking:
         """Return which chords are of motions at feed rate straight down, and of other ones that descend."""
         way = chords.end - chords.start
         cuts = self.course.motions.kind[chords.row] != MotionKind.RAPID
-        upright = cuts & (self.course.motions.kind[chords.row] == MotionKind.LINE) & np.all(way[:, :2] == 0, axis=1) & (way[:, 2] < 0)
+        upright = (
+            cuts
+            & (self.course.motions.kind[chords.row] == MotionKind.LINE)
+            & np.all(way[:, :2] == 0, axis=1)
+            & (way[:, 2] < 0)
+        )
         descends = np.isin(chords.row, chords.row[cuts & (way[:, 2] < 0)])
         return upright, descends & ~upright
 
-    def _asked(self, chords: Chords, items: Items, when: tuple[Mask, Mask], progress: Progress) -> tuple[dict[Key, Touch], ...]:
-        """Return what items meet before their motion, and after it: the deepest by row and body; `when`: which chords are asked then."""
+    def _asked(
+        self, chords: Chords, items: Items, when: tuple[Mask, Mask], progress: Progress
+    ) -> tuple[dict[Key, Touch], ...]:
+        """Return what items meet before their motion, and after it: the deepest by row and body; `when`: which chords
+        are asked then.
+        """
         body, chord = (np.concatenate([each[mask[items[1]]] for mask in when]) for each in items)
         late = np.repeat([False, True], [int(np.sum(mask[items[1]])) for mask in when])
         tools = self._first() + self._offset(chords.row[chord]) + body
@@ -161,7 +182,9 @@ class Asking:
             _keep(found[int(late[k])], int(led.row[k]), int(body[k]), hit)
         return found
 
-    def _stepwise(self, chords: Chords, keys: set[Key], cells: float, progress: Progress) -> tuple[dict[Key, Touch], set[Key]]:
+    def _stepwise(
+        self, chords: Chords, keys: set[Key], cells: float, progress: Progress
+    ) -> tuple[dict[Key, Touch], set[Key]]:
         """Return what motions meet that are cut and asked by turns, and which of the keys could be afforded."""
         steps = np.clip(np.ceil((chords.start[:, 2] - chords.end[:, 2]) / STEP), 1, MOST_STEPS)
         keys = self.affordable(chords, keys, cells, steps)
@@ -171,20 +194,29 @@ class Asking:
         descent = np.maximum(chords.start[:, 2] - chords.end[:, 2], 0.0)
         count = np.clip(np.ceil(descent / STEP), 1, MOST_STEPS).astype(int)
         chord, step = np.repeat(np.arange(len(count)), count), np.concatenate([np.arange(n) for n in count])
-        ways = [chords.start[chord] + (chords.end - chords.start)[chord] * ((step + k) / count[chord])[:, None] for k in (0, 1)]
+        ways = [
+            chords.start[chord] + (chords.end - chords.start)[chord] * ((step + k) / count[chord])[:, None]
+            for k in (0, 1)
+        ]
         asked = Chords(ways[0], ways[1], chords.row[chord])
         body, piece = self.items(asked, keys)
         tools = np.concatenate([self._first() + self._offset(asked.row[piece]) + body, self.course.tool[asked.row]])
-        order = np.lexsort((np.repeat([0, 1], [len(piece), len(asked)]), np.concatenate([piece, np.arange(len(asked))])))
+        order = np.lexsort(
+            (np.repeat([0, 1], [len(piece), len(asked)]), np.concatenate([piece, np.arange(len(asked))]))
+        )
         start, end = (np.concatenate([way[piece], way]) for way in ways)
         row = np.concatenate([asked.row[piece], asked.row])
         cuts = np.flatnonzero(order >= len(piece))
         found: dict[Key, Touch] = {}
-        for k, hit in self._trimmed(row[order], Chords(start[order], end[order], row[order]), tools[order], cuts, progress):
+        for k, hit in self._trimmed(
+            row[order], Chords(start[order], end[order], row[order]), tools[order], cuts, progress
+        ):
             _keep(found, int(row[order[k]]), int(body[order[k]]), hit)
         return found, keys
 
-    def _trimmed(self, at: Rows, chords: Chords, tools: NDArray[np.intp], cuts: Rows, progress: Progress) -> list[tuple[int, RapidHit]]:
+    def _trimmed(
+        self, at: Rows, chords: Chords, tools: NDArray[np.intp], cuts: Rows, progress: Progress
+    ) -> list[tuple[int, RapidHit]]:
         """Return which chords meet metal, and where; `cuts` are those that cut, the others are asked."""
         more = straight(chords.start, chords.end)
         kind = more.kind.copy()
@@ -200,20 +232,27 @@ class Asking:
         return list(zip(owner[[hit.motion for hit in hits]].tolist(), hits, strict=True)) if hits else []
 
     def affordable(self, chords: Chords, keys: Collection[Key], cells: float, times: Floats | None = None) -> set[Key]:
-        """Return as many of some keys as can be asked, those of narrow bodies first, others evenly spread over the motions.
+        """Return as many of some keys as can be asked, those of narrow bodies first, others evenly spread over the
+        motions.
 
         Args:
             cells: that may be looked at. times: (n,) that each chord is asked; None: twice.
         """
         body, chord = self.items(chords, keys)
         tool = self.course.tool[chords.row[chord]]
-        radius = np.array([self.bodies[number][each].shape.radius for number, each in zip(tool.tolist(), body.tolist(), strict=True)])
+        radius = np.array(
+            [self.bodies[number][each].shape.radius for number, each in zip(tool.tolist(), body.tolist(), strict=True)]
+        )
         long = np.hypot(*(chords.end - chords.start)[chord, :2].T)
         grid = self.workpiece.grid
         cost = np.minimum((math.pi * radius + 2 * long) * radius / grid.pitch**2, grid.rows * grid.cols)
         cost = cost * (2.0 if times is None else times[chord])
         done: set[Key] = set()
-        sorts = [np.flatnonzero((tool == number) & (body == each)) for number, bodies in self.bodies.items() for each in range(len(bodies))]
+        sorts = [
+            np.flatnonzero((tool == number) & (body == each))
+            for number, bodies in self.bodies.items()
+            for each in range(len(bodies))
+        ]
         for k, mine in enumerate(sorted(sorts, key=lambda mine: float(np.sum(cost[mine])))):
             needed, share = float(np.sum(cost[mine])), cells / (len(sorts) - k)
             rows = np.unique(chords.row[chord[mine]])

@@ -47,7 +47,9 @@ class Bound:
 
 
 def bounds_of(program: Program, job: Job) -> list[Bound]:
-    """Return what holds for the operations of a job that are switched on; tools without one may do what any other may."""
+    """Return what holds for the operations of a job that are switched on; tools without one may do what any other
+    may.
+    """
     found: dict[tuple[int, int, float, float], list[int]] = {}
     areas = areas_of_operations(program, job)
     for k, operation in enumerate(job.operations):
@@ -56,14 +58,26 @@ def bounds_of(program: Program, job: Job) -> list[Bound]:
             found.setdefault(key, []).append(k)
     busy = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
     idle = tuple(tool.number for tool in job.tools if tool.number not in busy)
-    return [Bound(tuple(group), (*dict.fromkeys(job.operations[k].cut.tool for k in group), *idle), areas[group[0]], leave, floor,
-                  job.operations[group[0]].DRILLS)
-            for (_, _, leave, floor), group in found.items()]  # fmt: skip
+    return [
+        Bound(
+            tuple(group),
+            (*dict.fromkeys(job.operations[k].cut.tool for k in group), *idle),
+            areas[group[0]],
+            leave,
+            floor,
+            job.operations[group[0]].DRILLS,
+        )
+        for (_, _, leave, floor), group in found.items()
+    ]
 
 
 def deepest(operation: Operation, job: Job) -> float:
-    """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked for."""
-    return operation.cut.floor + operation.beyond + (tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0)
+    """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked
+    for.
+    """
+    return (
+        operation.cut.floor + operation.beyond + (tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0)
+    )
 
 
 def tip_length(tool: Tool) -> float:
@@ -74,7 +88,8 @@ def tip_length(tool: Tool) -> float:
 def cutting_radius(moves: Moves, job: Job) -> Floats:
     """Return (n,) how wide each move's cutter cuts, mm, as a radius.
 
-    A cutter that is not as wide as that at its tip counts as wide as it is at Z 0, where the walls end, when the move is deepest.
+    A cutter that is not as wide as that at its tip counts as wide as it is at Z 0, where the walls end, when the move
+    is deepest.
     """
     height = -np.minimum(moves.start[:, 2], moves.end[:, 2])
     wide = np.zeros(len(moves))
@@ -106,7 +121,8 @@ def _near_segment(points: Floats, a: Floats, b: Floats) -> NDArray[np.bool_]:
 
 
 def off_lines(rows: Floats, lines: Sequence[Contour]) -> tuple[Floats, Floats]:
-    """Return how far moves (n, 8) leave lines at most, mm, and where, (n, 2): looked at at their ends and three places between.
+    """Return how far moves (n, 8) leave lines at most, mm, and where, (n, 2): looked at at their ends and three places
+    between.
 
     A path on lines runs along them, so a move that is on a line at five places runs along it.
     """
@@ -115,7 +131,8 @@ def off_lines(rows: Floats, lines: Sequence[Contour]) -> tuple[Floats, Floats]:
 
 
 def out_of_holes(rows: Floats, need: Floats, holes: Sequence[Region]) -> tuple[Floats, Floats]:
-    """Return how far moves (n, 8) that need room all round, mm, reach beyond the hole whose middle is nearest, mm, and where, (n, 2).
+    """Return how far moves (n, 8) that need room all round, mm, reach beyond the hole whose middle is nearest, mm, and
+    where, (n, 2).
 
     Args:
         holes: regions that are circles; they may cross one another.
@@ -134,7 +151,9 @@ def out_of_holes(rows: Floats, need: Floats, holes: Sequence[Region]) -> tuple[F
 
 
 def _worst_along(rows: Floats, measure: Callable[[Floats], Floats]) -> tuple[Floats, Floats]:
-    """Return the largest of what is measured at the ends of moves (n, 8) and at three places between, and where that is, (n, 2)."""
+    """Return the largest of what is measured at the ends of moves (n, 8) and at three places between, and where that
+    is, (n, 2).
+    """
     worst, places = np.full(len(rows), -np.inf), rows[:, :2].copy()
     for part in (0.0, 0.25, 0.5, 0.75, 1.0):
         points = points_at(rows, np.full(len(rows), part))

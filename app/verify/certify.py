@@ -1,8 +1,9 @@
-"""What holds at every point, also between the cells' centres: heights that bound what is left, from below and from above.
+"""What holds at every point, also between the cells' centres: heights that bound what is left, from below and from
+above.
 
-A cutter that is half a cell's diagonal wider cuts a cell's centre at least as deep as the true one cuts any point of the
-cell; one that is as much slimmer cuts it nowhere deeper. So each cell has a lower and an upper height, and whatever the
-true metal is between them, it is no farther from the part than the longest way from a height to the part's surface.
+A cutter that is half a cell's diagonal wider cuts a cell's centre at least as deep as the true one cuts any point of
+the cell; one that is as much slimmer cuts it nowhere deeper. So each cell has a lower and an upper height, and whatever
+the true metal is between them, it is no farther from the part than the longest way from a height to the part's surface.
 """
 
 from __future__ import annotations
@@ -37,12 +38,14 @@ Trimming = Callable[[Mapping[int, Cutter], TrimOptions, Progress], Heights]
 """Cuts all programs with other cutters, and gives the heights that are left."""
 
 
-def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trimming: Trimming,
-            progress: Progress = NO_PROGRESS) -> Certificate:  # fmt: skip
+def certify(
+    before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trimming: Trimming, progress: Progress = NO_PROGRESS
+) -> Certificate:
     """Return how far from the part any point can be that was cut or left.
 
-    Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of. The way out of
-    the part is looked for on the cells round a place, and as far as these go; where a solid knows better, it is asked.
+    Rapids count as cuts for the one and as none for the other. Of metal left only what lies within reach is spoken of.
+    The way out of the part is looked for on the cells round a place, and as far as these go; where a solid knows
+    better, it is asked.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -61,7 +64,10 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
 
     def worst(heights: Heights, counts: Heights, sign: int) -> float:
         fixed, where = frozen(heights), (pitch, half)
-        return max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress)) + ROUNDING
+        return (
+            max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress))
+            + ROUNDING
+        )
 
     gouge = worst(low, stock, 1)
     if part.solid is not None and gouge > pitch + 2 * half:
@@ -72,8 +78,8 @@ def certify(before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trim
 def _in_solid(part: SolidPart, wanted: Wanted, low: Heights, before: Workpiece, half: float) -> float:
     """Return how deep any point can be that was cut, mm: by the solid itself where the cells round it promise too much.
 
-    No point of a cell's column is deeper than the deepest of its middle line and half the cell's diagonal. The cells that seem
-    deepest are asked first, until no other can be deeper; where that takes too many, what they seem counts.
+    No point of a cell's column is deeper than the deepest of its middle line and half the cell's diagonal. The cells
+    that seem deepest are asked first, until no other can be deeper; where that takes too many, what they seem counts.
     """
     from ..simulation.field.judge_kernels import ways_out
 

@@ -28,10 +28,17 @@ def curve_distance(first: Floats, second: Floats) -> tuple[Floats, Floats]:
     Returns:
         Distances (n,), mm, and points (n, 2), mm.
     """
-    points = np.stack([
-        first[:, :2], first[:, 2:4], nearest_on(first, second[:, :2]), nearest_on(first, second[:, 2:4]),
-        *_common_normals(first, second), *_crossings(first, second),
-    ], axis=1)  # fmt: skip
+    points = np.stack(
+        [
+            first[:, :2],
+            first[:, 2:4],
+            nearest_on(first, second[:, :2]),
+            nearest_on(first, second[:, 2:4]),
+            *_common_normals(first, second),
+            *_crossings(first, second),
+        ],
+        axis=1,
+    )
     count = points.shape[1]
     flat, owner = points.reshape(-1, 2), np.repeat(np.arange(len(first)), count)
     flat = nearest_on(first[owner], flat)

@@ -1,4 +1,6 @@
-"""The metal at any place and any time, as finely as need be: what goes between the cells of the whole stock is looked at closer."""
+"""The metal at any place and any time, as finely as need be: what goes between the cells of the whole stock is looked
+at closer.
+"""
 
 from __future__ import annotations
 
@@ -107,11 +109,15 @@ class Metal:
     def _near(self, k: int, box: Box) -> NDArray[np.intp]:
         """Return the rows of a course that may cut in a box."""
         low, high = self._reaches[k]
-        return np.flatnonzero((low[:, 0] <= box[2]) & (low[:, 1] <= box[3]) & (high[:, 0] >= box[0]) & (high[:, 1] >= box[1]))
+        return np.flatnonzero(
+            (low[:, 0] <= box[2]) & (low[:, 1] <= box[3]) & (high[:, 0] >= box[0]) & (high[:, 1] >= box[1])
+        )
 
     @cached_property
     def _reaches(self) -> list[tuple[Floats, Floats]]:
-        """Of each course the boxes that its motions cut in, (n, 2) lower and upper corners, mm; empty for those that cut nothing."""
+        """Of each course the boxes that its motions cut in, (n, 2) lower and upper corners, mm; empty for those that
+        cut nothing.
+        """
         return [self._reach(course) for course in self.courses]
 
     def _reach(self, course: Course) -> tuple[Floats, Floats]:
@@ -125,7 +131,9 @@ class Metal:
 
 
 def _looks(way: Way, top: float, pitch: float, stock: Box) -> Iterator[Grid]:
-    """Yield grids that a way is seen on: what of it is below the top and over the stock, in pieces that are not too large."""
+    """Yield grids that a way is seen on: what of it is below the top and over the stock, in pieces that are not too
+    large.
+    """
     radius = way.radius(top)
     if radius <= 0:
         return

@@ -21,8 +21,9 @@ class KnownCourse:
     """The course of a program, as far as its places are known.
 
     Attributes:
-        course: motions that begin, along an axis, at a place that nobody knows, begin where they end along it. Left out are
-            those that end at such a place, curves that begin at one, and the rapid that first comes to a known place.
+        course: motions that begin, along an axis, at a place that nobody knows, begin where they end along it. Left out
+            are those that end at such a place, curves that begin at one, and the rapid that first comes to a known
+            place.
         first: row of the motion that first ends at a known place; the number of motions where none does.
         nowhere: (n, 3) whether each motion ends, along an axis, at a place that nobody knows.
         home: (n, 3) whether that is because it is a place of the machine.
@@ -37,7 +38,9 @@ class KnownCourse:
 
 
 def course_of(program: NcProgram) -> KnownCourse:
-    """Return what of a program can be cut; before it sets an axis, and at a place of the machine, nobody knows where it is."""
+    """Return what of a program can be cut; before it sets an axis, and at a place of the machine, nobody knows where it
+    is.
+    """
     motions, nowhere = program.motions, nowhere_of(program)
     unknown = np.asarray(nowhere.any(axis=1))
     from_nowhere = from_nowhere_of(program, nowhere)
@@ -50,14 +53,19 @@ def course_of(program: NcProgram) -> KnownCourse:
         left_out[first] = True
     motions = replace(motions, start=start, known_from=(0, 0, 0))
     tools = tuple(state.tool for state in program.states)
-    return KnownCourse(Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first, nowhere, at_home(program), begins)
+    return KnownCourse(
+        Course.of(motions, tools, tuple(np.flatnonzero(left_out).tolist())), first, nowhere, at_home(program), begins
+    )
 
 
 def picked(course: Course, rows: NDArray[np.intp]) -> Course:
     """Return some motions of a course, in their order; `rows` rise."""
     motions = course.motions
     columns = {name: getattr(motions, name)[rows] for name in COLUMNS}
-    splines = {int(np.searchsorted(rows, row)): motions.splines[row] for row in set(motions.splines).intersection(rows.tolist())}
+    splines = {
+        int(np.searchsorted(rows, row)): motions.splines[row]
+        for row in set(motions.splines).intersection(rows.tolist())
+    }
     left_out = np.flatnonzero(np.isin(rows, course.left_out))
     return Course(replace(motions, splines=splines, **columns), course.tool[rows], tuple(left_out.tolist()))
 
@@ -66,11 +74,22 @@ def straight(start: Floats, end: Floats, kind: MotionKind = MotionKind.RAPID) ->
     """Return straight motions between (n, 3) places, mm."""
     count = len(start)
     small, whole = np.zeros(count, np.uint8), np.zeros(count, np.int32)
-    return Motions(start.copy(), end.copy(), np.full((count, 3), np.nan), np.full(count, kind, np.uint8), small, whole, np.zeros(count),
-                   whole, whole)  # fmt: skip
+    return Motions(
+        start.copy(),
+        end.copy(),
+        np.full((count, 3), np.nan),
+        np.full(count, kind, np.uint8),
+        small,
+        whole,
+        np.zeros(count),
+        whole,
+        whole,
+    )
 
 
-def inserted(course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[np.int32]) -> tuple[Course, NDArray[np.intp]]:
+def inserted(
+    course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[np.int32]
+) -> tuple[Course, NDArray[np.intp]]:
     """Return a course with more motions in it, and which of these each of its motions is, -1: none.
 
     Args:
@@ -82,5 +101,7 @@ def inserted(course: Course, at: NDArray[np.intp], more: Motions, tool: NDArray[
     place = np.flatnonzero(owner < 0)
     splines = {int(place[row]): spline for row, spline in course.motions.splines.items()}
     left_out = tuple(place[list(course.left_out)].tolist())
-    made = Course(replace(course.motions, splines=splines, **columns), np.insert(course.tool, at, tool).astype(np.int32), left_out)
+    made = Course(
+        replace(course.motions, splines=splines, **columns), np.insert(course.tool, at, tool).astype(np.int32), left_out
+    )
     return made, owner

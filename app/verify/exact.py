@@ -33,8 +33,7 @@ class Exact:
     coverage: Coverage | None
 
 
-def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox,
-             progress: Progress = NO_PROGRESS) -> Exact:  # fmt: skip
+def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox, progress: Progress = NO_PROGRESS) -> Exact:
     """Measure programs that were cut one after the other.
 
     Args:
@@ -59,7 +58,9 @@ def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox,
 
 def _joined(parts: Sequence[Moves]) -> Moves:
     """Return moves, one after the other."""
-    columns: dict[str, Any] = {name: np.concatenate([part.columns()[name] for part in parts]) for name in parts[0].columns()}
+    columns: dict[str, Any] = {
+        name: np.concatenate([part.columns()[name] for part in parts]) for name in parts[0].columns()
+    }
     return Moves(**columns)
 
 

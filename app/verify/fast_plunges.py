@@ -1,7 +1,8 @@
 """Descents into metal at the feed that is meant for going sideways.
 
-A mill goes down where little of it cuts, at its axis, and so is fed down more slowly. How slowly the program's header may say; else the
-program itself does, where it goes down more slowly elsewhere. One that has a single feed for everything is told only of what is deep.
+A mill goes down where little of it cuts, at its axis, and so is fed down more slowly. How slowly the program's header
+may say; else the program itself does, where it goes down more slowly elsewhere. One that has a single feed for
+everything is told only of what is deep.
 """
 
 from __future__ import annotations
@@ -63,8 +64,13 @@ class FastPlunge:
     count: int
 
 
-def fast_plunges(metal: Metal, before: Workpiece, tools: Mapping[int, Tool], rates: Mapping[int, float],
-                 progress: Progress = NO_PROGRESS) -> Iterator[FastPlunge]:  # fmt: skip
+def fast_plunges(
+    metal: Metal,
+    before: Workpiece,
+    tools: Mapping[int, Tool],
+    rates: Mapping[int, float],
+    progress: Progress = NO_PROGRESS,
+) -> Iterator[FastPlunge]:
     """Yield, by tool, the descents of the last program of some that are too fast for it.
 
     Args:
@@ -80,15 +86,29 @@ def fast_plunges(metal: Metal, before: Workpiece, tools: Mapping[int, Tool], rat
     for number, rate in known.items():
         limit[number] = MORE * rate if rate is not None else 0.0
     motions = course.motions
-    fast = _descends(motions.end - motions.start, motions.kind) & (motions.feed > limit[course.tool]) & (motions.end[:, 2] < top - LEVEL)
+    fast = (
+        _descends(motions.end - motions.start, motions.kind)
+        & (motions.feed > limit[course.tool])
+        & (motions.end[:, 2] < top - LEVEL)
+    )
     fast[list(course.left_out)] = False
-    spans = [span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(metal, tools, known, span, top)]
+    spans = [
+        span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(metal, tools, known, span, top)
+    ]
     if not spans:
         return
-    wide = NARROW * before.grid.pitch  # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
+    wide = (
+        NARROW * before.grid.pitch
+    )  # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
     radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
-    ways = [Way(first, np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]]),
-                Cutter(radius[int(course.tool[first])], radius[int(course.tool[first])])) for first, last in spans]  # fmt: skip
+    ways = [
+        Way(
+            first,
+            np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]]),
+            Cutter(radius[int(course.tool[first])], radius[int(course.tool[first])]),
+        )
+        for first, last in spans
+    ]
     deepest: dict[int, list[FastPlunge]] = {}
     for k, hits in hits_along(metal, before, ways, progress).hits.items():
         (first, last), hit = spans[k], max(hits, key=lambda each: each.depth)
@@ -109,20 +129,31 @@ def _at_height(points: Floats, z: float) -> tuple[float, float]:
 
 def _descends(way: Floats, kind: NDArray[np.uint8]) -> NDArray[np.bool_]:
     """Return which motions at feed rate go down, straight or nearly."""
-    return np.asarray((kind == MotionKind.LINE) & (way[:, 2] < 0) & (-way[:, 2] > STEEP * np.hypot(way[:, 0], way[:, 1])))
+    return np.asarray(
+        (kind == MotionKind.LINE) & (way[:, 2] < 0) & (-way[:, 2] > STEEP * np.hypot(way[:, 0], way[:, 1]))
+    )
 
 
 def _rates(metal: Metal, tools: Mapping[int, Tool], rates: Mapping[int, float], top: float) -> dict[int, float | None]:
     """Return the plunge rate of each mill that cuts, None where nothing tells of it."""
     course = metal.courses[-1]
     motions, way = course.motions, course.motions.end - course.motions.start
-    sideways = (motions.kind != MotionKind.RAPID) & (np.hypot(way[:, 0], way[:, 1]) > STEEP * np.abs(way[:, 2])) & (motions.end[:, 2] < top)
+    sideways = (
+        (motions.kind != MotionKind.RAPID)
+        & (np.hypot(way[:, 0], way[:, 1]) > STEEP * np.abs(way[:, 2]))
+        & (motions.end[:, 2] < top)
+    )
     down = _descends(way, motions.kind) & (way[:, 2] < -LEAST)
     found: dict[int, float | None] = {}
     for number, tool in tools.items():
         mine = (course.tool == number) & (motions.feed > 0)
         along, slowly = motions.feed[mine & sideways], motions.feed[mine & down]
-        if tool.kind is ToolKind.DRILL or number not in metal.cutters or not len(slowly) or not (len(along) or number in rates):
+        if (
+            tool.kind is ToolKind.DRILL
+            or number not in metal.cutters
+            or not len(slowly)
+            or not (len(along) or number in rates)
+        ):
             continue
         least = float(slowly.min())
         found[number] = rates.get(number, least if len(along) and least < SHARE * float(along.max()) else None)
@@ -134,7 +165,9 @@ def _least(tool: Tool, rate: float | None) -> float:
     return max(DEEP * tool.diameter, DEEP_MM) if rate is not None else max(ALONE * tool.diameter, ALONE_MM)
 
 
-def _may_be_deep(metal: Metal, tools: Mapping[int, Tool], known: Mapping[int, float | None], span: tuple[int, int], top: float) -> bool:
+def _may_be_deep(
+    metal: Metal, tools: Mapping[int, Tool], known: Mapping[int, float | None], span: tuple[int, int], top: float
+) -> bool:
     """Return whether motions go down so far below the top that they may go deep into metal."""
     course, (first, last) = metal.courses[-1], span
     number = int(course.tool[first])

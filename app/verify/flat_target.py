@@ -35,8 +35,8 @@ class FlatTarget:
 def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
     """Return the heights of a part over a grid, program coordinates.
 
-    Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest operation that may
-    be there. Elsewhere the part's top is wanted, and what stands on it is not spoken of.
+    Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest
+    operation that may be there. Elsewhere the part's top is wanted, and what stands on it is not spoken of.
     """
     found = part.wanted
     top, shape = np.float32(-part.origin[2]), (grid.rows, grid.cols)
@@ -70,4 +70,3 @@ def _cells(shape: Shape, part: FlatPart, grid: Grid) -> Mask:
     """Return (rows, cols) which cells' centres lie in a shape of the part."""
     rings = shapely.get_rings(shapely.get_parts(shape))
     return inside(grid, [shapely.get_coordinates(ring)[:-1] - part.origin[:2] for ring in rings])
-

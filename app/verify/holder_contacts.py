@@ -1,8 +1,9 @@
-"""Shanks and holders in metal, motion by motion, and how far a tool must stick out at least so that its holder meets none.
+"""Shanks and holders in metal, motion by motion, and how far a tool must stick out at least so that its holder meets
+none.
 
-Time is cut into blocks of motions. The metal after a block stands all through it, so what a body meets there it surely meets; the
-metal before it is all that it may meet. Where the two agree nothing else is asked; only the motions between are asked one by one, on
-the metal as it is then (`asked_bodies`).
+Time is cut into blocks of motions. The metal after a block stands all through it, so what a body meets there it surely
+meets; the metal before it is all that it may meet. Where the two agree nothing else is asked; only the motions between
+are asked one by one, on the metal as it is then (`asked_bodies`).
 """
 
 from __future__ import annotations
@@ -47,7 +48,8 @@ class Contact:
 
     Attributes:
         tool: T number. part: what of it. first: row of the first motion. count: of motions in metal.
-        motion: row of the motion that goes deepest. x, y: where, mm. z: of the part there, mm; the metal stands `depth` higher.
+        motion: row of the motion that goes deepest. x, y: where, mm. z: of the part there, mm; the metal stands `depth`
+            higher.
     """
 
     tool: int
@@ -67,7 +69,8 @@ class HolderLook:
 
     Attributes:
         contacts: in the order of motions.
-        least: by T number, of tools whose holder is known, the stick-out from which on it meets no metal, mm, rounded up to 0.1.
+        least: by T number, of tools whose holder is known, the stick-out from which on it meets no metal, mm, rounded
+            up to 0.1.
         unseen: motions of which it is not known whether a shank or holder meets metal: there are too many to ask each.
     """
 
@@ -78,17 +81,24 @@ class HolderLook:
     def followed(self, then: HolderLook, motions: int) -> HolderLook:
         """Return this and the look at the next program as one; `motions` came before that."""
         moved = (replace(each, first=each.first + motions, motion=each.motion + motions) for each in then.contacts)
-        least = {number: max(look.least.get(number, 0.0) for look in (self, then)) for number in {**self.least, **then.least}}
+        least = {
+            number: max(look.least.get(number, 0.0) for look in (self, then)) for number in {**self.least, **then.least}
+        }
         return HolderLook((*self.contacts, *moved), least, self.unseen + then.unseen)
 
 
-def holder_contacts(course: Course, before: Workpiece, cutters: Mapping[int, Cutter], tools: Mapping[int, Tool],
-                    progress: Progress = NO_PROGRESS) -> HolderLook:  # fmt: skip
+def holder_contacts(
+    course: Course,
+    before: Workpiece,
+    cutters: Mapping[int, Cutter],
+    tools: Mapping[int, Tool],
+    progress: Progress = NO_PROGRESS,
+) -> HolderLook:
     """Return where shanks and holders meet metal in a program, and how far tools must stick out.
 
-    A contact is told at most `STEP` too deep, and none that is deeper than `TOUCH` at a cell's centre is missed, but for those among
-    `unseen`. A least stick-out is never too small by more than `TOUCH`; it is too large by less than 0.1 mm, and by STEP, unless more
-    motions are in doubt than can be asked.
+    A contact is told at most `STEP` too deep, and none that is deeper than `TOUCH` at a cell's centre is missed, but
+    for those among `unseen`. A least stick-out is never too small by more than `TOUCH`; it is too large by less than
+    0.1 mm, and by STEP, unless more motions are in doubt than can be asked.
 
     Args:
         before: the metal before the program.
@@ -106,8 +116,14 @@ def holder_contacts(course: Course, before: Workpiece, cutters: Mapping[int, Cut
 class _Look:
     """One look at a program."""
 
-    def __init__(self, course: Course, before: Workpiece, cutters: Mapping[int, Cutter], tools: Mapping[int, Tool],
-                 bodies: Mapping[int, tuple[Body, ...]]) -> None:  # fmt: skip
+    def __init__(
+        self,
+        course: Course,
+        before: Workpiece,
+        cutters: Mapping[int, Cutter],
+        tools: Mapping[int, Tool],
+        bodies: Mapping[int, tuple[Body, ...]],
+    ) -> None:
         self._course, self._before, self._cutters, self._tools, self._bodies = course, before, cutters, tools, bodies
         self._first, done = {}, 0
         for number, each in bodies.items():
@@ -150,15 +166,21 @@ class _Look:
     def _through_blocks(self, chords: Chords, progress: Progress) -> None:
         """Look at all motions on the metal before and after blocks of them."""
         rows, top = np.unique(chords.row), float(self._before.heights.max())
-        lifts = [min((self._shapes[self._owner == number, 3]), default=0.0) for number in range(int(self._owner.max()) + 1)]
-        touches = np.minimum(chords.start, chords.end)[:, 2] + np.array(lifts)[self._course.tool[chords.row]] < top - TOUCH
+        lifts = [
+            min((self._shapes[self._owner == number, 3]), default=0.0) for number in range(int(self._owner.max()) + 1)
+        ]
+        touches = (
+            np.minimum(chords.start, chords.end)[:, 2] + np.array(lifts)[self._course.tool[chords.row]] < top - TOUCH
+        )
         count = min(BLOCKS if touches.any() else FEW, len(rows))
         edges = [0, *(int(part[0]) for part in np.array_split(rows, count)[1:]), int(rows[-1]) + 1]
         edge = np.searchsorted(chords.row, edges)
         metal, before = self._before, Pyramid.of(self._before)
         for k, (first, last) in enumerate(pairwise(edges)):
             part = progress.part(k / (len(edges) - 1), (k + 1) / (len(edges) - 1))
-            metal = trim(metal, picked(self._course, np.arange(first, last)), self._cutters, TrimOptions(Rapids.IGNORED), part).workpiece
+            metal = trim(
+                metal, picked(self._course, np.arange(first, last)), self._cutters, TrimOptions(Rapids.IGNORED), part
+            ).workpiece
             after = Pyramid.of(metal)
             mine = np.arange(edge[k], edge[k + 1])
             self._look(before, after, chords, mine)
@@ -167,7 +189,9 @@ class _Look:
     def _look(self, before: Pyramid, after: Pyramid, chords: Chords, mine: NDArray[np.intp]) -> None:
         """Look at a block's chords."""
         body, chord = self._items(chords.row[mine])
-        every = Led(np.column_stack([chords.start[mine], chords.end[mine]]), self._shapes, chord, body, np.zeros(len(body)))
+        every = Led(
+            np.column_stack([chords.start[mine], chords.end[mine]]), self._shapes, chord, body, np.zeros(len(body))
+        )
         low, top = np.minimum(chords.start[mine], chords.end[mine])[chord, 2], float(before.heights[-1])
         near = np.flatnonzero(low + self._shapes[body, 3] < top - TOUCH)
         led, row, body = every.of(near), chords.row[mine][chord[near]], body[near]
@@ -176,7 +200,9 @@ class _Look:
             self._keep(self._touch(after, int(row[k]), int(body[k]), int(cell[k]), float(surely[k])))
         _, cell = before.deeper(led, np.where(cell >= 0, surely + STEP, TOUCH))
         self._open |= {(int(row[k]), int(body[k])) for k in np.flatnonzero(cell >= 0).tolist()}
-        items = np.flatnonzero(top - low - self._shapes[every.shape, 3] + self._stands[every.shape] > self._needed()[every.shape])
+        items = np.flatnonzero(
+            top - low - self._shapes[every.shape, 3] + self._stands[every.shape] > self._needed()[every.shape]
+        )
         items = items[np.argsort(low[items], kind="stable")]
         if len(items):
             self._look_for_least(before, after, every.of(items), chords.row[mine][chord[items]])
@@ -193,7 +219,12 @@ class _Look:
 
     def _needed(self) -> Floats:
         """Return, by body, how far its tool must surely stick out, mm; infinite of shanks."""
-        return np.array([self._least[number] if holds else math.inf for number, holds in zip(self._owner, self._is_holder, strict=True)])
+        return np.array(
+            [
+                self._least[number] if holds else math.inf
+                for number, holds in zip(self._owner, self._is_holder, strict=True)
+            ]
+        )
 
     def _items(self, rows: Rows) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return every body of every chord: its number among all bodies, and the chord."""
@@ -216,32 +247,46 @@ class _Look:
             self._touched[key] = touch
 
     def _close(self, chords: Chords, progress: Progress) -> int:
-        """Ask the motions that the blocks leave open, those first that may meet nothing; return how many of these are left."""
+        """Ask the motions that the blocks leave open, those first that may meet nothing; return how many of these are
+        left.
+        """
         asking = Asking(self._before, self._course, self._cutters, self._bodies)
         keys = {(row, shape - self._first[int(self._owner[shape])]) for row, shape in self._open}
         unsure, left = keys - self._touched.keys(), set[Key]()
         for k, some in enumerate((unsure, keys - unsure)):
             part = progress.part(k / 2, (k + 1) / 2)
             afforded = asking.affordable(chords, some, CELLS / 2)
-            asked = asking.touches(chords.of(np.isin(chords.row, [row for row, _ in afforded])), afforded, CELLS / 2, part)
+            asked = asking.touches(
+                chords.of(np.isin(chords.row, [row for row, _ in afforded])), afforded, CELLS / 2, part
+            )
             for touch in asked.touches.values():
                 self._keep(touch)
             left |= (some - afforded) | asked.open.keys()
         return len({row for row, _ in left - self._touched.keys()})
 
     def _settle_least(self, chords: Chords, progress: Progress) -> None:
-        """Ask the motions for which tools may have to stick out farther than is sure, those first that may ask for most."""
+        """Ask the motions for which tools may have to stick out farther than is sure, those first that may ask for
+        most.
+        """
         for k, count in enumerate(ROUNDS):
             rows = self._doubtful()[:count]
             if not rows:
                 return
-            bodies = {number: tuple(body.lifted(least - self._tools[number].stick_out) for body in self._bodies[number]
-                                    if body.part is Part.HOLDER) for number, least in self._least.items()}  # fmt: skip
+            bodies = {
+                number: tuple(
+                    body.lifted(least - self._tools[number].stick_out)
+                    for body in self._bodies[number]
+                    if body.part is Part.HOLDER
+                )
+                for number, least in self._least.items()
+            }
             asking = Asking(self._before, self._course, self._cutters, bodies)
             some = chords.of(np.isin(chords.row, rows))
             keys = {(row, each) for row in rows for each in range(len(bodies[int(self._course.tool[row])]))}
             afforded = asking.affordable(some, keys, CELLS / len(ROUNDS))
-            asked = asking.touches(some, afforded, CELLS / len(ROUNDS), progress.part(k / len(ROUNDS), (k + 1) / len(ROUNDS)))
+            asked = asking.touches(
+                some, afforded, CELLS / len(ROUNDS), progress.part(k / len(ROUNDS), (k + 1) / len(ROUNDS))
+            )
             sure = self._least.copy()
             for touch in (*asked.touches.values(), *asked.open.values()):
                 number = int(self._course.tool[touch.row])
@@ -270,12 +315,16 @@ class _Look:
             for run in runs:
                 worst = max(run, key=lambda touch: touch.depth)
                 number = int(self._course.tool[worst.row])
-                found.append(Contact(number, part, run[0].row, len(run), worst.row, worst.x, worst.y, worst.z, worst.depth))
+                found.append(
+                    Contact(number, part, run[0].row, len(run), worst.row, worst.x, worst.y, worst.z, worst.depth)
+                )
         return tuple(sorted(found, key=lambda each: each.first))
 
     def _deepest(self, part: Part) -> list[Touch]:
         """Return the deepest touch of a part in each motion."""
-        bodies = {(number, k) for number, each in self._bodies.items() for k, body in enumerate(each) if body.part is part}
+        bodies = {
+            (number, k) for number, each in self._bodies.items() for k, body in enumerate(each) if body.part is part
+        }
         tool, deepest = self._course.tool.tolist(), dict[int, Touch]()
         for (row, body), touch in self._touched.items():
             if (tool[row], body) in bodies and (row not in deepest or touch.depth > deepest[row].depth):
@@ -283,7 +332,9 @@ class _Look:
         return [deepest[row] for row in sorted(deepest)]
 
     def _goes_on(self, one: Touch, then: Touch) -> bool:
-        """Return whether two touches of a part are of one contact: of one tool, and of motions that follow, or near each other."""
+        """Return whether two touches of a part are of one contact: of one tool, and of motions that follow, or near
+        each other.
+        """
         number = int(self._course.tool[one.row])
         if number != self._course.tool[then.row]:
             return False

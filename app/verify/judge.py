@@ -1,7 +1,8 @@
 """A cut against the part: which cells are gouged or left, how large each place is, and what holds between the cells.
 
 For a drawing milled to depths, gouges and areas left are measured on the motions themselves, exactly; the cells confirm
-them, and a gouge that only the cells show counts too. For a solid, and where a tool's end is not flat, the cells decide.
+them, and a gouge that only the cells show counts too. For a solid, and where a tool's end is not flat, the cells
+decide.
 """
 
 from __future__ import annotations
@@ -55,7 +56,9 @@ class Wanted:
     solid: SolidPart | None = None
 
 
-def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS) -> Wanted:
+def wanted_over(
+    part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS
+) -> Wanted:
     """Return the part over the grid of a cut; metal that was not there is not gouged.
 
     Args:
@@ -80,12 +83,16 @@ def wanted_over(part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...],
             lowest = reach_of(part.solid, part.leave, stock.box, cutters, progress)
             *heights, over_part = lowest.over(grid)
             sure, possible = (height <= target.high + np.float32(part.tolerance) for height in heights)
-            reach |= reachable(left, sure, possible, over_part <= part.tolerance, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch)))
+            reach |= reachable(
+                left, sure, possible, over_part <= part.tolerance, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch))
+            )
     return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
 
 
 def _upright(target: Target, allowance: float) -> NDArray[np.float32]:
-    """Return what an allowance square to a part's surface is straight up, at each cell; at walls it is as for a slope of 10."""
+    """Return what an allowance square to a part's surface is straight up, at each cell; at walls it is as for a slope
+    of 10.
+    """
     own = slice(MARGIN, -MARGIN)
     if not allowance:
         return np.zeros_like(target.high)
@@ -152,14 +159,27 @@ def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
     discs = (spot.disc_mm for spot in left_spots if spot.kind is SpotKind.UNREACHABLE)
     line = int(judging.lines[gouge.move]) if gouge.move >= 0 else 0
     return Judgement(
-        deviation, unreachable, gouge, line, reachable_mm2, unreachable_mm2, max(discs, default=0.0), (*gouges, *left_spots),
-        counts | {SpotKind.GOUGE: gouged}, tuple(_bands(judging, deviation)), certificate, isinstance(part, FlatPart), tolerance,
+        deviation,
+        unreachable,
+        gouge,
+        line,
+        reachable_mm2,
+        unreachable_mm2,
+        max(discs, default=0.0),
+        (*gouges, *left_spots),
+        counts | {SpotKind.GOUGE: gouged},
+        tuple(_bands(judging, deviation)),
+        certificate,
+        isinstance(part, FlatPart),
+        tolerance,
         coverage.given_up_mm2 if coverage is not None else 0.0,
-    )  # fmt: skip
+    )
 
 
 def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spot, ...], int]:
-    """Return the gouges, the deepest first, and how many: by closed forms, or where these know of none, those that the cells show."""
+    """Return the gouges, the deepest first, and how many: by closed forms, or where these know of none, those that the
+    cells show.
+    """
     part = judging.part
     exact = tuple(_exact_gouges(judging))
     if exact:
@@ -225,7 +245,9 @@ def _left(judging: Judging, place: CellPlace, kind: SpotKind) -> Spot:
     row, col = place.cell
     x, y = judging.grid.place(row * judging.grid.cols + col)
     line, motion = judging.line_at(row, col)
-    return Spot(kind, x, y, float(judging.cut.heights[row, col]), place.worst, place.area_mm2, place.disc_mm, line, motion)
+    return Spot(
+        kind, x, y, float(judging.cut.heights[row, col]), place.worst, place.area_mm2, place.disc_mm, line, motion
+    )
 
 
 def _measured(judging: Judging, place: Place) -> Spot:
@@ -238,7 +260,9 @@ def _measured(judging: Judging, place: Place) -> Spot:
     around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
     over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
     wanted = float(judging.wanted.target.wanted[around].min())
-    if over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch:  # narrower than the cells: as high as the stock was
+    if (
+        over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch
+    ):  # narrower than the cells: as high as the stock was
         over = max(float(judging.cut.before.heights[around].max()) - wanted, 0.0)
     return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
 

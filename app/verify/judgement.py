@@ -80,12 +80,14 @@ class Judgement:
     Attributes:
         deviation: (rows, cols) height over the part, mm: > 0 metal left, < 0 gouge; 0 where the part says nothing.
         unreachable: (rows, cols) metal left that no tool of the job reaches.
-        gouge: the deepest one; where it is, in program coordinates; `move` is the row among the motions of all programs.
+        gouge: the deepest one; where it is, in program coordinates; `move` is the row among the motions of all
+            programs.
         gouge_line: its NC line, 0 = none.
         reachable_mm2, unreachable_mm2: area of the metal left, seen from above.
         largest_disc_mm: diameter of the largest disc that fits where no tool reaches.
         skin_mm2: area of the skin that paths made from pixels leave along the walls; in none of the areas before.
-        spots: the worst places, gouges first, then left, then unreachable; each kind worst first. counts: of all there are.
+        spots: the worst places, gouges first, then left, then unreachable; each kind worst first. counts: of all there
+            are.
         bands: areas by deviation, from the lowest to the highest.
         certificate: what holds between the cells; None where only the cells were looked at.
         exact: gouge and areas were measured on the motions themselves, and the cells confirm them; else on the cells.
@@ -127,22 +129,35 @@ def _told(judgement: Judgement, where: Callable[[int], str]) -> Iterator[Finding
     gouges, left, beyond = by_kind[SpotKind.GOUGE], by_kind[SpotKind.LEFT], by_kind[SpotKind.UNREACHABLE]
     for spot in gouges[:1]:
         line = f", {where(spot.motion)}" if spot.motion >= 0 else ""
-        text = (f"The part is gouged in {_places(judgement.gouge.count)}, the worst {spot.depth_mm:.4f} mm deep at ({spot.x:.3f}, "
-                f"{spot.y:.3f}, {spot.z:.3f}){line}; do not run this program.")
+        text = (
+            f"The part is gouged in {_places(judgement.gouge.count)}, the worst {spot.depth_mm:.4f} mm deep at "
+            f"({spot.x:.3f}, "
+            f"{spot.y:.3f}, {spot.z:.3f}){line}; do not run this program."
+        )
         yield Finding(FindingKind.GOUGE, text, spot.x, spot.y, amount=spot.depth_mm, line=spot.line)
     for spot in left[:1]:
-        text = (f"{judgement.reachable_mm2:.3f} mm2 of metal within reach is left in {_places(judgement.counts[SpotKind.LEFT])}, the worst "
-                f"{spot.depth_mm:.3f} mm high and {spot.disc_mm:.3f} mm wide at ({spot.x:.3f}, {spot.y:.3f}).")
+        text = (
+            f"{judgement.reachable_mm2:.3f} mm2 of metal within reach is left in "
+            f"{_places(judgement.counts[SpotKind.LEFT])}, the worst "
+            f"{spot.depth_mm:.3f} mm high and {spot.disc_mm:.3f} mm wide at ({spot.x:.3f}, {spot.y:.3f})."
+        )
         yield Finding(FindingKind.LEFT_REACHABLE, text, spot.x, spot.y, amount=judgement.reachable_mm2, line=spot.line)
     if judgement.skin_mm2:
-        text = (f"{judgement.skin_mm2:.3f} mm2 of metal is left along the walls, the skin that paths made from pixels leave so as not to "
-                "cut into them; a larger bitmap leaves less.")
+        text = (
+            f"{judgement.skin_mm2:.3f} mm2 of metal is left along the walls, the skin that paths made from pixels "
+            "leave so as not to "
+            "cut into them; a larger bitmap leaves less."
+        )
         yield Finding(FindingKind.SKIN, text, counts=False, amount=judgement.skin_mm2)
     for spot in beyond[:1]:
         places = _places(judgement.counts[SpotKind.UNREACHABLE])
-        text = (f"{judgement.unreachable_mm2:.3f} mm2 in {places} is out of reach of every tool; a disc of "
-                f"{judgement.largest_disc_mm:.3f} mm would fit; a smaller tool reaches farther.")
-        yield Finding(FindingKind.LEFT_UNREACHABLE, text, spot.x, spot.y, counts=False, amount=judgement.unreachable_mm2)
+        text = (
+            f"{judgement.unreachable_mm2:.3f} mm2 in {places} is out of reach of every tool; a disc of "
+            f"{judgement.largest_disc_mm:.3f} mm would fit; a smaller tool reaches farther."
+        )
+        yield Finding(
+            FindingKind.LEFT_UNREACHABLE, text, spot.x, spot.y, counts=False, amount=judgement.unreachable_mm2
+        )
 
 
 def _places(count: int) -> str:

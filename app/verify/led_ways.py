@@ -30,7 +30,8 @@ class Led:
 
 
 def hits_along(metal: Metal, before: Workpiece, ways: Sequence[Way], progress: Progress = NO_PROGRESS) -> Led:
-    """Return where ways beside the last program of some meet metal, those of cutters narrower than a cell looked at closer.
+    """Return where ways beside the last program of some meet metal, those of cutters narrower than a cell looked at
+    closer.
 
     Args:
         before: the metal before that program.
@@ -53,8 +54,12 @@ def hits_along(metal: Metal, before: Workpiece, ways: Sequence[Way], progress: P
     return Led(found, max(0, len(narrow) - MOST))
 
 
-def _with_ways(course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way]) -> tuple[Course, dict[int, Cutter], list[int]]:
-    """Return a course that is asked along some ways too, all cutters, and to which way each motion belongs, -1: to none."""
+def _with_ways(
+    course: Course, cutters: Mapping[int, Cutter], ways: Sequence[Way]
+) -> tuple[Course, dict[int, Cutter], list[int]]:
+    """Return a course that is asked along some ways too, all cutters, and to which way each motion belongs, -1: to
+    none.
+    """
     radii = sorted({way.cutter.radius for way in ways})
     first = int(max([*cutters, course.tool.max()])) + 1
     all_cutters = {**cutters, **{first + k: Cutter(radius, radius) for k, radius in enumerate(radii)}}

@@ -30,9 +30,10 @@ class MotionMoves:
 def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> MotionMoves:
     """Return a course as moves of a job.
 
-    Motions that are left out are not among them. A way that does not begin where the one before ends begins with a rapid there. One
-    that sinks ends with a move of next to no length, since at its end the cutter stands whole at that depth.
-    Arcs of up to a full turn in the XY plane stay arcs; other curves become chords within 1 um (`app.simulation.sweeps.pieces`).
+    Motions that are left out are not among them. A way that does not begin where the one before ends begins with a
+    rapid there. One that sinks ends with a move of next to no length, since at its end the cutter stands whole at that
+    depth. Arcs of up to a full turn in the XY plane stay arcs; other curves become chords within 1 um
+    (`app.simulation.sweeps.pieces`).
 
     Args:
         course: known ways only.
@@ -48,7 +49,11 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
     order = np.repeat(np.arange(len(rows)), counts)
     nth = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
     jump, stop = jumps[order] & (nth == 0), sinks[order] & (nth == jumps[order] + 1)
-    end = np.where(jump[:, None], ways.start[order], ways.end[order]) + np.array(origin) + stop[:, None] * np.array((STIR, 0, 0))
+    end = (
+        np.where(jump[:, None], ways.start[order], ways.end[order])
+        + np.array(origin)
+        + stop[:, None] * np.array((STIR, 0, 0))
+    )
     kind = np.where(jump, MotionKind.RAPID, np.where(stop, MotionKind.LINE, ways.kind[order])).astype(np.uint8)
     centre = np.where((jump | stop)[:, None], np.nan, ways.centre[order] + np.array(origin[:2]))
     tool, rapid = course.tool[rows[order]].astype(np.int16), kind == MotionKind.RAPID
@@ -56,8 +61,17 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
     for number in np.unique(tool).tolist():
         operation[tool == number] = _operation(job, number)
     purpose, feed = np.where(rapid, Purpose.RAPID, Purpose.POCKET).astype(np.uint8), course.motions.feed[rows[order]]
-    moves = Moves(end, centre, kind, purpose, operation, tool, np.zeros(len(order), np.int32), np.where(rapid, 0.0, feed),
-                  course.motions.line[rows[order]])
+    moves = Moves(
+        end,
+        centre,
+        kind,
+        purpose,
+        operation,
+        tool,
+        np.zeros(len(order), np.int32),
+        np.where(rapid, 0.0, feed),
+        course.motions.line[rows[order]],
+    )
     return MotionMoves(moves, rows[order])
 
 
@@ -89,11 +103,22 @@ def _ways(course: Course) -> _Ways:
     parts = [splitter.pieces(int(row), int(row) + 1) for row in curved]
     counts[curved] = [len(part) for part in parts]
     rows = np.repeat(np.arange(len(motions)), counts)
-    ways = _Ways(motions.start[rows].copy(), motions.end[rows].copy(), rows, motions.kind[rows].copy(), motions.centre[rows, :2].copy())
+    ways = _Ways(
+        motions.start[rows].copy(),
+        motions.end[rows].copy(),
+        rows,
+        motions.kind[rows].copy(),
+        motions.centre[rows, :2].copy(),
+    )
     at = np.cumsum(counts) - counts
     for row, part in zip(curved.tolist(), parts, strict=True):
         mine = slice(int(at[row]), int(at[row] + counts[row]))
-        ways.start[mine], ways.end[mine], ways.kind[mine], ways.centre[mine] = part.start, part.end, MotionKind.LINE, np.nan
+        ways.start[mine], ways.end[mine], ways.kind[mine], ways.centre[mine] = (
+            part.start,
+            part.end,
+            MotionKind.LINE,
+            np.nan,
+        )
     return ways
 
 

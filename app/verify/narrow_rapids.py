@@ -23,13 +23,17 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Looked:
-    """The rapids of a program that go through metal, in their order, and how many could not, or not wholly, be looked at closer."""
+    """The rapids of a program that go through metal, in their order, and how many could not, or not wholly, be looked
+    at closer.
+    """
 
     rapids: tuple[RapidHit, ...]
     unseen: int = 0
 
 
-def narrow_rapids(course: Course, metal: Metal, before: Workpiece, seen: tuple[RapidHit, ...], progress: Progress = NO_PROGRESS) -> Looked:
+def narrow_rapids(
+    course: Course, metal: Metal, before: Workpiece, seen: tuple[RapidHit, ...], progress: Progress = NO_PROGRESS
+) -> Looked:
     """Return the rapids that go through metal.
 
     Args:
@@ -39,7 +43,9 @@ def narrow_rapids(course: Course, metal: Metal, before: Workpiece, seen: tuple[R
         Cancelled: the job was asked to stop.
     """
     top, pitch = float(before.heights.max()), before.grid.pitch
-    rows = np.flatnonzero(_in_question(course, metal, top, pitch) & ~np.isin(np.arange(len(course.motions)), [hit.motion for hit in seen]))
+    rows = np.flatnonzero(
+        _in_question(course, metal, top, pitch) & ~np.isin(np.arange(len(course.motions)), [hit.motion for hit in seen])
+    )
     rows = rows[~_goes_where_it_was(course, rows)]
     hits, unseen = list(seen), max(0, len(rows) - MOST)
     for k, row in enumerate(rows[:MOST].tolist()):
@@ -57,15 +63,21 @@ def _in_question(course: Course, metal: Metal, top: float, pitch: float) -> Mask
     motions, (x0, y0, x1, y1) = course.motions, metal.stock.box
     low, high = reach(motions)
     radius, up_to = _widths(course, metal.cutters, pitch)
-    over = (low[:, 0] - radius < x1) & (low[:, 1] - radius < y1) & (high[:, 0] + radius > x0) & (high[:, 1] + radius > y0)
+    over = (
+        (low[:, 0] - radius < x1) & (low[:, 1] - radius < y1) & (high[:, 0] + radius > x0) & (high[:, 1] + radius > y0)
+    )
     below = top - low[:, 2]
     asked = (motions.kind == MotionKind.RAPID) & over & (below > LEVEL) & (below < up_to)
     asked[list(course.left_out)] = False
     return np.asarray(asked)
 
 
-def _widths(course: Course, cutters: Mapping[int, Cutter], pitch: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return of each motion's cutter the radius, and the height over the tip up to which it is narrow, mm; without one: none."""
+def _widths(
+    course: Course, cutters: Mapping[int, Cutter], pitch: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return of each motion's cutter the radius, and the height over the tip up to which it is narrow, mm; without one:
+    none.
+    """
     radius, up_to = np.zeros(len(course.motions)), np.zeros(len(course.motions))
     for number, cutter in cutters.items():
         mine = course.tool == number

@@ -26,7 +26,8 @@ class FlatPart:
     """Regions of a drawing, sunk into the metal.
 
     Attributes:
-        job: whose operations say how deep, how much stock is left on walls, and which tools are there; its part is the drawing.
+        job: whose operations say how deep, how much stock is left on walls, and which tools are there; its part is the
+            drawing.
         regions: that are machined, part coordinates; their walls are upright, and Z 0 is the part's top.
         origin: the program's zero, mm, part coordinates: program = part - origin.
         wall_tolerance: within which a wall counts as met, mm: what path and writing may be off.
@@ -59,8 +60,16 @@ class FlatPart:
 
     def program(self, moves: Moves) -> Program:
         """Return moves as a program that makes this part."""
-        return Program(moves, self.regions, allowance_mm=self.allowance, areas=self.areas, lines=self.lines, clamps=self.clamps,
-                       tabs=self.tabs, dog_bones=self.dog_bones)
+        return Program(
+            moves,
+            self.regions,
+            allowance_mm=self.allowance,
+            areas=self.areas,
+            lines=self.lines,
+            clamps=self.clamps,
+            tabs=self.tabs,
+            dog_bones=self.dog_bones,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,9 +80,10 @@ class SolidPart:
         solid: closed.
         leave: stock to be left on all of its surface, mm, >= 0.
         tolerance: within which its surface counts as met, mm.
-        block: what it is cut from, program coordinates, where it is surfaces seen from above: these may go on beyond it.
-        allowance: so much more metal may stay on its surface, square to it, mm: how far paths may lie above theirs. It is taken off what is
-            told to be left, and says nothing of gouges.
+        block: what it is cut from, program coordinates, where it is surfaces seen from above: these may go on beyond
+            it.
+        allowance: so much more metal may stay on its surface, square to it, mm: how far paths may lie above theirs. It
+            is taken off what is told to be left, and says nothing of gouges.
     """
 
     solid: SolidStock
@@ -87,14 +97,19 @@ Part = FlatPart | SolidPart
 
 
 def part_box(part: Part) -> StockBox | None:
-    """Return the box round a part, program coordinates: what of it is machined, for a drawing; None where that is nothing."""
+    """Return the box round a part, program coordinates: what of it is machined, for a drawing; None where that is
+    nothing.
+    """
     if isinstance(part, SolidPart):
         low, high = part.solid.triangles.min(axis=(0, 1)).tolist(), part.solid.triangles.max(axis=(0, 1)).tolist()
         return StockBox(*low, *high)
     box = extent((*(contour for region in part.regions for contour in region.contours), *part.lines))
     if box is None:
         return None
-    (x, y, z), depth = part.origin, max((each.cut.depth for each in part.job.operations if each.cut.enabled), default=0.0)
+    (x, y, z), depth = (
+        part.origin,
+        max((each.cut.depth for each in part.job.operations if each.cut.enabled), default=0.0),
+    )
     return StockBox(box[0] - x, box[1] - y, -depth - z, box[2] - x, box[3] - y, -z)
 
 
@@ -112,6 +127,9 @@ def beyond(part: Part, stock: StockBox) -> Iterator[Finding]:
         sides |= {"-Z": stock.z0 - box.z0, "+Z": box.z1 - stock.z1}
     side, far = max(sides.items(), key=lambda item: item[1])
     if far > part.tolerance:
-        text = (f"The part reaches {far:.3f} mm beyond the stock towards {side}, and there nothing can be judged; check the stock, and "
-                "where the part's zero lies (its origin and units).")
+        text = (
+            f"The part reaches {far:.3f} mm beyond the stock towards {side}, and there nothing can be judged; check "
+            "the stock, and "
+            "where the part's zero lies (its origin and units)."
+        )
         yield Finding(FindingKind.BEYOND_STOCK, text, amount=far)

@@ -14,7 +14,9 @@ MOST = 100
 
 
 ASKED = 5000
-"""Cells of a place that are looked at one by one where it has more: the worst ones, and about as many spread over the others."""
+"""Cells of a place that are looked at one by one where it has more: the worst ones, and about as many spread over the
+others.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +37,8 @@ class CellPlace:
 
 
 def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -> tuple[tuple[CellPlace, ...], int]:
-    """Return the connected places of a mask, that with the largest value first, not more than MOST, and how many there are.
+    """Return the connected places of a mask, that with the largest value first, not more than MOST, and how many there
+    are.
 
     Args:
         mask: (rows, cols). value: (rows, cols), of which the largest is the worst.
@@ -48,7 +51,9 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
     cells = np.flatnonzero(labels)
     label, worth = labels.ravel()[cells], value.ravel()[cells]
     order = np.lexsort((worth, label))
-    ends = np.searchsorted(label[order], np.arange(1, count + 1))  # where each label begins, and where the last one ends
+    ends = np.searchsorted(
+        label[order], np.arange(1, count + 1)
+    )  # where each label begins, and where the last one ends
     framed = np.pad(mask, 1).astype(np.uint8)  # what lies beyond the grid is no place
     inner = cv2.distanceTransform(framed, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1].ravel()
     worst = worth[order[ends[1:] - 1]]

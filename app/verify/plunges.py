@@ -29,7 +29,9 @@ UPRIGHT = 10.0
 """mm down per mm sideways, from which on a motion counts as upright, whatever follows it."""
 
 WINDS = 6.0
-"""Times the radius that it keeps within, that a way is long if it goes round or to and fro; once round is 2 pi times."""
+"""Times the radius that it keeps within, that a way is long if it goes round or to and fro; once round is 2 pi
+times.
+"""
 
 TURN = 32
 """Chords of a whole turn of a helix."""
@@ -46,7 +48,8 @@ class Plunge:
 
     Attributes:
         motion: row of the first one that goes into metal. tool: T number.
-        x, y: where they end, mm. depth: of the metal over that, mm. aside: radius that the axis keeps within in the metal, mm.
+        x, y: where they end, mm. depth: of the metal over that, mm. aside: radius that the axis keeps within in the
+        metal, mm.
     """
 
     motion: int
@@ -82,8 +85,8 @@ class _Run:
 def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -> Plunges:
     """Return where the last program of some plunges with a dead centre.
 
-    A mill that goes sideways by no more than the radius of its dead centre leaves metal under it that nothing cuts, whether it goes
-    straight, slanted, round or to and fro.
+    A mill that goes sideways by no more than the radius of its dead centre leaves metal under it that nothing cuts,
+    whether it goes straight, slanted, round or to and fro.
 
     Args:
         before: the metal before that program.
@@ -141,7 +144,9 @@ def alike_runs(sort: NDArray[np.int64], tool: NDArray[np.int32]) -> list[tuple[i
 
 
 def _stays(start: Floats, end: Floats, top: float, radius: float, shallow: bool) -> bool:
-    """Return whether motions may keep within a radius below the top; shallow ones must go to and fro, or round, for that."""
+    """Return whether motions may keep within a radius below the top; shallow ones must go to and fro, or round, for
+    that.
+    """
     part = np.clip((top - end[:, 2]) / (start[:, 2] - end[:, 2]), 0.0, 1.0)[:, None]
     places = np.concatenate([end + (start - end) * part, end])[:, :2]
     aside = float(np.max(places.max(axis=0) - places.min(axis=0))) / 2

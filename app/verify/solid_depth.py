@@ -1,4 +1,6 @@
-"""How deep places lie in a solid: the exact distance to its nearest triangle, over whole columns of metal that was cut away."""
+"""How deep places lie in a solid: the exact distance to its nearest triangle, over whole columns of metal that was cut
+away.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +67,8 @@ class DepthInSolid:
         return depth
 
     def _outer_faces(self, triangles: Floats) -> Floats:
-        """Return the triangles that have no metal before them: of bodies that overlap, faces within another one are no surface.
+        """Return the triangles that have no metal before them: of bodies that overlap, faces within another one are no
+        surface.
 
         One that is only partly within another body stays.
         """
@@ -84,6 +87,9 @@ class DepthInSolid:
         winds -= (winds + up)[np.searchsorted(point, point)]  # each column begins at 0, whatever came of the one before
         inside = np.flatnonzero((winds[:-1] > 0.5) & (point[:-1] == point[1:]))
         column = point[inside]
-        low, high = np.maximum(heights[inside], columns.low[column]), np.minimum(heights[inside + 1], columns.high[column])
+        low, high = (
+            np.maximum(heights[inside], columns.low[column]),
+            np.minimum(heights[inside + 1], columns.high[column]),
+        )
         some = high > low
         return column[some], np.column_stack([columns.places[column], low, high])[some]

@@ -1,9 +1,10 @@
-"""Gouges in a solid: how deep each place is, measured on the solid and on the motions themselves, not on the cells that show it.
+"""Gouges in a solid: how deep each place is, measured on the solid and on the motions themselves, not on the cells that
+show it.
 
-The cells tell where metal of the solid was cut away. At the centres of those that seem deepest the exact depth is asked, points on the
-walls tell what lies between the cells, and from the deepest ones on it is climbed: the program's height at any place, and the solid's
-distance there, are closed forms. So what is told is the depth of a place that was cut; that nothing else is deeper by more than a
-cell's way, the certificate says.
+The cells tell where metal of the solid was cut away. At the centres of those that seem deepest the exact depth is
+asked, points on the walls tell what lies between the cells, and from the deepest ones on it is climbed: the program's
+height at any place, and the solid's distance there, are closed forms. So what is told is the depth of a place that was
+cut; that nothing else is deeper by more than a cell's way, the certificate says.
 """
 
 from __future__ import annotations
@@ -26,13 +27,17 @@ from .solid_depth import Columns, DepthInSolid
 from .wall_probe import Probe, WallProbe, metal_at
 
 ASKED = 4000
-"""Cells of a place that the solid is asked at, half of them those that seem deepest, the others spread; of all places ten times as many."""
+"""Cells of a place that the solid is asked at, half of them those that seem deepest, the others spread; of all places
+ten times as many.
+"""
 
 APART = 1.0
 """mm between gouges in walls that are told one by one."""
 
 STARTS, NEAR = 12, 0.5
-"""Places that the depth of the deepest gouge is climbed from, so far apart, mm; that of each other one from its own deepest."""
+"""Places that the depth of the deepest gouge is climbed from, so far apart, mm; that of each other one from its own
+deepest.
+"""
 
 ROUNDS, ROUNDS_OF_OTHERS, SIDE = 24, 12, 2
 """Times that the places round the best one so far are asked, on (2 SIDE + 1)² places, nearer and nearer."""
@@ -44,7 +49,8 @@ class SolidGouges:
 
     Attributes:
         part: the solid. lowest: gives the height that is cut down to, and by whom. before: the stock.
-        heights: (rows, cols) that are left, on the stock's grid. gouged: which of the cells are. around: the solid, as in `Target`.
+        heights: (rows, cols) that are left, on the stock's grid. gouged: which of the cells are. around: the solid, as
+            in `Target`.
         lines: NC line of each motion.
     """
 
@@ -64,7 +70,8 @@ class SolidGouges:
         """Return the gouges with their depths, the deepest first.
 
         Args:
-            places: of cells. walls: looks for what lies at walls between the cells; what it finds in places of cells is that place's.
+            places: of cells. walls: looks for what lies at walls between the cells; what it finds in places of cells is
+                that place's.
         """
         home, most = self._homes(places), min(ASKED, max(64, 10 * ASKED // max(len(places), 10)))
         found = [self._of_cells(place, most) for place in places]
@@ -93,7 +100,10 @@ class SolidGouges:
         depth = self._depth_in.of(Columns(cut.places, cut.heights, metal_at(self.before, cut.places)))
         order = np.argsort(-depth, kind="stable")
         order = order[depth[order] > self.part.tolerance]
-        found = (self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k])) for k in order.tolist())
+        found = (
+            self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k]))
+            for k in order.tolist()
+        )
         return list(_apart(found))
 
     def _spot(self, place: Floats, z: float, depth: float, motion: int) -> Spot:
@@ -115,7 +125,10 @@ class SolidGouges:
     def _home(self, home: NDArray[np.int64], points: Floats) -> NDArray[np.int64]:
         """Return the number of the place that each point (m, 2) lies in, -1: none."""
         grid = self.before.grid
-        cols, rows = (np.floor((points[:, axis] - start) / grid.pitch).astype(np.int64) for axis, start in ((0, grid.x0), (1, grid.y0)))
+        cols, rows = (
+            np.floor((points[:, axis] - start) / grid.pitch).astype(np.int64)
+            for axis, start in ((0, grid.x0), (1, grid.y0))
+        )
         return home[np.clip(rows, 0, grid.rows - 1), np.clip(cols, 0, grid.cols - 1)]
 
     def _of_cells(self, place: CellPlace, most: int) -> Spot:
@@ -125,7 +138,9 @@ class SolidGouges:
         worst = int(np.argmax(depth))
         at = np.array([self.before.grid.place(int(cells[worst]))])
         z, motion = self.lowest(at)
-        spot = self._spot(at[0], float(min(z[0], self.heights.ravel()[cells[worst]])), float(depth[worst]), int(motion[0]))
+        spot = self._spot(
+            at[0], float(min(z[0], self.heights.ravel()[cells[worst]])), float(depth[worst]), int(motion[0])
+        )
         return replace(spot, area_mm2=place.area_mm2, disc_mm=place.disc_mm)
 
     def _asked(self, place: CellPlace, most: int) -> NDArray[np.int64]:
@@ -137,17 +152,23 @@ class SolidGouges:
         seems = np.zeros(len(place.cells))
         ways_out(frozen(self.around), frozen(self.heights), place.cells, (self.before.grid.pitch, 0.0), seems)
         order = np.argsort(-seems, kind="stable")
-        return np.unique(np.concatenate([place.cells[order[: most // 2]], place.cells[:: 1 + 2 * len(place.cells) // most]]))
+        return np.unique(
+            np.concatenate([place.cells[order[: most // 2]], place.cells[:: 1 + 2 * len(place.cells) // most]])
+        )
 
     def _columns(self, cells: NDArray[np.int64]) -> Columns:
         """Return what was cut away over the centres of cells."""
         grid = self.before.grid
         rows, cols = np.divmod(cells, grid.cols)
         places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
-        return Columns(places, *(each.ravel()[cells].astype(np.float64) for each in (self.heights, self.before.heights)))
+        return Columns(
+            places, *(each.ravel()[cells].astype(np.float64) for each in (self.heights, self.before.heights))
+        )
 
     def _starts(self, found: Sequence[Spot], places: Sequence[CellPlace]) -> Floats:
-        """Return where to climb from (k, 2): the deepest spots, and cells that are nearly as deep as the deepest, apart from them."""
+        """Return where to climb from (k, 2): the deepest spots, and cells that are nearly as deep as the deepest, apart
+        from them.
+        """
         best = found[0].depth_mm
         starts = [(spot.x, spot.y) for spot in found[:STARTS] if spot.depth_mm > best - 2 * self.before.grid.pitch]
         for place in places[:STARTS]:
@@ -177,7 +198,9 @@ class SolidGouges:
             k = int(deepest[int(np.argmax(depth[deepest]))])
             if depth[k] > spot.depth_mm:
                 (x, y), row = asked[k].tolist(), int(motion[k])
-                spot = replace(spot, x=x, y=y, z=float(z[k]), depth_mm=float(depth[k]), motion=row, line=int(self.lines[row]))
+                spot = replace(
+                    spot, x=x, y=y, z=float(z[k]), depth_mm=float(depth[k]), motion=row, line=int(self.lines[row])
+                )
             reach *= 0.6
         return spot
 

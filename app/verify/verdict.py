@@ -83,15 +83,16 @@ class Depths:
     places: Floats
 
 
-def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_tool: bool = False,
-                 progress: Progress = NO_PROGRESS) -> Depths:  # fmt: skip
+def gouge_depths(
+    program: Program, job: Job, stock: StockBox | None = None, by_tool: bool = False, progress: Progress = NO_PROGRESS
+) -> Depths:
     """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its operation.
 
     Args:
         program: what lies outside of an operation's area is part, or a clamp.
         job: its tools and its stock to leave are what the path must keep clear of.
-        stock: moves above it, and those that keep off it by their cutter's radius, cut nothing; straight ones count up to where they
-            leave it. None = it is everywhere below Z 0.
+        stock: moves above it, and those that keep off it by their cutter's radius, cut nothing; straight ones count up
+            to where they leave it. None = it is everywhere below Z 0.
         by_tool: True: nobody knows which operation a move belongs to, so it may be wherever one of its tool's may.
 
     Raises:
@@ -110,10 +111,14 @@ def gouge_depths(program: Program, job: Job, stock: StockBox | None = None, by_t
     exempt = in_dog_bones(rows, program.dog_bones)
     bounds = bounds_of(program, job)
     for k, bound in enumerate(bounds):
-        mine = np.flatnonzero(np.isin(moves.tool[chosen], bound.tools) if by_tool else np.isin(moves.operation[chosen], bound.operations))
+        mine = np.flatnonzero(
+            np.isin(moves.tool[chosen], bound.tools) if by_tool else np.isin(moves.operation[chosen], bound.operations)
+        )
         if not len(mine):
             continue
-        deep, where = _beyond(bound, rows[mine], radius[mine] + bound.leave, progress.part(k / len(bounds), (k + 1) / len(bounds)))
+        deep, where = _beyond(
+            bound, rows[mine], radius[mine] + bound.leave, progress.part(k / len(bounds), (k + 1) / len(bounds))
+        )
         deep[exempt[mine]] = -np.inf
         too_deep = -low[mine] - bound.floor
         deeper = too_deep > np.maximum(deep, _SURFACE)
@@ -131,7 +136,9 @@ def clear_moves(moves: Moves, depths: Depths, within: float) -> NDArray[np.bool_
 
 
 def _beyond(bound: Bound, rows: Floats, need: Floats, progress: Progress) -> tuple[Floats, Floats]:
-    """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n, 2)."""
+    """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n,
+    2).
+    """
     area = bound.area
     if bound.holes:
         return out_of_holes(rows, need, area.regions)
@@ -161,7 +168,9 @@ def clamps_met(program: Program, job: Job, depths: Depths | None = None) -> Dept
     if not len(chosen):
         return Depths(chosen, np.zeros(0), np.zeros((0, 3)))
     rows, need = move_rows(moves)[chosen], np.array([job.tool(number).radius for number in moves.tool[chosen].tolist()])
-    depth, places = _depths(rows, need, np.concatenate([contour_rows(c) for region in program.clamps for c in region.contours]))
+    depth, places = _depths(
+        rows, need, np.concatenate([contour_rows(c) for region in program.clamps for c in region.contours])
+    )
     held = shapely.union_all(region_shapes(program.clamps, _CHORD))
     over = np.asarray(shapely.intersects(shapely.points(rows[:, 2:4]), held))
     depth[over] = np.maximum(depth[over], need[over])
@@ -177,7 +186,9 @@ def _touches(moves: Moves, job: Job, stock: StockBox) -> NDArray[np.bool_]:
 
 
 def _clipped(rows: Floats, stock: StockBox) -> Floats:
-    """Return rows of which straight ones that go through the stock, seen from above, begin and end in it or on its rim."""
+    """Return rows of which straight ones that go through the stock, seen from above, begin and end in it or on its
+    rim.
+    """
     rows = rows.copy()
     way = rows[:, 2:4] - rows[:, :2]
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -19,7 +19,9 @@ STEEP = 0.45
 """Z of a triangle's normal up to which it is a wall: 63 degrees and more."""
 
 MOST_POINTS = 60_000
-"""Points on all walls; where half a cell apart would be more, they lie farther apart, and narrower gouges may go unseen."""
+"""Points on all walls; where half a cell apart would be more, they lie farther apart, and narrower gouges may go
+unseen.
+"""
 
 STRIDES = (0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
 """Of a cell: how far on a gouge in a wall is followed straight into the solid; farther in the cells show it."""
@@ -69,12 +71,14 @@ class WallProbe:
     def cut_places(self, deep: Callable[[Floats], Floats]) -> CutPlaces:
         """Return places in the walls that were cut, and may be deeper than what is known near them.
 
-        From a point that is gouged the gouge is followed straight into the solid, without a step over what was not cut, to its end
-        or to the end of `STRIDES`; both that place and the one half way are returned. How deep they lie is for the solid to say.
+        From a point that is gouged the gouge is followed straight into the solid, without a step over what was not cut,
+        to its end or to the end of `STRIDES`; both that place and the one half way are returned. How deep they lie is
+        for the solid to say.
 
         Args:
-            deep: gives how deep a gouge round points (m, 2) is known to be, stock to leave counted, mm, >= 0: what is no deeper than
-                that is left out, as no place is deeper than it lies in from the wall, nor than it lies below the top over it.
+            deep: gives how deep a gouge round points (m, 2) is known to be, stock to leave counted, mm, >= 0: what is
+                no deeper than that is left out, as no place is deeper than it lies in from the wall, nor than it lies
+                below the top over it.
         """
         part, start = self.part, self.part.tolerance - self.part.leave
         asking = _Asking(*wall_points(part.solid, self.before.grid.pitch), self, SolidRays(part.solid))
@@ -83,13 +87,17 @@ class WallProbe:
         some = asking.gouged(known, np.maximum(known, start))
         asking, known = asking.only(some), known[some]
         end = self._followed(asking, known)
-        places = np.concatenate([asking.points + asking.inwards * each[:, None] for each in (end, (known + end) / 2, end / 2)])
+        places = np.concatenate(
+            [asking.points + asking.inwards * each[:, None] for each in (end, (known + end) / 2, end / 2)]
+        )
         heights, motion = self.lowest(places)
         cut = motion >= 0
         return CutPlaces(places[cut], heights[cut], motion[cut])
 
     def _followed(self, asking: _Asking, start: Floats) -> Floats:
-        """Return depths (m,) at which gouges still are that are at others (m,); where they end sooner than `STRIDES`, their end."""
+        """Return depths (m,) at which gouges still are that are at others (m,); where they end sooner than `STRIDES`,
+        their end.
+        """
         known, beyond, pitch = start.copy(), np.full(len(start), np.nan), self.before.grid.pitch
         for stride in STRIDES:
             open_ = np.flatnonzero(np.isnan(beyond))
@@ -120,7 +128,9 @@ class _Asking:
         return _Asking(self.points[chosen], self.inwards[chosen], self.probe, self.rays)
 
     def gouged(self, depth: Floats, over: Floats | float = 0.0) -> NDArray[np.bool_]:
-        """Return whether the solid was cut at depths (m,) in it, < 0 beside it, deeper than its tolerance, and `over` below its top."""
+        """Return whether the solid was cut at depths (m,) in it, < 0 beside it, deeper than its tolerance, and `over`
+        below its top.
+        """
         if not len(depth):
             return np.zeros(0, np.bool_)
         places, part = self.points + self.inwards * depth[:, None], self.probe.part
@@ -133,7 +143,10 @@ class _Asking:
 def metal_at(workpiece: Workpiece, places: Floats) -> Floats:
     """Return how high metal is at places (m, 2), mm; -infinite beside its grid."""
     grid, heights = workpiece.grid, workpiece.heights
-    cols, rows = (np.floor((places[:, axis] - start) / grid.pitch).astype(np.int64) for axis, start in ((0, grid.x0), (1, grid.y0)))
+    cols, rows = (
+        np.floor((places[:, axis] - start) / grid.pitch).astype(np.int64)
+        for axis, start in ((0, grid.x0), (1, grid.y0))
+    )
     beside = (rows < 0) | (rows >= grid.rows) | (cols < 0) | (cols >= grid.cols)
     there = heights[np.clip(rows, 0, grid.rows - 1), np.clip(cols, 0, grid.cols - 1)].astype(np.float64)
     return np.where(beside, -np.inf, there)
@@ -143,13 +156,18 @@ def unseen_walls(part: SolidPart, pitch: float) -> Iterator[Finding]:
     """Yield the remark that a solid has more walls than are looked at half a cell apart, and where gouges may hide."""
     apart = _step(_walls(part.solid)[2], pitch)
     if apart > pitch / 2:
-        text = (f"The walls of the solid are so long that they were asked every {apart:.3f} mm only, not every {pitch / 2:.3f} mm; gouges "
-                "narrower than that may be unseen beside the cells; look at a part of it (--window).")
+        text = (
+            f"The walls of the solid are so long that they were asked every {apart:.3f} mm only, not every "
+            f"{pitch / 2:.3f} mm; gouges "
+            "narrower than that may be unseen beside the cells; look at a part of it (--window)."
+        )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=apart)
 
 
 def wall_points(solid: SolidStock, pitch: float) -> tuple[Floats, Floats]:
-    """Return points (m, 2) on a solid's walls seen from above, half a cell apart, and the way into the solid there, of length 1."""
+    """Return points (m, 2) on a solid's walls seen from above, half a cell apart, and the way into the solid there, of
+    length 1.
+    """
     (begin, end), inwards, length = _walls(solid)
     if not len(length):
         return np.zeros((0, 2)), np.zeros((0, 2))
@@ -165,7 +183,9 @@ def _step(length: Floats, pitch: float) -> float:
 
 
 def _walls(solid: SolidStock) -> tuple[tuple[Floats, Floats], Floats, Floats]:
-    """Return of each triangle that is a wall both ends (n, 2) as seen from above, the way into the solid (n, 2), and its length (n,)."""
+    """Return of each triangle that is a wall both ends (n, 2) as seen from above, the way into the solid (n, 2), and
+    its length (n,).
+    """
     a, b, c = np.moveaxis(solid.triangles, 1, 0)
     normal = np.cross(b - a, c - a)
     size = np.linalg.norm(normal, axis=1)

@@ -30,7 +30,9 @@ def part(request: pytest.FixtureRequest) -> tuple[str, tuple[Region, ...]]:
 
 
 def record(benchmark: BenchmarkFixture, task: str, engine: str, least: bool = False) -> None:
-    """Keep the median of a benchmark that has run, or its least, for the ratios; nothing when benchmarks are disabled."""
+    """Keep the median of a benchmark that has run, or its least, for the ratios; nothing when benchmarks are
+    disabled.
+    """
     benchmark.extra_info.update(task=task, engine=engine)
     stats = benchmark.stats
     if stats is not None:
@@ -43,6 +45,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Print where the program stands against its peers in this run."""
     for task, engines in medians.items():
         own = engines.get(OURS)
-        peers = ", ".join(f"{name} {time * 1e3:.2f} ms" + (f" ({time / own:.2f} x ours)" if own else "")
-                          for name, time in engines.items() if name != OURS)
+        peers = ", ".join(
+            f"{name} {time * 1e3:.2f} ms" + (f" ({time / own:.2f} x ours)" if own else "")
+            for name, time in engines.items()
+            if name != OURS
+        )
         terminalreporter.write_line(f"{task}: {OURS} {own * 1e3:.2f} ms; {peers}" if own else f"{task}: {peers}")

@@ -1,7 +1,8 @@
-"""Runs inside FreeCAD (`freecadcmd`): an Offset pocket of what PART describes; its G-code goes to OUT, the time to OUT.json.
+"""Runs inside FreeCAD (`freecadcmd`): an Offset pocket of what PART describes; its G-code goes to OUT, the time to
+OUT.json.
 
-PART is JSON: regions as lists of contours, each a list of ["line", a, b], ["arc", a, middle, b] or ["circle", centre, radius];
-box, depth, diameter, stepover_percent.
+PART is JSON: regions as lists of contours, each a list of ["line", a, b], ["arc", a, middle, b] or ["circle", centre,
+radius]; box, depth, diameter, stepover_percent.
 """
 
 import json
@@ -44,7 +45,9 @@ def pocket_of(part):
     tool.HorizFeed, tool.VertFeed = 10.0, 200 / 60
     floors = [box.ZMin + part["depth"] for box in (face.BoundBox for face in clone.Shape.Faces)]
     flat = [box.ZLength for box in (face.BoundBox for face in clone.Shape.Faces)]
-    names = tuple(f"Face{k}" for k, (low, high) in enumerate(zip(floors, flat, strict=True), 1) if abs(low) < 1e-6 and high < 1e-6)
+    names = tuple(
+        f"Face{k}" for k, (low, high) in enumerate(zip(floors, flat, strict=True), 1) if abs(low) < 1e-6 and high < 1e-6
+    )
     pocket = PathPocketShape.Create("Pocket")
     pocket.Base, pocket.ToolController = [(clone, names)], tool
     pocket.OffsetPattern, pocket.StepOver, pocket.ExtraOffset = "Offset", int(part["stepover_percent"]), 0.0

@@ -1,4 +1,6 @@
-"""Lines and arcs beside chord reduction and greedy arcs, on the same points in the same run: seconds, and blocks out."""
+"""Lines and arcs beside chord reduction and greedy arcs, on the same points in the same run: seconds, and blocks
+out.
+"""
 
 import math
 import re
@@ -47,8 +49,11 @@ def wavy() -> list[Floats]:
 
 
 CASES: dict[str, Callable[[], list[Floats]]] = {
-    "jsdc": lambda: chains("jsdc.gcode"), "tux": lambda: chains("tux.ngc"), "pycam": lambda: chains("test_pycam.ngc"), "wavy": wavy,
-}  # fmt: skip
+    "jsdc": lambda: chains("jsdc.gcode"),
+    "tux": lambda: chains("tux.ngc"),
+    "pycam": lambda: chains("test_pycam.ngc"),
+    "wavy": wavy,
+}
 
 
 def chords(points: Floats) -> int:
@@ -69,7 +74,9 @@ def _near_chord(points: Floats) -> bool:
 
 
 def arc_welder(points: Floats) -> int:
-    """Count lines and arcs in the manner of ArcWelder: an arc through first, middle and last point, grown by one while all are near it."""
+    """Count lines and arcs in the manner of ArcWelder: an arc through first, middle and last point, grown by one while
+    all are near it.
+    """
     count, i = 0, 0
     while i < len(points) - 1:
         j = i + 2
@@ -133,7 +140,9 @@ def program(name: str) -> bytes:
         return (ROOT / "tests" / "data" / "nc" / "jsdc.gcode").read_bytes()
     t = np.linspace(0, math.tau, int(name) + 1)
     r = len(t) / 20_000 * (40 + 6 * np.sin(5 * t) + 1.5 * np.sin(23 * t))
-    moves = "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in zip((r * np.cos(t)).tolist(), (r * np.sin(t)).tolist(), strict=True))
+    moves = "".join(
+        f"X{x:.4f} Y{y:.4f}\n" for x, y in zip((r * np.cos(t)).tolist(), (r * np.sin(t)).tolist(), strict=True)
+    )
     return f"G21 G90 G94\nG0 X{r[0]:.4f} Y0 Z0\nG1 F1000\n{moves}G0 Z5\nM2\n".encode()
 
 
@@ -141,7 +150,9 @@ def program(name: str) -> bytes:
 def test_a_whole_program(benchmark: BenchmarkFixture, name: str) -> None:
     """Reading, fitting, writing, reading again, proving: time is to grow with the lines."""
     data = program(name)
-    done = benchmark.pedantic(lambda: smooth("x.ngc", data, SmoothOptions(TOLERANCE)), rounds=1, warmup_rounds=int(name == "jsdc"))
+    done = benchmark.pedantic(
+        lambda: smooth("x.ngc", data, SmoothOptions(TOLERANCE)), rounds=1, warmup_rounds=int(name == "jsdc")
+    )
     benchmark.extra_info["blocks"] = sum(piece.blocks[1] for piece in done.pieces)
     record(benchmark, f"a program smoothed, {name}", OURS)
 
@@ -151,7 +162,10 @@ def test_splines_of_a_drawing(benchmark: BenchmarkFixture, count: int) -> None:
     """Of 10 control points each, some 30 mm long."""
     rng, t = np.random.default_rng(3), np.linspace(0, 30, 10)
     knots = (0.0,) * 4 + tuple(range(1, 7)) + (7.0,) * 4
-    curves = [Spline(3, tuple(zip(t.tolist(), np.cumsum(rng.normal(0, 1.0, 10)).tolist(), strict=True)), knots) for _ in range(count)]
+    curves = [
+        Spline(3, tuple(zip(t.tolist(), np.cumsum(rng.normal(0, 1.0, 10)).tolist(), strict=True)), knots)
+        for _ in range(count)
+    ]
     lines_and_arcs(curves[0])
     benchmark.pedantic(lambda: [lines_and_arcs(curve) for curve in curves], rounds=1)
     record(benchmark, f"{count} splines to lines and arcs", OURS)

@@ -1,4 +1,5 @@
-"""How a canvas of 10,000 arcs and lines, 1920 x 1000 px, answers: at once, and sharp; against the plain repaint of all of it.
+"""How a canvas of 10,000 arcs and lines, 1920 x 1000 px, answers: at once, and sharp; against the plain repaint of all
+of it.
 
 QT_SCALE_FACTOR=2 measures a screen of twice as many px each way.
 """
@@ -33,7 +34,11 @@ def canvas(qtbot) -> Canvas:
     for number in range(10_000):
         x, y, a, r = rng.uniform(0, 400), rng.uniform(0, 200), rng.uniform(0, math.tau), rng.uniform(1, 8)
         start = (x + r * math.cos(a), y + r * math.sin(a))
-        curves.append(Line((x, y), start) if number % 2 else Arc(start, (x + r * math.cos(a + 2), y + r * math.sin(a + 2)), (x, y)))
+        curves.append(
+            Line((x, y), start)
+            if number % 2
+            else Arc(start, (x + r * math.cos(a + 2), y + r * math.sin(a + 2)), (x, y))
+        )
     made = Canvas(Document(Job(Part().with_curves(curves, "0"))), LIGHT)
     qtbot.addWidget(made)
     made.resize(1920, 1000)

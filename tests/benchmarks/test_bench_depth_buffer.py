@@ -1,4 +1,5 @@
-"""The published method, by facets in the depth buffer, side by side with its modern form, the engine of record and plain software.
+"""The published method, by facets in the depth buffer, side by side with its modern form, the engine of record and
+plain software.
 
 Figure 11 of the text, measured again: `hitofude figure11` prints the same as a table.
 """

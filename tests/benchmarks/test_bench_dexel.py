@@ -1,4 +1,5 @@
-"""Cutting three finishing programs into 1024 x 1024 cells, side by side with a plain trim: one thread, all cells of each
+"""Cutting three finishing programs into 1024 x 1024 cells, side by side with a plain trim: one thread, all cells of
+each
 move's box, branches, float64. The programs are zigzags over a curved die, 100 mm square, by ball cutters."""
 
 import numpy as np
@@ -18,7 +19,9 @@ from tests.benchmarks.conftest import OURS, record
 pytestmark = pytest.mark.benchmark
 
 
-def cut(name: str, cells: int = 1024, traced: bool = False, box: tuple[float, float, float, float] = (0.0, 0.0, SIZE, SIZE)) -> Heights:
+def cut(
+    name: str, cells: int = 1024, traced: bool = False, box: tuple[float, float, float, float] = (0.0, 0.0, SIZE, SIZE)
+) -> Heights:
     program = PROGRAMS[name]
     return trim(STOCK.over(Grid.over(box, cells)), program.course(), program.cutters, TrimOptions(trace=traced)).heights
 
@@ -41,8 +44,12 @@ def test_a_holder_that_touches_nothing(benchmark: BenchmarkFixture, name: str) -
     """And how far the tool must stick out, beside the cut alone."""
     program = PROGRAMS[name]
     wide = 2 * program.radius
-    tool = Tool(1, wide, ToolKind.BALL, flute_length=50, shank_diameter=wide, stick_out=60, holder=outline_of("Shrink fit 6"))
-    looked = benchmark.pedantic(holder_contacts, (program.course(), block(1024), program.cutters, {1: tool}), rounds=5, warmup_rounds=1)
+    tool = Tool(
+        1, wide, ToolKind.BALL, flute_length=50, shank_diameter=wide, stick_out=60, holder=outline_of("Shrink fit 6")
+    )
+    looked = benchmark.pedantic(
+        holder_contacts, (program.course(), block(1024), program.cutters, {1: tool}), rounds=5, warmup_rounds=1
+    )
     assert looked.contacts == () and 10 < looked.least[1] < 25
     record(benchmark, f"cut {name}", "holder")
 

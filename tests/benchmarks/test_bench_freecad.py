@@ -1,8 +1,8 @@
 """One pocket of the same part, tool and depth, by us and by FreeCAD's Offset pattern: length, lifts, metal left, time.
 
-FreeCAD (Debian's package `freecad`) is optional: without `freecadcmd` there is nothing to compare with. What its program leaves
-is measured from its own G-code by the same exact measure as ours. (On apu-mount FreeCAD 0.20.2 gives up most of the floor:
-FaceMakerBullseye returns a null shape.)
+FreeCAD (Debian's package `freecad`) is optional: without `freecadcmd` there is nothing to compare with. What its
+program leaves is measured from its own G-code by the same exact measure as ours. (On apu-mount FreeCAD 0.20.2 gives up
+most of the floor: FaceMakerBullseye returns a null shape.)
 """
 
 import json
@@ -30,7 +30,10 @@ from app.operations.compute import compute
 from app.toolpath.coverage.coverage import measure
 from tests.conftest import ROOT
 
-pytestmark = [pytest.mark.benchmark, pytest.mark.skipif(shutil.which("freecadcmd") is None, reason="freecad is not installed")]
+pytestmark = [
+    pytest.mark.benchmark,
+    pytest.mark.skipif(shutil.which("freecadcmd") is None, reason="freecad is not installed"),
+]
 SCRIPT = Path(__file__).with_name("freecad_pocket.py")
 DEPTH = 2.0
 PARTS = {
@@ -43,7 +46,9 @@ PARTS = {
 
 @dataclass(frozen=True)
 class Figures:
-    """What a program comes to: mm of cutting in the plane, ways up out of the metal, mm2 within reach that it leaves, seconds."""
+    """What a program comes to: mm of cutting in the plane, ways up out of the metal, mm2 within reach that it leaves,
+    seconds.
+    """
 
     length: float
     lifts: int
@@ -58,7 +63,9 @@ def figures(program: Program, job: Job, seconds: float) -> Figures:
     moves = program.moves
     cuts = (moves.kind != MotionKind.RAPID) & (moves.end[:, 2] < 0)
     lifts = (moves.end[:, 2] > 0) & (moves.start[:, 2] < 0)
-    return Figures(float(moves.lengths()[cuts].sum()), int(lifts.sum()), measure(program, job).reachable_left_mm2, seconds)
+    return Figures(
+        float(moves.lengths()[cuts].sum()), int(lifts.sum()), measure(program, job).reachable_left_mm2, seconds
+    )
 
 
 def described(primitive: Primitive) -> list[object]:
@@ -74,11 +81,23 @@ def described(primitive: Primitive) -> list[object]:
 def by_freecad(regions: tuple[Region, ...], diameter: float, percent: int, folder: Path) -> tuple[Moves, float, str]:
     """Moves, seconds and version of FreeCAD's pocket."""
     box = extent(contour for region in regions for contour in region.contours)
-    part = {"regions": [[[described(each) for each in contour.primitives] for contour in region.contours] for region in regions],
-            "box": box, "depth": DEPTH, "diameter": diameter, "stepover_percent": percent}
+    part = {
+        "regions": [
+            [[described(each) for each in contour.primitives] for contour in region.contours] for region in regions
+        ],
+        "box": box,
+        "depth": DEPTH,
+        "diameter": diameter,
+        "stepover_percent": percent,
+    }
     (folder / "part.json").write_text(json.dumps(part))
-    names = {"PART": str(folder / "part.json"), "OUT": str(folder / "out.nc"), "QT_QPA_PLATFORM": "offscreen", "HOME": str(folder),
-             "PATH": "/usr/bin:/bin"}
+    names = {
+        "PART": str(folder / "part.json"),
+        "OUT": str(folder / "out.nc"),
+        "QT_QPA_PLATFORM": "offscreen",
+        "HOME": str(folder),
+        "PATH": "/usr/bin:/bin",
+    }
     subprocess.run(["freecadcmd", str(SCRIPT)], env=names, check=True, capture_output=True, timeout=600)
     told = json.loads((folder / "out.nc.json").read_text())
     text = (folder / "out.nc").read_text().replace(" K0.000000", "")  # K is no word of an arc in the XY plane
@@ -87,8 +106,17 @@ def by_freecad(regions: tuple[Region, ...], diameter: float, percent: int, folde
     motions = read.motions
     count = len(motions)
     column = np.zeros(count, np.int16)
-    moves = Moves(motions.end.copy(), motions.centre[:, :2].copy(), motions.kind.copy(), np.full(count, Purpose.POCKET, np.uint8), column,
-                  column + 1, column.copy(), np.nan_to_num(motions.feed), motions.line.copy())
+    moves = Moves(
+        motions.end.copy(),
+        motions.centre[:, :2].copy(),
+        motions.kind.copy(),
+        np.full(count, Purpose.POCKET, np.uint8),
+        column,
+        column + 1,
+        column.copy(),
+        np.nan_to_num(motions.feed),
+        motions.line.copy(),
+    )
     return moves, told["seconds"], told["version"]
 
 
@@ -107,4 +135,6 @@ def test_pocket_against_freecad(name: str, percent: int, tmp_path: Path, capsys:
         print(f"\n{name}, {diameter:g} mm: hitofude {ours}; FreeCAD {version} at {percent} %: {theirs}")
     assert ours.left == 0
     assert ours.lifts <= theirs.lifts
-    assert percent > 50 or ours.length < theirs.length or theirs.left > 1  # at its default stepover; metal that is left makes paths short
+    assert (
+        percent > 50 or ours.length < theirs.length or theirs.left > 1
+    )  # at its default stepover; metal that is left makes paths short

@@ -1,4 +1,5 @@
-"""Reading programs, side by side with LinuxCNC's own interpreter: 200,000 G1 lines, a real program, and two with words of every kind.
+"""Reading programs, side by side with LinuxCNC's own interpreter: 200,000 G1 lines, a real program, and two with words
+of every kind.
 
 `rs274` prints what it reads; it is let print into nothing.
 """
@@ -24,7 +25,11 @@ TOOLS = "".join(f"T{n} P{n} Z0 D0.1\n" for n in (1, 2, 3))
 
 def lines() -> bytes:
     """The program of the requirement: 200,000 G1 lines."""
-    return b"G21 G90 F1000\n" + b"".join(b"G1 X%.4f Y%.4f\n" % (k * 0.01 % 200, k * 0.02 % 150) for k in range(LINES)) + b"M2\n"
+    return (
+        b"G21 G90 F1000\n"
+        + b"".join(b"G1 X%.4f Y%.4f\n" % (k * 0.01 % 200, k * 0.02 % 150) for k in range(LINES))
+        + b"M2\n"
+    )
 
 
 def real() -> bytes:
@@ -65,7 +70,12 @@ def any_kind() -> bytes:
     return ("G21 G90 F100\n" + "".join(parts) + "M2\n").encode()
 
 
-PROGRAMS = {"200,000 lines": lines, "PyCAM, six times": real, "50,000 mixed lines": mixed, "50,000 lines of any kind": any_kind}
+PROGRAMS = {
+    "200,000 lines": lines,
+    "PyCAM, six times": real,
+    "50,000 mixed lines": mixed,
+    "50,000 lines of any kind": any_kind,
+}
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
@@ -84,7 +94,9 @@ def test_rs274(benchmark: BenchmarkFixture, name: str, tmp_path: Path) -> None:
     command = [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc", "/dev/null"]
 
     def run() -> int:
-        return subprocess.run(command, cwd=tmp_path, env=own_home(str(tmp_path)), capture_output=True, stdin=subprocess.DEVNULL).returncode
+        return subprocess.run(
+            command, cwd=tmp_path, env=own_home(str(tmp_path)), capture_output=True, stdin=subprocess.DEVNULL
+        ).returncode
 
     assert benchmark.pedantic(run, rounds=3) == 0
     record(benchmark, name, "rs274")
@@ -104,7 +116,14 @@ def test_no_slower_than_rs274(name: str, tmp_path: Path) -> None:
         begun, before = time.process_time(), os.times()
         read_program(data)
         ours.append(time.process_time() - begun)
-        subprocess.run(command, cwd=tmp_path, env=own_home(str(tmp_path)), capture_output=True, stdin=subprocess.DEVNULL, check=True)
+        subprocess.run(
+            command,
+            cwd=tmp_path,
+            env=own_home(str(tmp_path)),
+            capture_output=True,
+            stdin=subprocess.DEVNULL,
+            check=True,
+        )
         after = os.times()
         theirs.append(after.children_user + after.children_system - before.children_user - before.children_system)
     assert min(ours) <= min(theirs), f"{name}: {min(ours):.3f} s, rs274 {min(theirs):.3f} s"

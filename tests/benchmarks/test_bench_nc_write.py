@@ -39,10 +39,16 @@ def program(count: int) -> Program:
     zeros, feed = np.zeros(count), np.concatenate([head.feed[:3], 600.0 + k // 1000 % 3, head.feed[3:]])
     last = np.append(end[-1, :2], 5.0)
     moves = Moves(
-        np.vstack([head.end[:3], end, last]), np.vstack([np.tile(NOTHING, (3, 1)), centre, NOTHING]), np.array(rows[0], np.uint8),
-        np.array(rows[1], np.uint8), zeros.astype(np.int16), (zeros + 1).astype(np.int16), (zeros + 1).astype(np.int32), feed,
+        np.vstack([head.end[:3], end, last]),
+        np.vstack([np.tile(NOTHING, (3, 1)), centre, NOTHING]),
+        np.array(rows[0], np.uint8),
+        np.array(rows[1], np.uint8),
+        zeros.astype(np.int16),
+        (zeros + 1).astype(np.int16),
+        (zeros + 1).astype(np.int32),
+        feed,
         zeros.astype(np.int32),
-    )  # fmt: skip
+    )
     return Program(moves, (square(0, 0, 200, 150),))
 
 

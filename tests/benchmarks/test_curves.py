@@ -1,4 +1,6 @@
-"""Splines in a tube: against scipy's smoothing spline with bisection on its sum of squares, and how the time rises with the points."""
+"""Splines in a tube: against scipy's smoothing spline with bisection on its sum of squares, and how the time rises with
+the points.
+"""
 
 from itertools import pairwise
 
@@ -34,7 +36,9 @@ def proven(points: Floats) -> int:
 
 
 def by_bisection(points: Floats) -> int:
-    """The least sum of squares that keeps sampled places within the tolerance, halved twelve times; nothing is proven."""
+    """The least sum of squares that keeps sampled places within the tolerance, halved twelve times; nothing is
+    proven.
+    """
     from scipy.interpolate import splev, splprep
     from scipy.spatial import cKDTree
 
@@ -55,7 +59,9 @@ def by_bisection(points: Floats) -> int:
 def test_ten_thousand_points(benchmark: BenchmarkFixture, engine: str) -> None:
     points = contour(10_000)
     proven(points[:100])
-    spans = benchmark.pedantic(proven if engine == OURS else by_bisection, args=(points,), rounds=3 if engine == OURS else 1)
+    spans = benchmark.pedantic(
+        proven if engine == OURS else by_bisection, args=(points,), rounds=3 if engine == OURS else 1
+    )
     benchmark.extra_info["spans"] = spans
     record(benchmark, "splines within 0.05 mm of 10 000 points", engine, least=True)
 

@@ -1,4 +1,6 @@
-"""Effective points and corrected points of a path of 100,000 points on a polygon, against the plain definition in numpy."""
+"""Effective points and corrected points of a path of 100,000 points on a polygon, against the plain definition in
+numpy.
+"""
 
 import math
 from itertools import pairwise

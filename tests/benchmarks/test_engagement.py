@@ -1,4 +1,6 @@
-"""Engagement along all moves of a job and the feed that follows it; contour tool 1 mm, pocket tool 2 mm, limit half the diameter."""
+"""Engagement along all moves of a job and the feed that follows it; contour tool 1 mm, pocket tool 2 mm, limit half the
+diameter.
+"""
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture

@@ -1,6 +1,7 @@
 """How the time of each stage of `make` grows with the number of contours: no faster than n log n.
 
-Times are the processor's, so that other work beside does not count; the exponent is that of the line through the logarithms.
+Times are the processor's, so that other work beside does not count; the exponent is that of the line through the
+logarithms.
 """
 
 from __future__ import annotations
@@ -60,6 +61,8 @@ def test_no_stage_grows_faster_than_n_log_n(plate: bool, capsys: pytest.CaptureF
         if spent[-1] >= TOLD_S and exponent > MOST:
             slow[stage] = exponent
     with capsys.disabled():
-        print("\n" + f"  {'plate' if plate else 'circles':28s}" + "".join(f"{size:9d}" for size in SIZES) + "  exponent")
+        print(
+            "\n" + f"  {'plate' if plate else 'circles':28s}" + "".join(f"{size:9d}" for size in SIZES) + "  exponent"
+        )
         print("\n".join(table))
     assert not slow

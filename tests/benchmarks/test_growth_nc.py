@@ -1,7 +1,7 @@
 """How the time of `check`, `cut` and `smooth` grows with the lines of a program: no faster than n log n.
 
-Times are the processor's, of the whole command in this process; the exponent is that of the line through the logarithms, from the
-size on at which what a command takes once is the smaller part.
+Times are the processor's, of the whole command in this process; the exponent is that of the line through the
+logarithms, from the size on at which what a command takes once is the smaller part.
 """
 
 from __future__ import annotations
@@ -25,10 +25,20 @@ PER_ROUND = 1_000
 """Lines of one outline."""
 COMMANDS = {
     "check": ["check", "{program}"],
-    "cut": ["cut", "{program}", "--report", "{folder}/cut.json", "--grid", "256", "--tool", "1=flat:2", "--quiet",
-            "--stock=-12,-12,-3,{far},{far},0"],
+    "cut": [
+        "cut",
+        "{program}",
+        "--report",
+        "{folder}/cut.json",
+        "--grid",
+        "256",
+        "--tool",
+        "1=flat:2",
+        "--quiet",
+        "--stock=-12,-12,-3,{far},{far},0",
+    ],
     "smooth": ["smooth", "{program}", "-o", "{folder}/smooth.ngc", "--tolerance", "0.05", "--quiet"],
-}  # fmt: skip
+}
 
 
 def program(count: int) -> bytes:
@@ -36,7 +46,10 @@ def program(count: int) -> bytes:
     angles = 2 * math.pi * np.arange(PER_ROUND) / PER_ROUND
     radius = 8 + 1.2 * np.sin(5 * angles) + 0.3 * np.sin(23 * angles)
     x, y = (radius * np.cos(angles)).tolist(), (radius * np.sin(angles)).tolist()
-    lines, rounds = ["(T1 D=2 CR=0 - ZMIN=-1 - flat end mill)", "G21 G90 G17", "T1 M6", "S1000 M3", "G0 Z5"], count // PER_ROUND
+    lines, rounds = (
+        ["(T1 D=2 CR=0 - ZMIN=-1 - flat end mill)", "G21 G90 G17", "T1 M6", "S1000 M3", "G0 Z5"],
+        count // PER_ROUND,
+    )
     side = math.ceil(math.sqrt(rounds))
     for k in range(rounds):
         left, low = 20 * (k % side), 20 * (k // side)
@@ -59,11 +72,18 @@ def seconds(command: str, count: int, folder: Path) -> float:
     return time.process_time() - begun
 
 
-@pytest.mark.parametrize(("command", "sizes"), [
-    ("check", SIZES), ("cut", SIZES), ("smooth", SIZES[:3]), pytest.param("smooth", SIZES, marks=pytest.mark.exhaustive),
-])  # fmt: skip
-def test_no_command_grows_faster_than_n_log_n(command: str, sizes: tuple[int, ...], tmp_path: Path,
-                                              capsys: pytest.CaptureFixture[str]) -> None:  # fmt: skip
+@pytest.mark.parametrize(
+    ("command", "sizes"),
+    [
+        ("check", SIZES),
+        ("cut", SIZES),
+        ("smooth", SIZES[:3]),
+        pytest.param("smooth", SIZES, marks=pytest.mark.exhaustive),
+    ],
+)
+def test_no_command_grows_faster_than_n_log_n(
+    command: str, sizes: tuple[int, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     seconds(command, sizes[0], tmp_path)  # so that no kernel is loaded on the way
     spent = [seconds(command, size, tmp_path) for size in sizes]
     judged = [k for k in range(len(sizes)) if spent[k] > 2 * spent[0] or k >= len(sizes) - 2]

@@ -1,4 +1,5 @@
-"""How the time of each stage of `surface` grows with the number of triangles, the passes being the same: no faster than n log n.
+"""How the time of each stage of `surface` grows with the number of triangles, the passes being the same: no faster than
+n log n.
 
 Times are the processor's. The last size takes a million triangles; `HITOFUDE_GROWTH_MOST` sets another end.
 """
@@ -79,4 +80,6 @@ def test_no_stage_of_surface_grows_faster_than_n_log_n(capsys: pytest.CaptureFix
         print("\n" + f"  {'triangles':28s}" + "".join(f"{size:9d}" for size in sizes) + "  exponent")
         print("\n".join(table))
     assert not slow
-    assert all(each[LEFT] <= sum(each.values()) / 2 for each in found)  # that what is left is told makes nothing twice as slow
+    assert all(
+        each[LEFT] <= sum(each.values()) / 2 for each in found
+    )  # that what is left is told makes nothing twice as slow

@@ -18,7 +18,9 @@ SIZES = [1600, 8000]
 def area_of(size: int) -> tuple[Mask, RingSteps]:
     """A' of the part at r1 = 0.5 mm, and rings as far apart as the findings take them: R = 1 mm, step 0.9 mm."""
     pixel = 100 / size
-    return offset_area(free_pixels(Frame(size, size, pixel), fig2()), 0.5 / pixel, 1.0), RingSteps(1 / pixel, 0.9 / pixel)
+    return offset_area(free_pixels(Frame(size, size, pixel), fig2()), 0.5 / pixel, 1.0), RingSteps(
+        1 / pixel, 0.9 / pixel
+    )
 
 
 def rings(area: Mask, steps: RingSteps) -> tuple[Border, ...]:
@@ -39,6 +41,8 @@ def test_copying_what_it_touches(benchmark: BenchmarkFixture, size: int) -> None
     """The area, its inner pixels, the columns' heights and the levels in their place, each once."""
     area, _ = area_of(size)
     levels = np.ones((size, size), np.uint16)
-    copies = benchmark.pedantic(lambda: (area.copy(), area.copy(), levels.copy(), levels.copy()), rounds=5, warmup_rounds=1)
+    copies = benchmark.pedantic(
+        lambda: (area.copy(), area.copy(), levels.copy(), levels.copy()), rounds=5, warmup_rounds=1
+    )
     record(benchmark, f"distance and all rings at {size} x {size}", "copying the arrays")
     assert len(copies) == 4

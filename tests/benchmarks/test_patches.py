@@ -32,7 +32,11 @@ def scene():
 
 def test_a_patch(benchmark: BenchmarkFixture, scene: CutScene) -> None:
     """Relief of 256 x 256 changed cells and those round them that they shade, and all of it on the graphics side."""
-    cells, values, place = heights(), np.zeros((CELLS, CELLS), np.uint8), (slice(300, 300 + SIDE), slice(400, 400 + SIDE))
+    cells, values, place = (
+        heights(),
+        np.zeros((CELLS, CELLS), np.uint8),
+        (slice(300, 300 + SIDE), slice(400, 400 + SIDE)),
+    )
 
     def show() -> None:
         scene.patch(patch_of(cells, values, 0.1, place))

@@ -1,8 +1,10 @@
-"""All pocket rings of a part, contour tool radius 0.5 mm, pocket tool radius 1.0 mm, stepover 0.9 mm, against other libraries.
+"""All pocket rings of a part, contour tool radius 0.5 mm, pocket tool radius 1.0 mm, stepover 0.9 mm, against other
+libraries.
 
-Peers get polygons whose chords stay within 1 µm of the drawing, and offset them once a level, from the part, until nothing is
-left; ours gives exact lines and arcs. Every engine starts from regions in its own form and ends with coordinates. The least of the
-rounds counts, as a machine that is busy with other things only adds. What grows is shown by an outline of ever more lines.
+Peers get polygons whose chords stay within 1 µm of the drawing, and offset them once a level, from the part, until
+nothing is left; ours gives exact lines and arcs. Every engine starts from regions in its own form and ends with
+coordinates. The least of the rounds counts, as a machine that is busy with other things only adds. What grows is shown
+by an outline of ever more lines.
 """
 
 import importlib.util
@@ -33,13 +35,19 @@ def polygon_of(regions: tuple[Region, ...]) -> shapely.Geometry:
 
 def own_rings(regions: tuple[Region, ...]) -> tuple[Level, ...]:
     primitives = pack(regions)
-    return without_empty(offset_levels(primitives, pocket_distances(FIRST, STEPOVER, DistanceField.of(primitives.rows))))
+    return without_empty(
+        offset_levels(primitives, pocket_distances(FIRST, STEPOVER, DistanceField.of(primitives.rows)))
+    )
 
 
 def shapely_rings(polygon: shapely.Geometry, from_part: bool) -> list[np.ndarray]:
     """Offset a polygon level by level: each from the part itself, or from the ring before it (which drifts)."""
     rings, at, level = [], polygon, FIRST
-    while not (at := polygon.buffer(-level, quad_segs=64) if from_part or level == FIRST else at.buffer(-STEPOVER, quad_segs=64)).is_empty:
+    while not (
+        at := polygon.buffer(-level, quad_segs=64)
+        if from_part or level == FIRST
+        else at.buffer(-STEPOVER, quad_segs=64)
+    ).is_empty:
         rings.append(shapely.get_coordinates(at))
         level += STEPOVER
     return rings
@@ -49,7 +57,11 @@ def clipper_rings(paths: list[np.ndarray], scale: float) -> list[list[list[list[
     import pyclipper
 
     offset = pyclipper.PyclipperOffset(arc_tolerance=ARC_TOLERANCE * scale)
-    offset.AddPaths([np.rint(path * scale).astype(np.int64).tolist() for path in paths], pyclipper.JT_ROUND, pyclipper.ET_CLOSEDPOLYGON)
+    offset.AddPaths(
+        [np.rint(path * scale).astype(np.int64).tolist() for path in paths],
+        pyclipper.JT_ROUND,
+        pyclipper.ET_CLOSEDPOLYGON,
+    )
     rings, level = [], FIRST
     while found := offset.Execute(-level * scale):
         rings.append(found)
@@ -70,7 +82,9 @@ def test_own_rings(benchmark: BenchmarkFixture, part: Named) -> None:
 def test_shapely_rings(benchmark: BenchmarkFixture, part: Named, from_part: bool) -> None:
     name, regions = part
     polygon = polygon_of(regions)
-    rings = benchmark.pedantic(shapely_rings, (polygon, from_part), rounds=(2 if from_part else 10) if name == "complex" else 40)
+    rings = benchmark.pedantic(
+        shapely_rings, (polygon, from_part), rounds=(2 if from_part else 10) if name == "complex" else 40
+    )
     record(benchmark, f"rings of {name}", f"shapely {'from part' if from_part else 'ring from ring'}", least=True)
     assert len(rings) > 3
 
@@ -79,7 +93,11 @@ def test_shapely_rings(benchmark: BenchmarkFixture, part: Named, from_part: bool
 def test_clipper_rings(benchmark: BenchmarkFixture, part: Named) -> None:
     name, regions = part
     polygon = polygon_of(regions)
-    parts = [shapely.get_coordinates(ring) for piece in shapely.get_parts(polygon) for ring in (piece.exterior, *piece.interiors)]
+    parts = [
+        shapely.get_coordinates(ring)
+        for piece in shapely.get_parts(polygon)
+        for ring in (piece.exterior, *piece.interiors)
+    ]
     rings = benchmark.pedantic(clipper_rings, (parts, 1e6), rounds=1 if name == "complex" else 5)
     record(benchmark, f"rings of {name}", "pyclipper from part", least=True)
     assert len(rings) > 3

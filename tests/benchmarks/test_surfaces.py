@@ -1,7 +1,7 @@
 """Cutters over meshes against OpenCAMLib (bucket size 10, all threads), and paths over ten B-spline surfaces.
 
-Both drop a ball of 3 % of the part's width at 90,000 places of meshes of 2 thousand, 8 thousand and 75 thousand triangles; the
-heights have to agree. The peer is an extra (`pip install -e '.[bench]'`).
+Both drop a ball of 3 % of the part's width at 90,000 places of meshes of 2 thousand, 8 thousand and 75 thousand
+triangles; the heights have to agree. The peer is an extra (`pip install -e '.[bench]'`).
 """
 
 import math

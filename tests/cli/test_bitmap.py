@@ -16,11 +16,15 @@ FIG2 = ROOT / "tests" / "data" / "dxf" / "fig2.dxf"
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    return subprocess.run(
+        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300
+    )
 
 
-@pytest.mark.parametrize("option", [("--invert",), ("--despeckle", 0), ("--despeckle", 4), ("--ink", "auto"), ("--dpi", 300),
-                                    ("--threshold", 9)])  # fmt: skip
+@pytest.mark.parametrize(
+    "option",
+    [("--invert",), ("--despeckle", 0), ("--despeckle", 4), ("--ink", "auto"), ("--dpi", 300), ("--threshold", 9)],
+)
 def test_options_of_pictures_are_refused_for_a_drawing(tmp_path: Path, option: tuple[object, ...]) -> None:
     done = run("make", FIG2, "-o", tmp_path / "o.ngc", *option)
     assert done.returncode == 2
@@ -30,8 +34,20 @@ def test_options_of_pictures_are_refused_for_a_drawing(tmp_path: Path, option: t
 def made(tmp_path: Path, gray: np.ndarray) -> subprocess.CompletedProcess[str]:
     path = tmp_path / "scan.png"
     cv2.imwrite(str(path), gray)
-    return run("make", path, "-o", tmp_path / "o.ngc", "--dpi", 254, "--contour-tool", 1, "--pocket-tool", 2,
-               "--report", tmp_path / "r.json")
+    return run(
+        "make",
+        path,
+        "-o",
+        tmp_path / "o.ngc",
+        "--dpi",
+        254,
+        "--contour-tool",
+        1,
+        "--pocket-tool",
+        2,
+        "--report",
+        tmp_path / "r.json",
+    )
 
 
 def test_a_gap_round_an_island_is_printed_first_and_counts(tmp_path: Path) -> None:

@@ -56,7 +56,9 @@ def test_a_clean_program(plate: Path, tmp_path: Path, capsys: pytest.CaptureFixt
     assert report["length_mm"]["rapid"] == pytest.approx(4 + 7)
     assert report["moves"] == {"G0": 4, "G1": 3, "G2": 0, "G3": 1, "spline": 0}
     assert report["extent_mm"]["all"] == {"low": [10, 0, -2], "high": [70, 20, 5]}
-    assert report["tools"] == [{"number": 1, "kind": "flat", "diameter_mm": 6.0, "time_s": pytest.approx(report["time_s"])}]
+    assert report["tools"] == [
+        {"number": 1, "kind": "flat", "diameter_mm": 6.0, "time_s": pytest.approx(report["time_s"])}
+    ]
     assert report["time_parts_s"]["cut"] > 60 * (131.4 / 600)
     assert "Small router" in report["time_method"]
     assert report["problems"] == []
@@ -77,7 +79,10 @@ def test_a_machine_that_it_does_not_fit(plate: Path, tmp_path: Path, capsys: pyt
     small.write_bytes(write_machine(load_machine("bench_mill")).replace(b"high = 380.0", b"high = 55.0"))
     assert checked(plate, "--machine", small) == 1
     shown = capsys.readouterr().out
-    assert "plate.ngc:12: X: the program spans 60.000 mm along X (10.000 to 70.000), and Bench mill travels 55 mm there." in shown
+    assert (
+        "plate.ngc:12: X: the program spans 60.000 mm along X (10.000 to 70.000), and Bench mill travels 55 mm there."
+        in shown
+    )
     assert "S: the spindle is to turn at 8000 rpm, and that of Bench mill turns at 100 to 5000." in shown
     assert "machine: Bench mill" in shown
     assert checked(plate, "--machine", "lathe") == 2
@@ -146,18 +151,23 @@ def test_a_restart_goes_on_with_the_rest(plate: Path, tmp_path: Path, capsys: py
     assert out.read_bytes().endswith(b"M2\n")
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ("--restart-at 3", "--restart-at LINE and -o OUT.ngc go together"),
-    ("-o out.ngc", "go together"),
-    ("--dialect okuma", "--dialect is 'okuma'; choose one of"),
-    ("--nonsense", "--nonsense is no option of check and no second program can be named"),
-    ("--report", "--report has no value"),
-    ("--report no/folder/r.json", "there is no folder"),
-    ("--tools nowhere.tbl", "nowhere.tbl does not exist"),
-    ("--compare nowhere.ngc", "nowhere.ngc does not exist"),
-    ("--restart-at first -o out.ngc", "--restart-at"),
-])  # fmt: skip
-def test_a_wrong_option_is_told_in_one_line(arguments: str, words: str, plate: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("--restart-at 3", "--restart-at LINE and -o OUT.ngc go together"),
+        ("-o out.ngc", "go together"),
+        ("--dialect okuma", "--dialect is 'okuma'; choose one of"),
+        ("--nonsense", "--nonsense is no option of check and no second program can be named"),
+        ("--report", "--report has no value"),
+        ("--report no/folder/r.json", "there is no folder"),
+        ("--tools nowhere.tbl", "nowhere.tbl does not exist"),
+        ("--compare nowhere.ngc", "nowhere.ngc does not exist"),
+        ("--restart-at first -o out.ngc", "--restart-at"),
+    ],
+)
+def test_a_wrong_option_is_told_in_one_line(
+    arguments: str, words: str, plate: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert checked(plate, *arguments.split(" ")) == 2
     shown = capsys.readouterr()
     assert shown.out == ""
@@ -178,7 +188,9 @@ def test_block_delete_is_a_switch(plate: Path, tmp_path: Path, capsys: pytest.Ca
     assert "--block-delete is 'maybe'; choose one of" in capsys.readouterr().err
 
 
-def test_warnings_are_shown_and_said_to_be_such(plate: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_warnings_are_shown_and_said_to_be_such(
+    plate: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     plate.write_text(PLATE.replace("M5\n", "M101\nM5\n"))
     assert checked(plate, "--report", tmp_path / "r.json") == 1
     assert "  ! plate.ngc:15" in (shown := capsys.readouterr().out)
@@ -192,7 +204,9 @@ def test_a_program_that_begins_in_g91_counts_from_zero(plate: Path, tmp_path: Pa
     plate.write_text("G91\nG21\nG1 F100 X1 Y1\nG1 Z-1\nX5\nG2 X2 I1\nM2\n")
     assert checked(plate, "--report", tmp_path / "r.json") == 1
     report = json.loads((tmp_path / "r.json").read_text())
-    assert report["extent_mm"]["cut"]["low"] == [0, 0, -1] and report["extent_mm"]["cut"]["high"] == pytest.approx([8, 2, 0])
+    assert report["extent_mm"]["cut"]["low"] == [0, 0, -1] and report["extent_mm"]["cut"]["high"] == pytest.approx(
+        [8, 2, 0]
+    )
     assert "begin at X0 Y0 Z0" in report["problems"][0]["text"] and len(report["problems"]) == 1
 
 

@@ -68,10 +68,14 @@ def test_the_whole_command(slot: Path, tmp_path: Path, capsys: pytest.CaptureFix
     shown = capsys.readouterr()
     assert shown.err == ""
     assert "slot.ngc: 416." in shown.out
-    assert "mm3 removed; compared with no part (--against); 0 rapids in material, 1 stroke, 1 retract, 44 mm, 1:23 min\n" in shown.out
+    assert (
+        "mm3 removed; compared with no part (--against); 0 rapids in material, 1 stroke, 1 retract, 44 mm, 1:23 min\n"
+        in shown.out
+    )
     assert "  T1 flat 6 mm (--tool): 416." in shown.out
     data = json.loads(files["json"].read_text())
-    keys = """gouge left rapids_in_material strokes retracts length_mm time_s moves skipped open_contours engine tolerance
+    keys = """gouge left rapids_in_material strokes retracts length_mm time_s moves skipped open_contours engine
+    tolerance
         removed_mm3 worst bands certificate stock grid tools findings assumed"""
     assert set(keys.split()) <= set(data)
     assert (data["gouge"], data["left"], data["certificate"]) == (None, None, None)
@@ -79,7 +83,9 @@ def test_the_whole_command(slot: Path, tmp_path: Path, capsys: pytest.CaptureFix
     assert data["moves"] == {"G0": 3, "G1": 2, "G2": 0, "G3": 0, "spline": 0}
     assert data["stock"] == {"low": [0, 0, -10], "high": [50, 20, 0], "from": "as given"}
     assert data["grid"] == {"x0": 0, "y0": 0, "pitch_mm": 50 / 1024, "rows": 410, "cols": 1024}
-    assert data["programs"] == [{"file": "slot.ngc", "control": "linuxcnc", "block_delete": True, "lines": 8, "problems": []}]
+    assert data["programs"] == [
+        {"file": "slot.ngc", "control": "linuxcnc", "block_delete": True, "lines": 8, "problems": []}
+    ]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["h.json", "h.npy", "o.json", "o.png", "slot.ngc"]
 
 
@@ -110,7 +116,10 @@ def test_a_slot_has_the_volume_of_its_closed_form(shape: str, slot: Path, tmp_pa
     def depth(r: float) -> float:
         return max(DEPTH - profile(min(r, radius - 1e-12)), 0.0)
 
-    across, ends = 2 * quad(depth, 0, radius, limit=200)[0], 2 * math.pi * quad(lambda r: r * depth(r), 0, radius, limit=200)[0]
+    across, ends = (
+        2 * quad(depth, 0, radius, limit=200)[0],
+        2 * math.pi * quad(lambda r: r * depth(r), 0, radius, limit=200)[0],
+    )
     data = report_of(tmp_path, slot, STOCK, f"--tool=1={shape}")
     assert data["removed_mm3"] == pytest.approx(across * LENGTH + ends, rel=3e-3)
     (tool,) = data["tools"]
@@ -137,7 +146,9 @@ def test_heights_are_as_they_are_told_and_can_be_cut_again(slot: Path, tmp_path:
 
 
 def test_a_solid_as_stock(slot: Path, tmp_path: Path) -> None:
-    data = report_of(tmp_path, slot, "--stock", solid(tmp_path / "low.stl", [[0, 0, -10], [50, 20, -1]]), "--tool=1=flat:6")
+    data = report_of(
+        tmp_path, slot, "--stock", solid(tmp_path / "low.stl", [[0, 0, -10], [50, 20, -1]]), "--tool=1=flat:6"
+    )
     assert data["removed_mm3"] == pytest.approx((LENGTH * 6 + 9 * math.pi) * 1.0, rel=3e-3)
     assert data["stock"]["high"][2] == -1
 
@@ -150,7 +161,9 @@ def test_a_window_is_cut_as_finely(slot: Path, tmp_path: Path) -> None:
 
 def test_tools_of_a_job_file(slot: Path, tmp_path: Path) -> None:
     job = tmp_path / "j.toml"
-    job.write_text('[[tool]]\nnumber = 1\ndiameter = 6\nkind = "v"\ntip_angle = 90\n[[operation]]\nkind = "pocket"\ntool = 1\n')
+    job.write_text(
+        '[[tool]]\nnumber = 1\ndiameter = 6\nkind = "v"\ntip_angle = 90\n[[operation]]\nkind = "pocket"\ntool = 1\n'
+    )
     data = report_of(tmp_path, slot, STOCK, "--job", job)
     assert data["removed_mm3"] == pytest.approx(4 * LENGTH + math.pi * 8 / 3, rel=3e-3)
     assert (data["tools"][0]["from"], data["tools"][0]["tip_angle_deg"]) == ("the job file", pytest.approx(90))
@@ -174,7 +187,7 @@ def test_tools_and_their_lengths_of_a_tool_table(slot: Path, tmp_path: Path) -> 
     assert data["removed_mm3"] == pytest.approx(2 * (LENGTH * 6.35 + math.pi * 6.35**2 / 4), rel=3e-3)
     assert data["assumed"] == ["T1: t.tbl tells no shapes, so it is taken to be flat, 6.35 mm; --tool says otherwise."]
     assert report_of(tmp_path, slot, STOCK, "--tools", table, "--tool-units", "in", "--tool=1=ball:6")["assumed"] == []
-    library.write_text("format = 1\n[[tool]]\nnumber = 1\ndiameter = 6.0\nkind = \"ball\"\n")
+    library.write_text('format = 1\n[[tool]]\nnumber = 1\ndiameter = 6.0\nkind = "ball"\n')
     made = report_of(tmp_path, slot, STOCK, "--tools", library)
     assert (made["tools"][0]["kind"], made["tools"][0]["from"], made["assumed"]) == ("ball", "t.toml", [])
 
@@ -186,7 +199,9 @@ def test_the_picture_is_one(slot: Path, tmp_path: Path) -> None:
     assert picture.shape[1] > 1024
 
 
-def test_a_rapid_through_metal_and_a_start_in_it_are_found(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_rapid_through_metal_and_a_start_in_it_are_found(
+    slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     slot.write_text(SLOT.replace("X40\n", "X40\nG0 Y2\n"))
     data = report_of(tmp_path, slot, STOCK, "--tool=1=flat:6", status=1)
     hit, out_of_it = data["rapids_in_material"]
@@ -224,7 +239,9 @@ def test_warnings_are_remarks(slot: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "  - slot.ngc:7: the program has no end" in capsys.readouterr().out
 
 
-def test_an_axis_that_is_not_followed_is_a_finding(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_axis_that_is_not_followed_is_a_finding(
+    slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     slot.write_text(SLOT.replace("X40", "X40 A90"))
     assert cut(slot, STOCK, "--tool=1=flat:6") == 1
     assert "! slot.ngc:6" in (shown := capsys.readouterr().out) and "axis A is not followed" in shown
@@ -278,20 +295,28 @@ def test_the_published_method_states_its_error(slot: Path, tmp_path: Path) -> No
     assert data["removed_mm3"] == pytest.approx(data["tools"][0]["removed_mm3"], rel=0.01)
 
 
-def test_more_cells_than_memory_holds_are_told_before(slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_more_cells_than_memory_holds_are_told_before(
+    slot: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     part = solid(tmp_path / "part.stl", [[0, 0, -10], [50, 20, -1]])
     command = (slot, "--stock=0,0,-10,50,50,0", "--tool=1=flat:6", "--against", part)
     assert cut(*command, "--grid=2000", "--memory=50M") == 2
     said = capsys.readouterr().err
-    assert re.fullmatch(r"hitofude: A grid of 2000 x 2000 cells would take \d+ MB of memory, and [45]\d(\.\d)? MB may be taken; use at "
-                        r"most \d+ cells along its longer side \(--grid \d+\), or allow more with --memory \S+\.\n", said)
+    assert re.fullmatch(
+        r"hitofude: A grid of 2000 x 2000 cells would take \d+ MB of memory, and [45]\d(\.\d)? MB may be taken; use at "
+        r"most \d+ cells along its longer side \(--grid \d+\), or allow more with --memory \S+\.\n",
+        said,
+    )
     cells = re.search(r"--grid (\d+)", said)
     assert cells is not None and cut(*command, f"--grid={cells[1]}", "--memory=50M") in (0, 1)
 
 
 def test_no_window_library_is_needed(slot: Path, tmp_path: Path) -> None:
-    code = ("import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; "
-            "print([name for name in sys.modules if name.split('.')[0] in ('PySide6', 'pyqtgraph', 'moderngl') or '.ui' in name])")
+    code = (
+        "import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; "
+        "print([name for name in sys.modules if name.split('.')[0] in ('PySide6', 'pyqtgraph', 'moderngl') or '.ui' in "
+        "name])"
+    )
     options = ["--tool=1=flat:6", "--engine=cpu", "--quiet", "--image", str(tmp_path / "o.png")]
     command = [sys.executable, "-c", code, "cut", str(slot), STOCK, *options]
     done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=True)
@@ -302,7 +327,19 @@ def test_ctrl_c_is_130_and_leaves_old_files(slot: Path, tmp_path: Path) -> None:
     out = tmp_path / "o.json"
     out.write_text("old")
     slot.write_text(SLOT.replace("X40\n", "".join(f"X{10 + k % 31} Y{10 + k % 7}\n" for k in range(400_000))))
-    command = [sys.executable, "-m", "app", "cut", str(slot), STOCK, "--tool=1=ball:6", "--report", str(out), "--grid", "4096"]
+    command = [
+        sys.executable,
+        "-m",
+        "app",
+        "cut",
+        str(slot),
+        STOCK,
+        "--tool=1=ball:6",
+        "--report",
+        str(out),
+        "--grid",
+        "4096",
+    ]
     running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     while "libllvmlite" not in Path(f"/proc/{running.pid}/maps").read_text() and running.poll() is None:
         os.sched_yield()

@@ -1,4 +1,6 @@
-"""`cut --against`: what `make` writes comes out right, what was spoiled by hand is found where it is, solids and foreign programs too."""
+"""`cut --against`: what `make` writes comes out right, what was spoiled by hand is found where it is, solids and
+foreign programs too.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ M2
 def made(drawing: Path, tmp_path: Path, *options: object) -> list[Path]:
     """Make a drawing's program; return its files."""
     out = tmp_path / f"{drawing.stem}.ngc"
-    assert main(["make", str(drawing), "-o", str(out), "--quiet", "--report", str(tmp_path / "make.json"), *map(str, options)]) in (0, 1)
+    assert main(
+        ["make", str(drawing), "-o", str(out), "--quiet", "--report", str(tmp_path / "make.json"), *map(str, options)]
+    ) in (0, 1)
     return sorted(tmp_path.glob(f"{drawing.stem}*.ngc"))
 
 
@@ -40,7 +44,9 @@ def of_make(tmp_path: Path) -> dict[str, Any]:
     return dict(json.loads((tmp_path / "make.json").read_text()))
 
 
-def plate(path: Path, x: float = 0.0, y: float = 0.0, layer: str = "0", size: tuple[float, float] = (40.0, 30.0)) -> Path:
+def plate(
+    path: Path, x: float = 0.0, y: float = 0.0, layer: str = "0", size: tuple[float, float] = (40.0, 30.0)
+) -> Path:
     """Draw a rectangle."""
     document = ezdxf.readfile(path) if path.exists() else ezdxf.new()
     document.header["$INSUNITS"] = 4
@@ -58,10 +64,17 @@ def cleared() -> str:
     return FRAME.format(rings="\n".join(rings))
 
 
-@pytest.mark.parametrize("options", [
-    [], ["--origin", "centre,bottom", "--stock-to-leave", "0.3"], ["--depth", "4", "--stepdown", "1.5", "--out-units", "in"],
-    ["--post", "haas", "--origin", "lower-left"], ["--contour-tool", "2", "--pocket-tool", "5", "--order", "1986"],
-], ids=str)  # fmt: skip
+@pytest.mark.parametrize(
+    "options",
+    [
+        [],
+        ["--origin", "centre,bottom", "--stock-to-leave", "0.3"],
+        ["--depth", "4", "--stepdown", "1.5", "--out-units", "in"],
+        ["--post", "haas", "--origin", "lower-left"],
+        ["--contour-tool", "2", "--pocket-tool", "5", "--order", "1986"],
+    ],
+    ids=str,
+)
 def test_what_make_writes_cuts_the_drawing(options: list[str], tmp_path: Path, samples: Path) -> None:
     (program,) = made(samples / "fig2.dxf", tmp_path, *options)
     data = report_of(tmp_path, program, "--against", samples / "fig2.dxf", status=0)
@@ -81,7 +94,9 @@ def test_what_make_writes_cuts_the_drawing(options: list[str], tmp_path: Path, s
 def test_findings_are_those_of_make(name: str, tmp_path: Path, data: Path) -> None:
     (program,) = made(data / f"dxf/{name}.dxf", tmp_path, "--pocket-tool=3", "--contour-tool=2")
     expected = of_make(tmp_path)["left"]
-    found = report_of(tmp_path, program, "--against", data / f"dxf/{name}.dxf", status=1 if expected["reachable_mm2"] else 0)
+    found = report_of(
+        tmp_path, program, "--against", data / f"dxf/{name}.dxf", status=1 if expected["reachable_mm2"] else 0
+    )
     assert found["left"]["reachable_mm2"] == pytest.approx(expected["reachable_mm2"], abs=0.02)
     assert found["left"]["unreachable_mm2"] == pytest.approx(expected["unreachable_mm2"], abs=0.05)
     assert found["gouge"]["count"] == 0
@@ -104,7 +119,10 @@ def test_a_gouge_made_by_hand_is_found_placed_and_sized(tmp_path: Path, samples:
     program.write_text("\n".join(lines) + "\n")
     spoiled = report_of(tmp_path, program, "--against", samples / "fig2.dxf", status=1)
     assert spoiled["gouge"]["max_mm"] == pytest.approx(0.05, abs=1e-4)
-    assert (spoiled["gouge"]["x"], spoiled["gouge"]["y"]) == (pytest.approx(24.0, abs=1e-3), pytest.approx(20.0, abs=1.5))
+    assert (spoiled["gouge"]["x"], spoiled["gouge"]["y"]) == (
+        pytest.approx(24.0, abs=1e-3),
+        pytest.approx(20.0, abs=1.5),
+    )
     assert spoiled["gouge"]["line"] in (at + 2, at + 3)
     assert any(finding["kind"] == "gouge" and finding["counts"] for finding in spoiled["findings"])
 
@@ -144,12 +162,24 @@ def test_the_origin_is_as_asked(tmp_path: Path) -> None:
     elsewhere = report_of(tmp_path, *common, status=1)
     assert elsewhere["gouge"]["max_mm"] >= 2.0
     program.write_text(cleared().replace("G21", "G21 G10 L2 P1 X-20 Y-15 Z8"))
-    moved = (program, "--tool=1=flat:6", "--stock=-25,-20,0,25,20,8", "--against", drawing, "--depth=2", "--origin", "centre,bottom")
+    moved = (
+        program,
+        "--tool=1=flat:6",
+        "--stock=-25,-20,0,25,20,8",
+        "--against",
+        drawing,
+        "--depth=2",
+        "--origin",
+        "centre,bottom",
+    )
     assert report_of(tmp_path, *moved)["gouge"]["count"] == 0
 
 
 def test_layers_and_units_are_as_asked(tmp_path: Path) -> None:
-    program, drawing = tmp_path / "foreign.ngc", plate(plate(tmp_path / "two.dxf", layer="Pocket"), 10.0, 10.0, "island", (5.0, 5.0))
+    program, drawing = (
+        tmp_path / "foreign.ngc",
+        plate(plate(tmp_path / "two.dxf", layer="Pocket"), 10.0, 10.0, "island", (5.0, 5.0)),
+    )
     program.write_text(cleared())
     common = (program, "--tool=1=flat:6", "--stock=-5,-5,-8,45,35,0", "--against", drawing, "--depth=2")
     assert report_of(tmp_path, *common, "--layer", "pocket")["gouge"]["count"] == 0
@@ -157,7 +187,16 @@ def test_layers_and_units_are_as_asked(tmp_path: Path) -> None:
     small = ezdxf.readfile(plate(tmp_path / "inch.dxf", size=(40 / 25.4, 30 / 25.4)))
     small.header["$INSUNITS"] = 0
     small.saveas(tmp_path / "inch.dxf")
-    inch = (program, "--tool=1=flat:6", "--stock=-5,-5,-8,45,35,0", "--against", tmp_path / "inch.dxf", "--depth=2", "--units", "in")
+    inch = (
+        program,
+        "--tool=1=flat:6",
+        "--stock=-5,-5,-8,45,35,0",
+        "--against",
+        tmp_path / "inch.dxf",
+        "--depth=2",
+        "--units",
+        "in",
+    )
     assert report_of(tmp_path, *inch)["gouge"]["count"] == 0
 
 
@@ -166,7 +205,10 @@ def test_a_depth_is_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     program.write_text(cleared())
     assert cut(program, "--tool=1=flat:6", "--against", drawing) == 2
     told = capsys.readouterr().err
-    assert "plate.dxf: nobody tells how deep the part is milled; give --depth, mm from the stock's top down to the floor" in told
+    assert (
+        "plate.dxf: nobody tells how deep the part is milled; give --depth, mm from the stock's top down to the floor"
+        in told
+    )
 
 
 def test_a_solid_is_compared_with(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -189,7 +231,9 @@ def test_a_solid_is_compared_with(tmp_path: Path, capsys: pytest.CaptureFixture[
 
 
 def with_notes(path: Path, units: int = 4, layout: bool = False) -> Path:
-    """Draw a plate away from zero, a centre line across it, an ellipse, and the same in paper space where `layout` is so."""
+    """Draw a plate away from zero, a centre line across it, an ellipse, and the same in paper space where `layout` is
+    so.
+    """
     document = ezdxf.new()
     document.header["$INSUNITS"] = units
     space = document.layouts.new("Blatt 2") if layout else document.modelspace()
@@ -200,12 +244,20 @@ def with_notes(path: Path, units: int = 4, layout: bool = False) -> Path:
     return path
 
 
-@pytest.mark.parametrize(("options", "units", "layout"), [
-    (["--to-zero", "--skip-layer", "mitte (x)"], 4, False), (["--skip-layer=Mitte (x)", "--skip-type=ellipse"], 4, False),
-    (["--units", "in", "--skip-layer=Mitte (x)"], 0, False), (["--units", "mm", "--skip-layer=Mitte (x)", "--to-zero"], 6, False),
-    (["--layout", "blatt 2", "--skip-layer=Mitte (x)"], 4, True)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("options", "units", "layout"),
+    [
+        (["--to-zero", "--skip-layer", "mitte (x)"], 4, False),
+        (["--skip-layer=Mitte (x)", "--skip-type=ellipse"], 4, False),
+        (["--units", "in", "--skip-layer=Mitte (x)"], 0, False),
+        (["--units", "mm", "--skip-layer=Mitte (x)", "--to-zero"], 6, False),
+        (["--layout", "blatt 2", "--skip-layer=Mitte (x)"], 4, True),
+    ],
+)
 def test_a_program_tells_how_its_drawing_was_read(options: list[str], units: int, layout: bool, tmp_path: Path) -> None:
-    """What `make` was told need not be said again; without these words in the header the verdict is another one, as it ever was."""
+    """What `make` was told need not be said again; without these words in the header the verdict is another one, as it
+    ever was.
+    """
     drawing = with_notes(tmp_path / "part.dxf", units, layout)
     (program,) = made(drawing, tmp_path, *options, "--contour-tool", "4", "--pocket-tool", "6")
     assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128"]) == 0
@@ -220,28 +272,45 @@ def test_a_program_tells_how_its_drawing_was_read(options: list[str], units: int
     assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128", *options]) == 0
 
 
-@pytest.mark.parametrize("options", [[], ["--px-per-inch", "90"], ["--px-per-inch", "50", "--to-zero"], ["--units", "mm"]])
+@pytest.mark.parametrize(
+    "options", [[], ["--px-per-inch", "90"], ["--px-per-inch", "50", "--to-zero"], ["--units", "mm"]]
+)
 def test_a_page_without_a_real_size_is_read_as_it_was(options: list[str], tmp_path: Path) -> None:
     drawing = tmp_path / "page.svg"
-    drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 200"><rect x="10" y="20" width="180" height="120"/></svg>')
+    drawing.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 200"><rect x="10" y="20" width="180" '
+        'height="120"/></svg>'
+    )
     (program,) = made(drawing, tmp_path, *options, "--contour-tool", "4", "--pocket-tool", "6")
     assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128"]) == 0
 
 
 def test_what_is_asked_stands_before_what_the_program_tells_and_is_said(tmp_path: Path) -> None:
     drawing = with_notes(tmp_path / "part.dxf")
-    (program,) = made(drawing, tmp_path, "--skip-layer=Mitte (x)", "--skip-type=ellipse", "--contour-tool", "4", "--pocket-tool", "6")
-    findings = report_of(tmp_path, program, "--against", drawing, "--grid=128", "--skip-type=line", status=1)["findings"]
-    assert ("The program was made with --skip-type ellipse; here it is --skip-type line, as asked."
-            in [each["text"] for each in findings if each["kind"] == "assumed"])  # fmt: skip
-    same = report_of(tmp_path, program, "--against", drawing, "--grid=128", "--skip-type=ELLIPSE", "--skip-layer=MITTE (X)")["findings"]
+    (program,) = made(
+        drawing, tmp_path, "--skip-layer=Mitte (x)", "--skip-type=ellipse", "--contour-tool", "4", "--pocket-tool", "6"
+    )
+    findings = report_of(tmp_path, program, "--against", drawing, "--grid=128", "--skip-type=line", status=1)[
+        "findings"
+    ]
+    assert "The program was made with --skip-type ellipse; here it is --skip-type line, as asked." in [
+        each["text"] for each in findings if each["kind"] == "assumed"
+    ]
+    same = report_of(
+        tmp_path, program, "--against", drawing, "--grid=128", "--skip-type=ELLIPSE", "--skip-layer=MITTE (X)"
+    )["findings"]
     assert not [each for each in same if "as asked." in each["text"] and "made with" in each["text"]]
 
 
 def test_what_a_program_tells_of_another_kind_of_drawing_is_passed_over(tmp_path: Path) -> None:
     """Also a layer to leave out that a later drawing has no more."""
     drawing = with_notes(tmp_path / "part.dxf")
-    (program,) = made(drawing, tmp_path, "--skip-layer=Mitte (x)", "--skip-type=ellipse", "--contour-tool", "4", "--pocket-tool", "6")
+    (program,) = made(
+        drawing, tmp_path, "--skip-layer=Mitte (x)", "--skip-type=ellipse", "--contour-tool", "4", "--pocket-tool", "6"
+    )
     (tmp_path / "part.draw").write_text("rect 100,50 140,80\n")
     assert main(["cut", str(program), "--against", str(tmp_path / "part.draw"), "--quiet", "--grid", "128"]) == 0
-    assert main(["cut", str(program), "--against", str(plate(tmp_path / "new.dxf", 100, 50)), "--quiet", "--grid", "128"]) == 0
+    assert (
+        main(["cut", str(program), "--against", str(plate(tmp_path / "new.dxf", 100, 50)), "--quiet", "--grid", "128"])
+        == 0
+    )

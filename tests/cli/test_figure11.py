@@ -26,12 +26,18 @@ def test_the_command_has_its_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(option in said for option in ("--programs", "--grid", "--repeat", "--report", "--quiet"))
 
 
-@pytest.mark.parametrize(("option", "said"), [
-    ("--programs=A,D", "'A,D' names no programs; write some of A,B,C, each once"), ("--programs=A,A", "names no programs"),
-    ("--grid=8", "'8' is no number of cells; write a whole number from 16 to 4096"), ("--grid=1e3", "no number of cells"),
-    ("--repeat=0", "'0' is no number of runs; write a whole number from 1 to 100"), ("--engine=gpu", "--engine"),
-    ("--report=/nowhere/at/all.json", "there is no folder"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("option", "said"),
+    [
+        ("--programs=A,D", "'A,D' names no programs; write some of A,B,C, each once"),
+        ("--programs=A,A", "names no programs"),
+        ("--grid=8", "'8' is no number of cells; write a whole number from 16 to 4096"),
+        ("--grid=1e3", "no number of cells"),
+        ("--repeat=0", "'0' is no number of runs; write a whole number from 1 to 100"),
+        ("--engine=gpu", "--engine"),
+        ("--report=/nowhere/at/all.json", "there is no folder"),
+    ],
+)
 def test_a_bad_value_is_told_in_one_line(option: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["figure11", option]) == 2
     shown = capsys.readouterr()

@@ -52,8 +52,20 @@ def test_the_whole_command(out: Path, tmp_path: Path) -> None:
     assert "out.ngc: 0.0000 mm gouge, 0.000 mm2 left within reach" in done.stdout
     assert "is out of reach of every tool" in done.stdout
     report = json.loads((tmp_path / "r.json").read_text())
-    keys = {"gouge", "left", "rapids_in_material", "strokes", "retracts", "length_mm", "time_s", "moves", "skipped", "open_contours",
-            "engine", "tolerance"}  # fmt: skip
+    keys = {
+        "gouge",
+        "left",
+        "rapids_in_material",
+        "strokes",
+        "retracts",
+        "length_mm",
+        "time_s",
+        "moves",
+        "skipped",
+        "open_contours",
+        "engine",
+        "tolerance",
+    }
     assert keys <= set(report)
     assert {"max_mm", "x", "y", "z", "line", "count"} <= set(report["gouge"])
     assert {"reachable_mm2", "unreachable_mm2", "largest_disc_mm"} <= set(report["left"])
@@ -65,11 +77,16 @@ def test_the_whole_command(out: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize(("drawing", "options", "status"), [
-    ("resources/samples/fig2.dxf", ["--safe-z=6"], 0),
-    ("tests/data/dxf/forms.dxf", ["--pocket-tool=60", "--contour-tool=40"], 1),
-])  # fmt: skip
-def test_a_closed_stdout_is_silent_and_keeps_the_status(drawing: str, options: list[str], status: int, unbuffered: str, out: Path) -> None:
+@pytest.mark.parametrize(
+    ("drawing", "options", "status"),
+    [
+        ("resources/samples/fig2.dxf", ["--safe-z=6"], 0),
+        ("tests/data/dxf/forms.dxf", ["--pocket-tool=60", "--contour-tool=40"], 1),
+    ],
+)
+def test_a_closed_stdout_is_silent_and_keeps_the_status(
+    drawing: str, options: list[str], status: int, unbuffered: str, out: Path
+) -> None:
     done, told = unread(unbuffered, "make", str(ROOT / drawing), "-o", str(out), *options)
     assert (done, told) == (status, "")
     assert out.read_bytes() != OLD
@@ -85,8 +102,15 @@ def unread(unbuffered: str, *arguments: str) -> tuple[int, str]:
     read, write = os.pipe()
     os.close(read)
     environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
-    done = subprocess.run([sys.executable, "-m", "app", *arguments], stdout=write, stderr=subprocess.PIPE, text=True, cwd=ROOT,
-                          env=environment, timeout=120)
+    done = subprocess.run(
+        [sys.executable, "-m", "app", *arguments],
+        stdout=write,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+        env=environment,
+        timeout=120,
+    )
     os.close(write)
     return done.returncode, done.stderr
 
@@ -95,8 +119,14 @@ def test_a_full_stdout_is_told_and_keeps_the_status(out: Path) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("this system has no /dev/full")
     with open("/dev/full", "w") as full:
-        done = subprocess.run([sys.executable, "-m", "app", "make", str(FIG2), "-o", str(out)], stdout=full, stderr=subprocess.PIPE,
-                              text=True, cwd=ROOT, timeout=120)
+        done = subprocess.run(
+            [sys.executable, "-m", "app", "make", str(FIG2), "-o", str(out)],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=ROOT,
+            timeout=120,
+        )
     assert done.returncode == 0
     assert done.stderr.count("\n") == 1
     assert "the summary could not be printed" in done.stderr
@@ -112,16 +142,26 @@ def test_findings_give_exit_status_1(out: Path, data: Path) -> None:
 
 
 def test_make_never_imports_qt(out: Path) -> None:
-    code = ("import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; "
-            "print([name for name in sys.modules if 'PySide' in name or 'pyqtgraph' in name or name.startswith('app.ui')])")
-    done = subprocess.run([sys.executable, "-c", code, "make", str(FIG2), "-o", str(out), "--quiet", "--image", str(out) + ".png"],
-                          capture_output=True, text=True, cwd=ROOT, check=True)
+    code = (
+        "import sys; from app.cli.main import main; assert main(sys.argv[1:]) == 0; "
+        "print([name for name in sys.modules if 'PySide' in name or 'pyqtgraph' in name or name.startswith('app.ui')])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "make", str(FIG2), "-o", str(out), "--quiet", "--image", str(out) + ".png"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=True,
+    )
     assert done.stdout.strip() == "[]"
 
 
 def test_help_and_version_need_no_heavy_library() -> None:
     heavy = {"numpy", "numba", "ezdxf", "shapely", "cv2", "PySide6"}
-    code = f"import sys; from app.cli.main import main; main(['--help']); main(['--version']); print({heavy} & sys.modules.keys())"
+    code = (
+        f"import sys; from app.cli.main import main; main(['--help']); main(['--version']); print({heavy} & "
+        "sys.modules.keys())"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=True)
     assert done.stdout.strip().endswith("set()")
     assert "hitofude make DRAWING -o OUT.ngc" in done.stdout
@@ -130,72 +170,93 @@ def test_help_and_version_need_no_heavy_library() -> None:
 
 def test_help_of_make_names_every_option() -> None:
     text = run("make", "--help").stdout
-    options = """--job --contour-tool --pocket-tool --stepover --overlap --depth --stepdown --stock-to-leave --safe-z --feed --plunge
-        --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image --report --quiet
-        --side --entry --ramp-angle
-        --lead --lead-radius --tabs --tab-width --tab-height --dog-bones --finish-depth --finish-width --spring-passes --floor-to-leave
-        --outside-in --most-engaged --drill --peck --through --copies --keep-out --keep-out-height
+    options = """--job --contour-tool --pocket-tool --stepover --overlap --depth --stepdown --stock-to-leave --safe-z
+    --feed --plunge
+        --speed --climb --conventional --order --post --out-units --units --origin --layer --join-tolerance --image
+        --report --quiet --side --entry --ramp-angle --lead --lead-radius --tabs --tab-width --tab-height --dog-bones
+        --finish-depth --finish-width --spring-passes --floor-to-leave --outside-in --most-engaged --drill --peck
+        --through --copies --keep-out --keep-out-height
         --skip-layer --skip-type --layout --to-zero --px-per-inch"""
     assert all(option in text for option in options.split())
     assert "lower-left" in text
     assert "--bitmap" in text
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ("--safe-z -1", "--safe-z is -1 mm; the clearance height must be 0.001 mm or more"),
-    ("--safe-z=-1mm", "--safe-z is -1 mm"),
-    ("--safe-z -1mm", "--safe-z is -1 mm"),
-    ("--depth 0", "--depth is 0 mm; the depth must be 0.001 to 99999 mm"),
-    ("--depth 0.0005", "--depth is 0.0005 mm; the depth must be 0.001 to 99999 mm"),
-    ("--stepdown 1e-9", "--stepdown is 1e-09 mm; the stepdown must be 0.001 to 99999 mm"),
-    ("--depth 20 --stepdown 0.001", "makes 20000 passes; 1000 are the most"),
-    ("--safe-z 0.0001", "--safe-z is 0.0001 mm"),
-    ("--feed 0.1", "--feed is 0.1 mm/min; the feed rate must be 1 mm/min or more"),
-    ("--plunge 0.99", "--plunge is 0.99 mm/min; the plunge rate must be 1 mm/min or more"),
-    ("--stepover 0.5%", "--stepover is 0.5 %; it must be 1 % or more and not more than the tool's diameter"),
-    ("--stepover 0.0001", "--stepover is 0.0001 mm; it must be 0.001 mm or more"),
-    ("--overlap 5.9999", "Stepover is 0.0001 mm with a pocket tool of 6 mm; it must be 0.001 mm or more"),
-    ("--join-tolerance 1000", "oin tolerance is 1000 mm; use 0 to 10 mm"),
-    ("--depth -1/4in", "--depth is -6.35 mm"),
-    ("--depth nan", "--depth is wrong: 'nan' is no number"),
-    ("--depth deep", "--depth is wrong"),
-    ("--stock-to-leave -0.1", "must be 0 to 9999 mm"),
-    ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and not more than the tool's diameter"),
-    ("--stepover -5%", "--stepover is -5 %"),
-    ("--stepover wide", "--stepover is wrong: 'wide' is neither a length nor per cent"),
-    ("--stepover 7", "Stepover is 7 mm with a pocket tool of 6 mm"),
-    ("--overlap 6", "Overlap is 6 mm with a pocket tool of 6 mm"),
-    ("--overlap 2 --stepover 3", "Stepover and overlap are both given"),
-    ("--feed fast", "--feed is wrong: 'fast' is no number; write the feed rate in mm/min"),
-    ("--feed", "--feed has no value"),
-    ("--speed -100", "--speed is -100 rpm"),
-    ("--climb --conventional", "exclude one another"),
-    ("--order 1987", "choose one of 'pocket-first', '1986'"),
-    ("--origin left", "'left' is no origin"),
-    ("--origin centre,drawing", "is no origin"),
-    ("--units yards", "'yards' is no unit; use mm or in"),
-    ("--out-units m", "'m' is no unit of an NC program"),
-    ("--post abacus", "no post 'abacus'"),
-    ("--layer walls", "no layer walls"),
-    ("--bitmap 4", "The bitmap is 4 px wide; use 16 to 8192 px"),
-    ("--bitmap many", "'many' is no whole number"),
-    ("--pitch 0", "the pitch must be greater than 0 mm"),
-    ("--dpi 300", "fig2.dxf is no picture"),
-    ("--image picture.jpg", "a picture is .svg or .png"),
-    ("--nonsense 3", "--nonsense 3 is no option"),
-    ("--contour 3", "no option"),
-    ("--contour-tool 200", "nothing can be cut. Region 1 at (52.339, 46.341) is too small"),
-    ("--job nowhere.toml", "nowhere.toml does not exist"),
-    ("other.dxf", "no second drawing"),
-])  # fmt: skip
-def test_a_wrong_option_is_told_in_one_line(arguments: str, words: str, out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("--safe-z -1", "--safe-z is -1 mm; the clearance height must be 0.001 mm or more"),
+        ("--safe-z=-1mm", "--safe-z is -1 mm"),
+        ("--safe-z -1mm", "--safe-z is -1 mm"),
+        ("--depth 0", "--depth is 0 mm; the depth must be 0.001 to 99999 mm"),
+        ("--depth 0.0005", "--depth is 0.0005 mm; the depth must be 0.001 to 99999 mm"),
+        ("--stepdown 1e-9", "--stepdown is 1e-09 mm; the stepdown must be 0.001 to 99999 mm"),
+        ("--depth 20 --stepdown 0.001", "makes 20000 passes; 1000 are the most"),
+        ("--safe-z 0.0001", "--safe-z is 0.0001 mm"),
+        ("--feed 0.1", "--feed is 0.1 mm/min; the feed rate must be 1 mm/min or more"),
+        ("--plunge 0.99", "--plunge is 0.99 mm/min; the plunge rate must be 1 mm/min or more"),
+        ("--stepover 0.5%", "--stepover is 0.5 %; it must be 1 % or more and not more than the tool's diameter"),
+        ("--stepover 0.0001", "--stepover is 0.0001 mm; it must be 0.001 mm or more"),
+        ("--overlap 5.9999", "Stepover is 0.0001 mm with a pocket tool of 6 mm; it must be 0.001 mm or more"),
+        ("--join-tolerance 1000", "oin tolerance is 1000 mm; use 0 to 10 mm"),
+        ("--depth -1/4in", "--depth is -6.35 mm"),
+        ("--depth nan", "--depth is wrong: 'nan' is no number"),
+        ("--depth deep", "--depth is wrong"),
+        ("--stock-to-leave -0.1", "must be 0 to 9999 mm"),
+        ("--stepover 120%", "--stepover is 120 %; it must be 1 % or more and not more than the tool's diameter"),
+        ("--stepover -5%", "--stepover is -5 %"),
+        ("--stepover wide", "--stepover is wrong: 'wide' is neither a length nor per cent"),
+        ("--stepover 7", "Stepover is 7 mm with a pocket tool of 6 mm"),
+        ("--overlap 6", "Overlap is 6 mm with a pocket tool of 6 mm"),
+        ("--overlap 2 --stepover 3", "Stepover and overlap are both given"),
+        ("--feed fast", "--feed is wrong: 'fast' is no number; write the feed rate in mm/min"),
+        ("--feed", "--feed has no value"),
+        ("--speed -100", "--speed is -100 rpm"),
+        ("--climb --conventional", "exclude one another"),
+        ("--order 1987", "choose one of 'pocket-first', '1986'"),
+        ("--origin left", "'left' is no origin"),
+        ("--origin centre,drawing", "is no origin"),
+        ("--units yards", "'yards' is no unit; use mm or in"),
+        ("--out-units m", "'m' is no unit of an NC program"),
+        ("--post abacus", "no post 'abacus'"),
+        ("--layer walls", "no layer walls"),
+        ("--bitmap 4", "The bitmap is 4 px wide; use 16 to 8192 px"),
+        ("--bitmap many", "'many' is no whole number"),
+        ("--pitch 0", "the pitch must be greater than 0 mm"),
+        ("--dpi 300", "fig2.dxf is no picture"),
+        ("--image picture.jpg", "a picture is .svg or .png"),
+        ("--nonsense 3", "--nonsense 3 is no option"),
+        ("--contour 3", "no option"),
+        ("--contour-tool 200", "nothing can be cut. Region 1 at (52.339, 46.341) is too small"),
+        ("--job nowhere.toml", "nowhere.toml does not exist"),
+        ("other.dxf", "no second drawing"),
+    ],
+)
+def test_a_wrong_option_is_told_in_one_line(
+    arguments: str, words: str, out: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert words in refused(capsys, FIG2, "-o", out, *arguments.split(" "))
     assert out.read_bytes() == OLD
 
 
 @pytest.mark.parametrize("diameter", ["6", "6mm", "0.6cm", "1/4in", '.25"', "0.25in", "3mm + 1/8in"])
 def test_diameters_with_and_without_unit(diameter: str, out: Path, tmp_path: Path) -> None:
-    assert main(["make", str(FIG2), "-o", str(out), "--pocket-tool", diameter, "--quiet", "--report", str(tmp_path / "r.json")]) == 0
+    assert (
+        main(
+            [
+                "make",
+                str(FIG2),
+                "-o",
+                str(out),
+                "--pocket-tool",
+                diameter,
+                "--quiet",
+                "--report",
+                str(tmp_path / "r.json"),
+            ]
+        )
+        == 0
+    )
     (tool,) = json.loads((tmp_path / "r.json").read_text())["tools"]
     expected = 6.0 if diameter[0] in "6" or "cm" in diameter else 6.175 if "+" in diameter else 6.35
     assert tool["diameter_mm"] == pytest.approx(expected)
@@ -231,7 +292,9 @@ def _copy(path: Path) -> Path:
     return path
 
 
-def test_a_report_that_cannot_be_written_leaves_the_old_program(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_report_that_cannot_be_written_leaves_the_old_program(
+    out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("this system has no /dev/full")
     assert "/dev/full" in refused(capsys, FIG2, "-o", out, "--report", "/dev/full")
@@ -275,11 +338,17 @@ def test_quiet_says_nothing(out: Path, capsys: pytest.CaptureFixture[str]) -> No
 def test_job_file(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     report = tmp_path / "r.json"
     job = ROOT / "resources/samples/job.toml"
-    assert main(["make", str(FIG2), "-o", str(out), "--job", str(job), "--depth", "3", "--quiet", "--report", str(report)]) == 0
+    assert (
+        main(["make", str(FIG2), "-o", str(out), "--job", str(job), "--depth", "3", "--quiet", "--report", str(report)])
+        == 0
+    )
     data = json.loads(report.read_text())
     assert [tool["diameter_mm"] for tool in data["tools"]] == [6, 3]
-    assert [(each["kind"], each["tool"], each["depth_mm"]) for each in data["operations"]] == [("pocket", 1, 3), ("rest", 2, 3),
-                                                                                              ("contour", 2, 3)]  # fmt: skip
+    assert [(each["kind"], each["tool"], each["depth_mm"]) for each in data["operations"]] == [
+        ("pocket", 1, 3),
+        ("rest", 2, 3),
+        ("contour", 2, 3),
+    ]
     bad = tmp_path / "bad.toml"
     bad.write_text("[stock]\nthick = 3\n")
     assert "bad.toml:2: thick is no key of [stock]" in refused(capsys, FIG2, "-o", out, "--job", bad)
@@ -290,7 +359,9 @@ def test_unknown_commands(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_an_unexpected_exception_is_one_line(out: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unexpected_exception_is_one_line(
+    out: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     def broken(*_: object) -> None:
         raise RuntimeError("two\nlines")
 
@@ -304,7 +375,17 @@ def test_an_unexpected_exception_is_one_line(out: Path, capsys: pytest.CaptureFi
 
 @pytest.mark.parametrize("seconds", [0.7, 1.5])
 def test_ctrl_c_is_130_and_leaves_the_old_file(seconds: float, out: Path, data: Path) -> None:
-    command = [sys.executable, "-m", "app", "make", str(data / "dxf/complex.dxf"), "-o", str(out), "--pocket-tool=1", "--contour-tool=.5"]
+    command = [
+        sys.executable,
+        "-m",
+        "app",
+        "make",
+        str(data / "dxf/complex.dxf"),
+        "-o",
+        str(out),
+        "--pocket-tool=1",
+        "--contour-tool=.5",
+    ]
     running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     time.sleep(seconds)
     running.send_signal(signal.SIGINT)

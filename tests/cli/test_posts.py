@@ -20,7 +20,9 @@ def made(folder: Path, *options: str) -> int:
 
 @pytest.mark.parametrize("name", post_names())
 @pytest.mark.parametrize("units", ["mm", "in"])
-def test_every_control_gets_files_that_its_reader_takes(name: str, units: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_control_gets_files_that_its_reader_takes(
+    name: str, units: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert made(tmp_path, "--post", name, "--out-units", units, "--report", str(tmp_path / "r.json")) == 0
     shown = capsys.readouterr().out
     written = sorted(path.name for path in tmp_path.glob("*.nc"))
@@ -30,7 +32,10 @@ def test_every_control_gets_files_that_its_reader_takes(name: str, units: str, t
     report = json.loads((tmp_path / "r.json").read_text())
     cut, boxes = 0.0, []
     for file in written:
-        assert main(["check", str(tmp_path / file), "--dialect", name, "--report", str(tmp_path / "c.json"), "--quiet"]) == 0
+        assert (
+            main(["check", str(tmp_path / file), "--dialect", name, "--report", str(tmp_path / "c.json"), "--quiet"])
+            == 0
+        )
         found = json.loads((tmp_path / "c.json").read_text())
         cut += found["length_mm"]["cut"]
         boxes.append(found["extent_mm"]["cut"])
@@ -55,7 +60,9 @@ def test_a_file_of_a_tool_is_no_other_output(tmp_path: Path, capsys: pytest.Capt
     assert not list(tmp_path.iterdir())
 
 
-def test_a_machine_times_the_job_and_tells_what_it_cannot_do(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_machine_times_the_job_and_tells_what_it_cannot_do(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     reports = []
     for options in ((), ("--machine", "router"), ("--machine", "bench_mill"), ("--machine", "vmc", "--speed", "9000")):
         status = made(tmp_path, *options, "--report", str(tmp_path / "r.json"))
@@ -64,10 +71,16 @@ def test_a_machine_times_the_job_and_tells_what_it_cannot_do(tmp_path: Path, cap
     assert "Small router" in reports[0]["time_method"]
     assert reports[0]["time_s"] == reports[1]["time_s"] > reports[2]["time_s"] > reports[3]["time_s"]
     told = [finding["text"] for finding in reports[2]["findings"] if finding["kind"] == "machine"]
-    assert [text.split(": ")[1][:32] for text in told] == ["the spindle is to turn at 12000 ", "the spindle is to turn at 18000 "]
+    assert [text.split(": ")[1][:32] for text in told] == [
+        "the spindle is to turn at 12000 ",
+        "the spindle is to turn at 18000 ",
+    ]
     capsys.readouterr()
     assert made(tmp_path, "--machine", "lathe") == 2
-    assert "--machine is wrong: There is no machine 'lathe'; choose one of bench_mill, router, vmc" in capsys.readouterr().err
+    assert (
+        "--machine is wrong: There is no machine 'lathe'; choose one of bench_mill, router, vmc"
+        in capsys.readouterr().err
+    )
 
 
 def test_a_post_of_the_users_own_is_checked_as_strictly(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -80,6 +93,8 @@ def test_a_post_of_the_users_own_is_checked_as_strictly(tmp_path: Path, capsys: 
     assert "LinuxCNC program:" in (told := capsys.readouterr().err)
     assert "not kept" in told
     assert not list(tmp_path.glob("*.nc"))
-    (folder / "mine.toml").write_text('extends = "linuxcnc"\n[program]\ntool = ["T{tool} M6", "G43 H7", "S{speed} M3", "G4 P{dwell_s}"]\n')
+    (folder / "mine.toml").write_text(
+        'extends = "linuxcnc"\n[program]\ntool = ["T{tool} M6", "G43 H7", "S{speed} M3", "G4 P{dwell_s}"]\n'
+    )
     assert made(tmp_path, "--post", "mine") == 2
     assert "tool 7 is not in the tool table" in capsys.readouterr().err

@@ -78,7 +78,9 @@ def test_a_real_engraving_takes_fewer_blocks_and_is_proven(tmp_path: Path, data:
 
 
 @pytest.mark.parametrize(("bend", "most"), [("5", 61), ("15", 60)])
-def test_a_real_engraving_takes_as_few_arcs_as_neighbours_may_bend(tmp_path: Path, data: Path, bend: str, most: int) -> None:
+def test_a_real_engraving_takes_as_few_arcs_as_neighbours_may_bend(
+    tmp_path: Path, data: Path, bend: str, most: int
+) -> None:
     """Five stretches of 2,355 moves; ten blocks are plunges that nothing can be made of."""
     text, report = smoothed(tmp_path, (data / "nc" / "jsdc.gcode").read_text(), "--tolerance", "0.05", "--bend", bend)
     assert report["blocks"]["after"] <= most + 10  # type: ignore[index]
@@ -143,7 +145,11 @@ def test_feeds_keep_their_places(tmp_path: Path) -> None:
     out, _ = smoothed(tmp_path, text)
     before, after = (read_program(part.encode()) for part in (text, out))
     changes = [
-        [(tuple(p.motions.end[k].round(3)), b) for k, (a, b) in enumerate(pairwise(p.motions.feed.tolist())) if a != b and b > 0]
+        [
+            (tuple(p.motions.end[k].round(3)), b)
+            for k, (a, b) in enumerate(pairwise(p.motions.feed.tolist()))
+            if a != b and b > 0
+        ]
         for p in (before, after)
     ]
     assert changes[0] == changes[1]
@@ -153,12 +159,18 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
     source, out = tmp_path / "in.ngc", tmp_path / "out.ngc"
     source.write_text(HEAD + "G1 X\n")
     for options, said in (
-        ([], "in.ngc:7"), (["--tolerance", "0"], "tolerance"), (["--tolerance", "1e-4"], "too near to the last decimal"),
-        (["--epsilon", "0.01"], "--method"), (["--method", "effective-points"], "--epsilon"),
+        ([], "in.ngc:7"),
+        (["--tolerance", "0"], "tolerance"),
+        (["--tolerance", "1e-4"], "too near to the last decimal"),
+        (["--epsilon", "0.01"], "--method"),
+        (["--method", "effective-points"], "--epsilon"),
         (["--method", "effective-points", "--epsilon", "0.01", "--before", "2"], "--embodiment 2"),
-        (["--region", "cone"], "no region"), (["--corner", "200"], "180"), (["--bend", "200"], "180"),
-        (["--bend", "0"], "bend"), (["--degree", "4"], "degree"),
-    ):  # fmt: skip
+        (["--region", "cone"], "no region"),
+        (["--corner", "200"], "180"),
+        (["--bend", "200"], "180"),
+        (["--bend", "0"], "bend"),
+        (["--degree", "4"], "degree"),
+    ):
         if options == ["--tolerance", "1e-4"]:
             source.write_text(HEAD + ring() + TAIL)
         assert main(["smooth", str(source), "-o", str(out), *options]) == 2
@@ -172,8 +184,11 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
 def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_path: Path, embodiment: list[str]) -> None:
     corner = np.linspace(0, 2 * np.pi, 61)
     inner = np.linspace(0, 1, 12, endpoint=False)
-    places = [50 * ((1 - t) * np.array([math.cos(a), math.sin(a)]) + t * np.array([math.cos(b), math.sin(b)]))
-              for a, b in pairwise(corner) for t in inner]  # fmt: skip
+    places = [
+        50 * ((1 - t) * np.array([math.cos(a), math.sin(a)]) + t * np.array([math.cos(b), math.sin(b)]))
+        for a, b in pairwise(corner)
+        for t in inner
+    ]
     lines = "G1 F600 " + "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in [*places[1:], places[0]])
     options = ["--method", "effective-points", "--epsilon", "0.005", "--tolerance", "0.2", *embodiment]
     text, report = smoothed(tmp_path, HEAD + lines + TAIL, *options)
@@ -191,18 +206,29 @@ def test_for_another_control_every_number_is_in_its_words(tmp_path: Path) -> Non
     """`G0 X50` beside `G3 X-50.` would be 0.050 mm on a Fanuc."""
     source = HEAD + ring() + "G0 Z5\nG4 P1.5\nG83 X20 Y5 Z-3 R1 Q2 F80\nG80\n" + TAIL
     text, report = smoothed(tmp_path, source, "--post", "fanuc", "--as", "nurbs")
-    assert "G6.2" in text and report["control"] == {"of_the_program": "linuxcnc", "written_for": "fanuc", "elsewhere_mm": 0.002}
-    assert not re.search(r"[XYZIJRFKQ]-?\d+(?![\d.])", re.sub(r"\(.*\)", "", text)), "no length and no feed without its point"
+    assert "G6.2" in text and report["control"] == {
+        "of_the_program": "linuxcnc",
+        "written_for": "fanuc",
+        "elsewhere_mm": 0.002,
+    }
+    assert not re.search(r"[XYZIJRFKQ]-?\d+(?![\d.])", re.sub(r"\(.*\)", "", text)), (
+        "no length and no feed without its point"
+    )
     assert "G4 P1500\n" in text and "G83" not in text
     before, after = read_program(source.encode()), read_program(text.encode(), ReadOptions(Dialect.FANUC))
     assert after.error is None and guess_dialect(text.encode()) is Dialect.FANUC
-    assert np.allclose(before.motions.end[0], after.motions.end[0]) and np.allclose(before.motions.end[-1], after.motions.end[-1])
+    assert np.allclose(before.motions.end[0], after.motions.end[0]) and np.allclose(
+        before.motions.end[-1], after.motions.end[-1]
+    )
     assert_ends_among(before, after, 0.003)
 
 
 def assert_ends_among(before: NcProgram, after: NcProgram, limit: float) -> None:
     """Every rapid of one program ends where one of the other does, in the same order."""
-    ends = [list(dict.fromkeys(map(tuple, p.motions.end[p.motions.kind == MotionKind.RAPID].round(2).tolist()))) for p in (before, after)]
+    ends = [
+        list(dict.fromkeys(map(tuple, p.motions.end[p.motions.kind == MotionKind.RAPID].round(2).tolist())))
+        for p in (before, after)
+    ]
     assert len(ends[0]) == len(ends[1]) and np.abs(np.array(ends[0]) - np.array(ends[1])).max() <= limit + 0.01
 
 
@@ -214,14 +240,18 @@ def test_a_program_is_read_as_what_it_looks_like(tmp_path: Path, post: str, caps
     source.write_text(head + ring().replace("F600", "F600.") + "G0 Z5.\nG4 P500\nM5\nM30\n%\n")
     assert main(["smooth", str(source), "-o", str(out), "--post", post]) == 0
     told = capsys.readouterr().out
-    assert "read as Fanuc does" in told and "without a decimal point count in 0.001 mm" in told and "(a warning)" in told
+    assert (
+        "read as Fanuc does" in told and "without a decimal point count in 0.001 mm" in told and "(a warning)" in told
+    )
     after = read_program(out.read_bytes(), ReadOptions(Dialect(post)))
     assert after.error is None and after.motions.end[2].tolist() == [50.0, 0.0, pytest.approx(0.05)]
     assert [event.value for event in after.events if event.kind is EventKind.DWELL] == [0.5]
     assert np.sum(after.motions.kind >= MotionKind.ARC_CW) == 2
 
 
-def test_what_the_other_control_has_not_is_refused_by_line_and_word(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_the_other_control_has_not_is_refused_by_line_and_word(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     source, out = tmp_path / "in.ngc", tmp_path / "out.ngc"
     source.write_text(HEAD + ring() + TAIL)
     assert main(["smooth", str(source), "-o", str(out), "--post", "grbl"]) == 2
@@ -229,7 +259,9 @@ def test_what_the_other_control_has_not_is_refused_by_line_and_word(tmp_path: Pa
 
 
 def bent(leg: float) -> tuple[str, np.ndarray]:
-    """Long legs in pieces, each behind a short one, bent by 40 to 80 degrees by turns; and the places where it bends."""
+    """Long legs in pieces, each behind a short one, bent by 40 to 80 degrees by turns; and the places where it
+    bends.
+    """
     places, corners, angle = [np.zeros(2)], [], 0.0
     for k in range(40):
         corners.append(places[-1])
@@ -260,6 +292,8 @@ def test_every_corner_is_kept_that_the_head_speaks_of(tmp_path: Path, leg: float
 def test_where_the_control_has_no_splines_in_space_arcs_of_the_other_planes_stand(tmp_path: Path) -> None:
     t = np.linspace(0, math.pi, 200)
     rows = [f"G1 X{30 * math.cos(a):.4f} Z{-10 - 30 * math.sin(a):.4f}" for a in t]
-    text, report = smoothed(tmp_path, HEAD + "\n".join(rows) + "\n" + TAIL, "--post", "linuxcnc", "--as", "nurbs", "--tolerance", "0.02")
+    text, report = smoothed(
+        tmp_path, HEAD + "\n".join(rows) + "\n" + TAIL, "--post", "linuxcnc", "--as", "nurbs", "--tolerance", "0.02"
+    )
     assert "G18" in text and "G5.2" not in text
     assert report["blocks"]["after"] <= 8  # type: ignore[index]

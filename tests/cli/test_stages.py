@@ -1,4 +1,6 @@
-"""`hitofude stages` and the bitmap way of `make`, as a user runs them: files, exit status, one line for every mistake."""
+"""`hitofude stages` and the bitmap way of `make`, as a user runs them: files, exit status, one line for every
+mistake.
+"""
 
 import json
 import re
@@ -18,7 +20,9 @@ FIG2 = ROOT / "tests" / "data" / "dxf" / "fig2.dxf"
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    return subprocess.run(
+        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=300
+    )
 
 
 @pytest.fixture
@@ -40,8 +44,41 @@ def test_every_step_of_a_drawing_is_written(tmp_path: Path) -> None:
     assert "34 steps on 400 x 400 px" in done.stdout
     told = json.loads(report.read_text())
     assert [step["number"] for step in told["steps"]] == [
-        110, 120, 201, 202, 203, 204, 205, 206, 207, 208, 130, 301, 302, 303, 304, 305, 306, 307, 141, 142, 143, 144, 145, 146, 147, 148,
-        140, 401, 402, 403, 404, 405, 406, 407]
+        110,
+        120,
+        201,
+        202,
+        203,
+        204,
+        205,
+        206,
+        207,
+        208,
+        130,
+        301,
+        302,
+        303,
+        304,
+        305,
+        306,
+        307,
+        141,
+        142,
+        143,
+        144,
+        145,
+        146,
+        147,
+        148,
+        140,
+        401,
+        402,
+        403,
+        404,
+        405,
+        406,
+        407,
+    ]
     for step in told["steps"]:
         codes = np.load(folder / f"{step['file']}.npy")
         assert codes.dtype == np.uint8
@@ -59,14 +96,28 @@ def test_every_step_of_a_drawing_is_written(tmp_path: Path) -> None:
 
 def test_every_time_of_a_repeated_step_is_written(tmp_path: Path) -> None:
     folder, report = tmp_path / "steps", tmp_path / "r.json"
-    assert run("stages", FIG2, "-o", folder, "--contour-tool", 2, "--pocket-tool", 4, "--bitmap", 200, "--report", report).returncode == 0
+    assert (
+        run(
+            "stages", FIG2, "-o", folder, "--contour-tool", 2, "--pocket-tool", 4, "--bitmap", 200, "--report", report
+        ).returncode
+        == 0
+    )
     steps = {step["number"]: step for step in json.loads(report.read_text())["steps"]}
-    chains = {number: (folder / f"{steps[number]['file']}.txt").read_text().splitlines() for number in (142, 144, 146, 301, 303, 306)}
-    assert {number: steps[number]["chains"] for number in chains} == {number: len(lines) for number, lines in chains.items()}
+    chains = {
+        number: (folder / f"{steps[number]['file']}.txt").read_text().splitlines()
+        for number in (142, 144, 146, 301, 303, 306)
+    }
+    assert {number: steps[number]["chains"] for number in chains} == {
+        number: len(lines) for number, lines in chains.items()
+    }
     both = {"region 1 turn 1", "region 2 turn 1"}
     assert all({line.split(" start ")[0] for line in chains[number]} == both for number in (142, 303, 306))
-    assert sorted(line.split(" start ")[1] for line in chains[144]) == sorted(line.split(" start ")[1] for line in chains[142])
-    assert {line.split(" start ")[0] for line in chains[146]} == {f"region 0 turn {k}" for k in range(1, steps[146]["times"] + 1)}
+    assert sorted(line.split(" start ")[1] for line in chains[144]) == sorted(
+        line.split(" start ")[1] for line in chains[142]
+    )
+    assert {line.split(" start ")[0] for line in chains[146]} == {
+        f"region 0 turn {k}" for k in range(1, steps[146]["times"] + 1)
+    }
     assert len({line.split(" start ")[0] for line in chains[301]}) == steps[301]["times"] > 2
     for number, step in steps.items():
         turns = sorted((folder / "turns").glob(f"{step['file']}_*.png"))
@@ -93,8 +144,22 @@ def test_the_report_takes_no_stage_s_place(tmp_path: Path, name: str) -> None:
 
 
 def test_the_published_fill_shows_where_it_errs(tmp_path: Path, picture: Path) -> None:
-    done = run("stages", FIG2, "-o", tmp_path / "a", "--bitmap", 40, "--contour-tool", 5.5, "--pocket-tool", 6, "--variant", "published",
-               "--report", tmp_path / "r.json")
+    done = run(
+        "stages",
+        FIG2,
+        "-o",
+        tmp_path / "a",
+        "--bitmap",
+        40,
+        "--contour-tool",
+        5.5,
+        "--pocket-tool",
+        6,
+        "--variant",
+        "published",
+        "--report",
+        tmp_path / "r.json",
+    )
     assert done.returncode in (0, 1), done.stderr
     assert "the fill as published is wrong in" in done.stdout
     assert json.loads((tmp_path / "r.json").read_text())["variant"] == "published"
@@ -124,31 +189,46 @@ def test_make_computes_on_pixels_where_asked(tmp_path: Path) -> None:
 
 
 def test_make_takes_a_picture(tmp_path: Path, picture: Path) -> None:
-    done = run("make", picture, "-o", tmp_path / "o.ngc", "--pitch", 0.2, "--contour-tool", 1, "--pocket-tool", 2,
-               "--report", tmp_path / "r.json")
+    done = run(
+        "make",
+        picture,
+        "-o",
+        tmp_path / "o.ngc",
+        "--pitch",
+        0.2,
+        "--contour-tool",
+        1,
+        "--pocket-tool",
+        2,
+        "--report",
+        tmp_path / "r.json",
+    )
     assert done.returncode == 0, done.stdout
     told = json.loads((tmp_path / "r.json").read_text())
     assert told["gouge"]["max_mm"] <= 1e-6
     assert [region["islands"] for region in told["regions"]] == [1, 0]
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ("", "the drawing and the folder to write to"),
-    ("{fig2}", "-o/--output is missing"),
-    ("{fig2} -o {tmp}/no/such", "there is no folder"),
-    ("{fig2} -o {fig2}", "is no folder"),
-    ("none.dxf -o {tmp}/a", "none.dxf does not exist"),
-    ("{fig2} -o {tmp}/a --variant best", "choose one of"),
-    ("{fig2} -o {tmp}/a --bitmap 9000", "use 16 to 8192 px"),
-    ("{fig2} -o {tmp}/a --pitch 0.001", "8192 px are the most"),
-    ("{fig2} -o {tmp}/a --contour-tool 0.1", "not wider than two pixels"),
-    ("{fig2} -o {tmp}/a --stepover 0.01", "less than a pixel"),
-    ("{fig2} -o {tmp}/a --threshold 3", "is no picture"),
-    ("{picture} -o {tmp}/a", "does not say how large it is"),
-    ("{picture} -o {tmp}/a --pitch 1 --dpi 100", "give one of them"),
-    ("{picture} -o {tmp}/a --pitch 0.2 --bitmap 400", "a picture has its own pixels"),
-    ("{picture} -o {tmp}/a --pitch 0.2 --threshold 300", "use 1 to 255"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("", "the drawing and the folder to write to"),
+        ("{fig2}", "-o/--output is missing"),
+        ("{fig2} -o {tmp}/no/such", "there is no folder"),
+        ("{fig2} -o {fig2}", "is no folder"),
+        ("none.dxf -o {tmp}/a", "none.dxf does not exist"),
+        ("{fig2} -o {tmp}/a --variant best", "choose one of"),
+        ("{fig2} -o {tmp}/a --bitmap 9000", "use 16 to 8192 px"),
+        ("{fig2} -o {tmp}/a --pitch 0.001", "8192 px are the most"),
+        ("{fig2} -o {tmp}/a --contour-tool 0.1", "not wider than two pixels"),
+        ("{fig2} -o {tmp}/a --stepover 0.01", "less than a pixel"),
+        ("{fig2} -o {tmp}/a --threshold 3", "is no picture"),
+        ("{picture} -o {tmp}/a", "does not say how large it is"),
+        ("{picture} -o {tmp}/a --pitch 1 --dpi 100", "give one of them"),
+        ("{picture} -o {tmp}/a --pitch 0.2 --bitmap 400", "a picture has its own pixels"),
+        ("{picture} -o {tmp}/a --pitch 0.2 --threshold 300", "use 1 to 255"),
+    ],
+)
 def test_mistakes_are_told_in_one_line(tmp_path: Path, picture: Path, arguments: str, words: str) -> None:
     done = run("stages", *arguments.format(fig2=FIG2, tmp=tmp_path, picture=picture).split())
     assert done.returncode == 2

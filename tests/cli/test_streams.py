@@ -26,7 +26,9 @@ RING = "G21 G90\nG0 X0 Y0\nG1 Z-1 F100\n" + "".join(f"G1 X{k / 10:.4f} Y0\n" for
 def shell(line: str, folder: Path) -> int:
     """Run a line with the program as "$HITOFUDE"."""
     program = f"{sys.executable} -m app"
-    run = subprocess.run(["sh", "-c", line.replace("HITOFUDE", program)], cwd=ROOT, env=os.environ | {"OUT": str(folder)}, timeout=120)
+    run = subprocess.run(
+        ["sh", "-c", line.replace("HITOFUDE", program)], cwd=ROOT, env=os.environ | {"OUT": str(folder)}, timeout=120
+    )
     return run.returncode
 
 
@@ -40,7 +42,9 @@ def test_closed_streams_change_nothing(tmp_path: Path, closed: str) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["in.ngc", "out.ngc"]
 
 
-def test_without_stderr_errors_do_not_go_to_stdout(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_stderr_errors_do_not_go_to_stdout(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(sys, "stderr", None)
     assert main(["nothing"]) == 2
     assert main(["check", "nowhere.ngc"]) == 2
@@ -48,11 +52,14 @@ def test_without_stderr_errors_do_not_go_to_stdout(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
-def test_ended_while_writing_it_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest,
-                                               number: signal.Signals) -> None:  # fmt: skip
+def test_ended_while_writing_it_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest, number: signal.Signals
+) -> None:
     (tmp_path / "a").write_bytes(b"old")
     monkeypatch.setattr(os, "fsync", lambda _: os.kill(os.getpid(), number))
-    request.addfinalizer(partial(signal.signal, number, signal.signal(number, signal.SIG_DFL)))  # under nohup it is ignored
+    request.addfinalizer(
+        partial(signal.signal, number, signal.signal(number, signal.SIG_DFL))
+    )  # under nohup it is ignored
     with pytest.raises(Stopped) as stop, stoppable() as stopped:
         write_together({tmp_path / "a": b"new", tmp_path / "b": b"new"})
     assert stop.value.status == 128 + number and stopped.is_set()
@@ -92,7 +99,9 @@ def left_by(folder: Path, prefix: str) -> list[Path]:
     return paths
 
 
-def test_leftovers_of_dead_writers_are_swept_and_those_of_living_ones_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_leftovers_of_dead_writers_are_swept_and_those_of_living_ones_stay(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     own = waiting_prefix("part.ngc")
     alive = left_by(tmp_path, own)
     dead = left_by(tmp_path, own.replace(str(os.getpid()), str(dead_process())))
@@ -117,9 +126,11 @@ def test_of_another_machine_they_stay_for_a_day(tmp_path: Path, monkeypatch: pyt
 
 def test_a_killed_run_leaves_nothing_for_long(tmp_path: Path) -> None:
     """Killed between writing and placing; the next command into that folder sweeps."""
-    code = "import os, signal; from pathlib import Path; from app.core import atomic; " \
-        "os.chmod = lambda *_: os.kill(os.getpid(), signal.SIGKILL); " \
+    code = (
+        "import os, signal; from pathlib import Path; from app.core import atomic; "
+        "os.chmod = lambda *_: os.kill(os.getpid(), signal.SIGKILL); "
         f"atomic.write_together({{Path({str(tmp_path / 'out.ngc')!r}): b'x'}})"
+    )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False)
     assert len([path for path in tmp_path.iterdir() if path.name.endswith(".part")]) == 1
     (tmp_path / "in.ngc").write_text(RING)
@@ -137,7 +148,9 @@ def test_a_bad_word_is_quoted_for_sixty_letters(tmp_path: Path, text: str, capsy
     assert max(map(len, capsys.readouterr().out.splitlines())) < 330
 
 
-def test_options_are_quoted_for_sixty_letters_and_files_whole(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_are_quoted_for_sixty_letters_and_files_whole(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["smooth", "x", "-o", "y", "--tolerance", "q" * 4000]) == 2
     assert len(capsys.readouterr().err) < 300
     long = tmp_path / ("n" * 100 + ".ngc")
@@ -152,8 +165,9 @@ def test_quotations_are_cut_and_sentences_are_not() -> None:
     assert shortened("x" * 61) == "x" * 60 + "..." and shortened("x" * 60) == "x" * 60
 
 
-def test_a_signal_that_a_library_turns_into_its_own_error_is_still_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-                                                                       capsys: pytest.CaptureFixture[str]) -> None:  # fmt: skip
+def test_a_signal_that_a_library_turns_into_its_own_error_is_still_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     def turned(*_: object, **__: object) -> None:
         try:
             os.kill(os.getpid(), signal.SIGTERM)

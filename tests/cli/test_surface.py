@@ -50,8 +50,25 @@ def written(folder: Path, text: str = BALLS, *options: str, status: int = 1) -> 
     scene = folder / "scene.toml"
     scene.write_text(text)
     out = {name: folder / f"out.{name}" for name in ("ngc", "json", "csv", "svg", "hpgl")}
-    assert main(["surface", str(scene), "-o", str(out["ngc"]), "--report", str(out["json"]), "--points", str(out["csv"]), "--plot",
-                 str(out["svg"]), "--quiet", *options]) == status  # fmt: skip
+    assert (
+        main(
+            [
+                "surface",
+                str(scene),
+                "-o",
+                str(out["ngc"]),
+                "--report",
+                str(out["json"]),
+                "--points",
+                str(out["csv"]),
+                "--plot",
+                str(out["svg"]),
+                "--quiet",
+                *options,
+            ]
+        )
+        == status
+    )
     return {"scene": scene, **out}
 
 
@@ -62,7 +79,11 @@ def test_the_table_of_points_has_the_crossings_in_closed_form(tmp_path: Path) ->
     between = 14 + (13**2 + 8**2 - 6**2) / 26  # where the spheres' circles meet
     assert [float(row["x"]) for row in on_middle] == pytest.approx([6.0, between, 33.0], abs=1e-9)
     assert float(on_middle[1]["z"]) == pytest.approx(np.sqrt(64 - (between - 14) ** 2), abs=1e-9)
-    assert [(row["name"], row["to_name"]) for row in on_middle] == [("table", "large"), ("large", "small"), ("small", "table")]
+    assert [(row["name"], row["to_name"]) for row in on_middle] == [
+        ("table", "large"),
+        ("large", "small"),
+        ("small", "table"),
+    ]
     assert {row["kind"] for row in rows} <= {"point", "crossing", "edge", "jump", "tangent"}
 
 
@@ -70,7 +91,10 @@ def test_the_report_tells_what_the_cutter_met_in_closed_form(tmp_path: Path) -> 
     data = json.loads(written(tmp_path)["json"].read_text())
     assert data["gouge"]["count"] == 0 and data["gouge"]["max_mm"] <= 1e-4
     assert data["rapids_in_material"] == []
-    assert [(finding["kind"], finding["counts"]) for finding in data["findings"]] == [("left_reachable", True), ("engagement", False)]
+    assert [(finding["kind"], finding["counts"]) for finding in data["findings"]] == [
+        ("left_reachable", True),
+        ("engagement", False),
+    ]
     (passes,) = data["passes"]
     middle = [mark for mark in passes["path"]["boundaries"] if mark["y"] == 10.0]
     reach = [np.sqrt((radius + 2) ** 2 - 4) for radius in (8, 6)]  # a ball of radius 2 on the table, touching a sphere
@@ -108,14 +132,18 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
     marks = re.compile(r"\(Surface .*\)")
     assert marks.findall(after) == marks.findall(before)
     moves = [sum(not line.startswith("(") for line in text.splitlines()) for text in (after, before)]
-    assert moves[0] < moves[1] / 2.5, "boundaries are marked as often in both, and the passes were thinned when they were made"
+    assert moves[0] < moves[1] / 2.5, (
+        "boundaries are marked as often in both, and the passes were thinned when they were made"
+    )
 
 
 @pytest.mark.exhaustive
 def test_one_report_tells_the_whole_way_from_surfaces_to_the_cut_of_the_smoothed_program(tmp_path: Path) -> None:
     scene, report = tmp_path / "scene.toml", tmp_path / "r.json"
     scene.write_text(BALLS.replace("pitch = 0.5", "scallop = 0.02"))
-    assert main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 1  # the feet of the balls
+    assert (
+        main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 1
+    )  # the feet of the balls
     told = json.loads(report.read_text())
     loop = told["loop"]
     assert told["gouge"]["count"] == 0
@@ -142,11 +170,20 @@ def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(tmp_path: Path) 
     files = written(tmp_path)
     lines = files["ngc"].read_text().splitlines()
     deeper = tmp_path / "deeper.ngc"
-    lowered = [re.sub(r"Z(-?[\d.]+)", lambda match: f"Z{float(match[1]) - 0.2:.4f}", line) if line.startswith(("G1", "X")) else line
-               for line in lines]  # fmt: skip
+    lowered = [
+        re.sub(r"Z(-?[\d.]+)", lambda match: f"Z{float(match[1]) - 0.2:.4f}", line)
+        if line.startswith(("G1", "X"))
+        else line
+        for line in lines
+    ]
     deeper.write_text("\n".join(lowered) + "\n")
     report = tmp_path / "r.json"
-    assert main(["cut", str(deeper), "--against", str(files["scene"]), "--grid", "300", "--report", str(report), "--quiet"]) == 1
+    assert (
+        main(
+            ["cut", str(deeper), "--against", str(files["scene"]), "--grid", "300", "--report", str(report), "--quiet"]
+        )
+        == 1
+    )
     gouge = json.loads(report.read_text())["gouge"]
     assert gouge["count"] > 0 and gouge["max_mm"] == pytest.approx(0.2, abs=0.01)
 
@@ -155,7 +192,19 @@ def test_the_origin_moves_the_program_and_not_what_it_is_compared_with(tmp_path:
     files = written(tmp_path, BALLS.replace("[[tool]]", '[origin]\nxy = "centre"\nz = "top"\n\n[[tool]]', 1))
     assert "origin_mm=20,10,9" in files["ngc"].read_text()
     report = tmp_path / "r.json"
-    main(["cut", str(files["ngc"]), "--against", str(files["scene"]), "--grid", "200", "--report", str(report), "--quiet"])
+    main(
+        [
+            "cut",
+            str(files["ngc"]),
+            "--against",
+            str(files["scene"]),
+            "--grid",
+            "200",
+            "--report",
+            str(report),
+            "--quiet",
+        ]
+    )
     data = json.loads(report.read_text())
     assert data["stock"]["low"] == [-20, -10, -11] and data["stock"]["high"] == [20, 10, 0]
     assert data["gouge"]["count"] == 0 and data["removed_mm3"] > 1000
@@ -185,14 +234,18 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
         (BALLS.replace('kind = "plane"', 'kind = "saddle"'), "saddle"),
         (BALLS.partition("[[passes]]")[0], "no passes"),
         (BALLS.partition("[[surface]]")[0], "no surface"),
-        (BALLS + 'boundary = [{ rectangle = [90, 90, 99, 99] }]\n', "touch no surface"),
-    ):  # fmt: skip
+        (BALLS + "boundary = [{ rectangle = [90, 90, 99, 99] }]\n", "touch no surface"),
+    ):
         scene.write_text(text)
         assert main(["surface", str(scene), "-o", str(out)]) == 2
         said = capsys.readouterr().err
         assert said.startswith("hitofude: ") and said.count("\n") == 1 and words in said
         assert not out.exists()
     scene.write_text(BALLS)
-    for options, words in (([], "nothing to write"), (["--plot", str(tmp_path / "a.gif")], ".svg"), (["-o", str(scene)], "also an input")):
+    for options, words in (
+        ([], "nothing to write"),
+        (["--plot", str(tmp_path / "a.gif")], ".svg"),
+        (["-o", str(scene)], "also an input"),
+    ):
         assert main(["surface", str(scene), *options]) == 2
         assert words in capsys.readouterr().err

@@ -42,7 +42,14 @@ def test_make_tells_its_stages(tmp_path: Path, capsys: pytest.CaptureFixture[str
     report = tmp_path / "r.json"
     assert main(["make", str(FIG2), "-o", str(tmp_path / "a.ngc"), "--report", str(report), "--timings"]) == 0
     spent = json.loads(report.read_text())["timings_s"]
-    assert {"Reading …", "Chain contours", "Link rings", "Writing NC", "Measuring what is left", "Looking between the cells"} <= set(spent)
+    assert {
+        "Reading …",
+        "Chain contours",
+        "Link rings",
+        "Writing NC",
+        "Measuring what is left",
+        "Looking between the cells",
+    } <= set(spent)
     assert all(seconds >= 0 for seconds in spent.values())
     lines = [line for line in capsys.readouterr().out.splitlines() if " s  " in line]
     assert len(lines) == len(spent) + 1 and lines[-1].endswith("all")
@@ -64,7 +71,9 @@ def test_a_pipe_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys
     assert capsys.readouterr().err == "hitofude: 30% Link rings\nhitofude: 50% Link rings\n"
 
 
-def test_a_pipe_hears_of_a_stage_that_tells_nothing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_pipe_hears_of_a_stage_that_tells_nothing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     clock, stopped = [100.0], Stopping()
     monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
     progress = cli_files.shown_progress(quiet=False, stopped=stopped)
@@ -80,6 +89,11 @@ def test_a_pipe_hears_of_a_stage_that_tells_nothing(monkeypatch: pytest.MonkeyPa
 
 
 def test_a_short_job_says_nothing_of_it_on_a_pipe(tmp_path: Path) -> None:
-    done = subprocess.run([sys.executable, "-P", "-m", "app", "make", str(FIG2), "-o", str(tmp_path / "a.ngc")], check=False,
-                          capture_output=True, text=True, cwd=FIG2.parents[2])  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-P", "-m", "app", "make", str(FIG2), "-o", str(tmp_path / "a.ngc")],
+        check=False,
+        capture_output=True,
+        text=True,
+        cwd=FIG2.parents[2],
+    )
     assert "%" not in done.stderr

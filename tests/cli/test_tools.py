@@ -14,7 +14,9 @@ FIG2 = ROOT / "resources/samples/fig2.dxf"
 
 
 def test_what_fig2_wants(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Its circle has a radius of 12; the polygon has sharp corners alone; the triangle stands 14 mm from the wall below."""
+    """Its circle has a radius of 12; the polygon has sharp corners alone; the triangle stands 14 mm from the wall
+    below.
+    """
     assert main(["tools", str(FIG2), "--report", str(tmp_path / "r.json")]) == 0
     shown = capsys.readouterr().out
     assert "fig2.dxf: take T" in shown
@@ -37,14 +39,19 @@ def test_tools_of_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert "T3" not in shown
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ([], "DRAWING is missing"),
-    ([str(FIG2), "--layer", "walls"], "no layer walls"),
-    ([str(FIG2), "--depth", "0"], "--depth is 0 mm"),
-    ([str(FIG2), "--tools", "x.doc"], "does not exist"),
-    ([str(FIG2), "--report", str(FIG2)], "is also an input"),
-])  # fmt: skip
-def test_what_is_wrong_is_told_in_one_line(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "DRAWING is missing"),
+        ([str(FIG2), "--layer", "walls"], "no layer walls"),
+        ([str(FIG2), "--depth", "0"], "--depth is 0 mm"),
+        ([str(FIG2), "--tools", "x.doc"], "does not exist"),
+        ([str(FIG2), "--report", str(FIG2)], "is also an input"),
+    ],
+)
+def test_what_is_wrong_is_told_in_one_line(
+    arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["tools", *arguments]) == 2
     shown = capsys.readouterr()
     assert (shown.out, shown.err.count("\n")) == ("", 1)

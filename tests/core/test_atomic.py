@@ -33,7 +33,9 @@ def test_where_one_cannot_be_written_none_is(tmp_path: Path, order: tuple[int, .
     assert content(tmp_path) == {"a": b"old"}
 
 
-def test_where_a_later_file_cannot_take_its_place_the_earlier_ones_are_put_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_a_later_file_cannot_take_its_place_the_earlier_ones_are_put_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     for name in "ab":
         (tmp_path / name).write_bytes(b"old")
     right = os.replace

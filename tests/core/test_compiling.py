@@ -1,4 +1,6 @@
-"""Kernels are compiled when they are first called, by other processes, and kept; one that cannot be is told and stops nothing else."""
+"""Kernels are compiled when they are first called, by other processes, and kept; one that cannot be is told and stops
+nothing else.
+"""
 
 from __future__ import annotations
 
@@ -42,11 +44,17 @@ def program(tmp_path: Path) -> Path:
     """Three kernels that call one another, and what they need of the program."""
     (tmp_path / "app" / "room").mkdir(parents=True)
     (tmp_path / "app" / "core").mkdir()
-    for package in ("app", "app/core", "app/room"):  # whole packages: one without this file gives way to the program that is installed
+    for package in (
+        "app",
+        "app/core",
+        "app/room",
+    ):  # whole packages: one without this file gives way to the program that is installed
         (tmp_path / package / "__init__.py").touch()
     for name in ("errors.py", "progress.py"):
         shutil.copy(ROOT / "app" / "core" / name, tmp_path / "app" / "core" / name)
-    shutil.copytree(ROOT / "app" / "core" / "jit", tmp_path / "app" / "core" / "jit", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(
+        ROOT / "app" / "core" / "jit", tmp_path / "app" / "core" / "jit", ignore=shutil.ignore_patterns("__pycache__")
+    )
     (tmp_path / "app" / "room" / "inner_kernels.py").write_text(INNER)
     (tmp_path / "app" / "room" / "outer_kernels.py").write_text(OUTER)
     return tmp_path
@@ -55,8 +63,12 @@ def program(tmp_path: Path) -> Path:
 def command(folder: Path, code: str, **more: str) -> dict[str, Any]:
     """How a program in a folder is started, with its own cache and its own temporary folder."""
     (folder / "tmp").mkdir(exist_ok=True)
-    own = {"PYTHONPATH": str(folder), "XDG_CACHE_HOME": str(folder / "cache"), "TMPDIR": str(folder / "tmp"),
-           "PYTHONDONTWRITEBYTECODE": "1"}
+    own = {
+        "PYTHONPATH": str(folder),
+        "XDG_CACHE_HOME": str(folder / "cache"),
+        "TMPDIR": str(folder / "tmp"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     environment = {name: value for name, value in os.environ.items() if name != "HITOFUDE_KERNELS"} | own | more
     return {"args": [sys.executable, "-c", code], "cwd": folder, "env": environment, "text": True}
 
@@ -67,7 +79,10 @@ def run(folder: Path, code: str, **more: str) -> subprocess.CompletedProcess[str
 
 def entries(folder: Path) -> dict[str, Path]:
     """The kept kernels by their own names."""
-    return {path.name.split("-")[0].rpartition(".")[2]: path for path in (folder / "cache" / "hitofude" / "kernels").glob("*/*")}
+    return {
+        path.name.split("-")[0].rpartition(".")[2]: path
+        for path in (folder / "cache" / "hitofude" / "kernels").glob("*/*")
+    }
 
 
 def test_what_is_called_is_compiled_kept_and_found_again(program: Path) -> None:
@@ -116,14 +131,21 @@ print(outer(1.0))
 
 
 def test_an_inner_kernel_has_no_door_for_python(program: Path) -> None:
-    done = run(program, "from app.room.inner_kernels import _twice\ntry: _twice(1.0)\nexcept TypeError as error: print(error)")
+    done = run(
+        program, "from app.room.inner_kernels import _twice\ntry: _twice(1.0)\nexcept TypeError as error: print(error)"
+    )
     assert "called by kernels alone" in done.stdout
 
 
 @pytest.mark.exhaustive
 def test_processes_that_fill_the_cache_at_once_all_get_what_they_want(program: Path) -> None:
-    code = "from app.room.outer_kernels import outer; from app.room.inner_kernels import inner; print(outer(1.0), inner(1.0))"
-    started = [subprocess.Popen(**command(program, code), stdout=subprocess.PIPE, stderr=subprocess.PIPE) for _ in range(4)]
+    code = (
+        "from app.room.outer_kernels import outer; from app.room.inner_kernels import inner; print(outer(1.0), "
+        "inner(1.0))"
+    )
+    started = [
+        subprocess.Popen(**command(program, code), stdout=subprocess.PIPE, stderr=subprocess.PIPE) for _ in range(4)
+    ]
     assert [process.communicate(timeout=300)[0].split() for process in started] == [["4.0", "2.0"]] * 4
     assert [process.returncode for process in started] == [0] * 4
     assert set(entries(program)) == {"outer", "inner", "_twice"}
@@ -165,8 +187,14 @@ def test_the_command_line_says_once_that_it_is_the_first_time_only(tmp_path: Pat
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
     told = []
     for _ in range(2):
-        done = subprocess.run([sys.executable, "-m", "app", "check", str(tmp_path / "t.ngc")], cwd=ROOT, env=environment,
-                              capture_output=True, text=True, timeout=300)
+        done = subprocess.run(
+            [sys.executable, "-m", "app", "check", str(tmp_path / "t.ngc")],
+            cwd=ROOT,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
         assert done.returncode == 0
         told.append(done.stderr.splitlines())
     assert len(told[0]) == 1 and "this first time only" in told[0][0]
@@ -175,15 +203,20 @@ def test_the_command_line_says_once_that_it_is_the_first_time_only(tmp_path: Pat
 
 @pytest.mark.exhaustive
 def test_a_kernel_that_cannot_be_compiled_stops_nothing_else(tmp_path: Path) -> None:
-    """The program is copied, one of its kernels is broken, and one that comes behind it in the order of names is asked for."""
+    """The program is copied, one of its kernels is broken, and one that comes behind it in the order of names is asked
+    for.
+    """
     for name in ("app", "resources"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__", "ui"))
     kernels = sorted(path.relative_to(tmp_path) for path in (tmp_path / "app").glob("*/**/*kernels*.py"))
     for path in kernels:
-        (tmp_path / path).write_text('from app.core.jit import kernel\n\n\n@kernel("int64(int64)")\ndef f(x):\n    return x + 1\n')
+        (tmp_path / path).write_text(
+            'from app.core.jit import kernel\n\n\n@kernel("int64(int64)")\ndef f(x):\n    return x + 1\n'
+        )
     broken, last = kernels[0], kernels[-1]
     (tmp_path / broken).write_text(
-        'from app.core.jit import kernel\n\n\n@kernel("int64(int64)")\ndef f(x):\n    return x.no_such_thing + undefined_name\n'
+        'from app.core.jit import kernel\n\n\n@kernel("int64(int64)")\ndef f(x):\n    return x.no_such_thing + '
+        "undefined_name\n"
     )
     names = [".".join(path.with_suffix("").parts) for path in (broken, last)]
     code = f"""

@@ -13,11 +13,18 @@ from app.gcode.interpreter.program import Problem
 from app.model.finding import Finding, FindingKind
 
 
-@pytest.mark.parametrize(("text", "shown"), [
-    ("plain, 刃 and\xa0blanks\u3000stay", "plain, 刃 and\xa0blanks\u3000stay"),
-    ("\x1b[2Jgone", "\\x1b[2Jgone"), ("a\nb\tc\r", "a b c "), ("\x00\x9b", "\\x00\\x9b"),
-    ("txt.\u202efxd", "txt.\\u202efxd"), ("\udc80", "\\udc80"), ("a\u2028b", "a\\u2028b"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("plain, 刃 and\xa0blanks\u3000stay", "plain, 刃 and\xa0blanks\u3000stay"),
+        ("\x1b[2Jgone", "\\x1b[2Jgone"),
+        ("a\nb\tc\r", "a b c "),
+        ("\x00\x9b", "\\x00\\x9b"),
+        ("txt.\u202efxd", "txt.\\u202efxd"),
+        ("\udc80", "\\udc80"),
+        ("a\u2028b", "a\\u2028b"),
+    ],
+)
 def test_signs_that_a_terminal_obeys_are_spelled_out(text: str, shown: str) -> None:
     assert printable(text) == shown
     assert str(InputError(text)) == shown
@@ -25,7 +32,9 @@ def test_signs_that_a_terminal_obeys_are_spelled_out(text: str, shown: str) -> N
     assert Problem(3, 1, "", text).told("p.ngc") == f"p.ngc:3:1: {shown}"
 
 
-def test_no_byte_of_a_program_reaches_the_terminal_as_a_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_byte_of_a_program_reaches_the_terminal_as_a_command(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "a.ngc"
     path.write_bytes(b"G0 X1 \x1b[2J\n")
     assert main(["check", str(path)]) == 1
@@ -34,7 +43,9 @@ def test_no_byte_of_a_program_reaches_the_terminal_as_a_command(tmp_path: Path, 
 
 
 def test_a_name_that_is_no_text_is_told_and_not_passed_over(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A lone half of a sign cannot be printed in UTF-8: the whole sentence was lost, and the exit status alone told of a fault."""
+    """A lone half of a sign cannot be printed in UTF-8: the whole sentence was lost, and the exit status alone told of
+    a fault.
+    """
     assert main(["check", str(tmp_path / "\udcff.ngc")]) == 2
     assert "\\udcff.ngc" in capsys.readouterr().err
 

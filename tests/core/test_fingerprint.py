@@ -35,10 +35,20 @@ def digest_of(source: str, text: str = "") -> str:
 
 @pytest.mark.parametrize(
     ("before", "after"),
-    [("FACTOR = 2.0", "FACTOR = 2.5"), ("FACTOR = 2.0", "FACTOR = 2"), ("[1.0, 2.0]", "[1.0, 3.0]"), ("[1.0, 2.0]", "[1, 2]"),
-     ("[1.0, 2.0]", "[[1.0], [2.0]]"), ("(1, 2)", "(1, 2, 3)"), ("x + 1", "x + 2"), ("FACTOR * x", "FACTOR - x"), ("[0]", "[1]"),
-     ("import sqrt", "import floor as sqrt"), ("def f(x)", "def f(x, y=0)")],
-)  # fmt: skip
+    [
+        ("FACTOR = 2.0", "FACTOR = 2.5"),
+        ("FACTOR = 2.0", "FACTOR = 2"),
+        ("[1.0, 2.0]", "[1.0, 3.0]"),
+        ("[1.0, 2.0]", "[1, 2]"),
+        ("[1.0, 2.0]", "[[1.0], [2.0]]"),
+        ("(1, 2)", "(1, 2, 3)"),
+        ("x + 1", "x + 2"),
+        ("FACTOR * x", "FACTOR - x"),
+        ("[0]", "[1]"),
+        ("import sqrt", "import floor as sqrt"),
+        ("def f(x)", "def f(x, y=0)"),
+    ],
+)
 def test_what_is_computed_otherwise_has_another(before: str, after: str) -> None:
     assert digest_of(SOURCE.replace(before, after)) != digest_of(SOURCE)
 
@@ -47,7 +57,9 @@ def test_another_signature_has_another() -> None:
     assert digest_of(SOURCE, "float64(float64)") != digest_of(SOURCE, "float32(float32)")
 
 
-@pytest.mark.parametrize("after", ["\n\n\n" + SOURCE, SOURCE + "\nUNUSED = 3\n", SOURCE.replace("def f(x):", "def f(x):  # says why")])
+@pytest.mark.parametrize(
+    "after", ["\n\n\n" + SOURCE, SOURCE + "\nUNUSED = 3\n", SOURCE.replace("def f(x):", "def f(x):  # says why")]
+)
 def test_what_is_computed_alike_has_the_same(after: str) -> None:
     assert digest_of(after) == digest_of(SOURCE)
 
@@ -71,6 +83,10 @@ def test_every_kernel_is_wanted_by_python_or_by_another_kernel() -> None:
     words = {path: set(re.findall(r"\w+", path.read_text("utf-8"))) for path in (ROOT / "app").rglob("*.py")}
 
     def named(kernel: Kernel) -> bool:
-        return any(kernel.function.__name__ in some for path, some in words.items() if path != Path(kernel.function.__code__.co_filename))
+        return any(
+            kernel.function.__name__ in some
+            for path, some in words.items()
+            if path != Path(kernel.function.__code__.co_filename)
+        )
 
     assert not [kernel.name for kernel in REGISTERED if kernel not in called and (kernel.inner or not named(kernel))]

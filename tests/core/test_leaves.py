@@ -1,4 +1,6 @@
-"""The leaves of the house: settings, files that appear whole, threads, compiled kernels, and the window library's health."""
+"""The leaves of the house: settings, files that appear whole, threads, compiled kernels, and the window library's
+health.
+"""
 
 import json
 import os
@@ -30,14 +32,18 @@ def test_first_start_has_defaults() -> None:
     assert load_settings() == Settings()
 
 
-@pytest.mark.parametrize("text", ["", "{", "[1]", '{"theme": "pink", "recent_files": 7, "window_state": null, "unknown": 1}', "\x00\xff"])
+@pytest.mark.parametrize(
+    "text", ["", "{", "[1]", '{"theme": "pink", "recent_files": 7, "window_state": null, "unknown": 1}', "\x00\xff"]
+)
 def test_damaged_settings_become_defaults(text: str) -> None:
     config_folder().joinpath("settings.json").write_text(text, "utf-8")
     assert load_settings() == Settings()
 
 
 def test_what_is_right_in_damaged_settings_stays() -> None:
-    config_folder().joinpath("settings.json").write_text(json.dumps({"theme": "dark", "recent_files": ["/a", 3], "last_folder": 1}))
+    config_folder().joinpath("settings.json").write_text(
+        json.dumps({"theme": "dark", "recent_files": ["/a", 3], "last_folder": 1})
+    )
     assert load_settings() == Settings(ThemeChoice.DARK, ("/a",))
 
 

@@ -1,4 +1,6 @@
-"""The door that memory is asked at: sizes in words, budgets by context, refusals, portions, and what the machine has."""
+"""The door that memory is asked at: sizes in words, budgets by context, refusals, portions, and what the machine
+has.
+"""
 
 from __future__ import annotations
 
@@ -36,10 +38,17 @@ from tests.conftest import ROOT
 FIG2 = ROOT / "resources" / "samples" / "fig2.dxf"
 
 
-@pytest.mark.parametrize(("text", "size"), [
-    ("4G", 4_000_000_000), ("512M", 512_000_000), ("1.5g", 1_500_000_000), ("2 GB", 2_000_000_000),
-    ("3000000", 3_000_000), ("50MiB", 50_000_000),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "size"),
+    [
+        ("4G", 4_000_000_000),
+        ("512M", 512_000_000),
+        ("1.5g", 1_500_000_000),
+        ("2 GB", 2_000_000_000),
+        ("3000000", 3_000_000),
+        ("50MiB", 50_000_000),
+    ],
+)
 def test_sizes(text: str, size: int) -> None:
     assert read_size(text) == size
 
@@ -50,7 +59,9 @@ def test_what_is_no_size(text: str) -> None:
         read_size(text)
 
 
-@pytest.mark.parametrize(("size", "words"), [(5e5, "0 MB"), (1.25e6, "1.25 MB"), (49.96e6, "50 MB"), (123.4e6, "123 MB"), (2e9, "2 GB")])
+@pytest.mark.parametrize(
+    ("size", "words"), [(5e5, "0 MB"), (1.25e6, "1.25 MB"), (49.96e6, "50 MB"), (123.4e6, "123 MB"), (2e9, "2 GB")]
+)
 def test_in_words(size: float, words: str) -> None:
     assert in_words(size) == words
 
@@ -91,8 +102,11 @@ def test_what_is_too_much_is_refused_in_one_line() -> None:
     with within(50_000_000), pytest.raises(MemoryShortError) as told:
         ask(2e9, "A grid of 9 x 9 cells", f"use fewer cells (--grid {fewer(9, 2e9, 2)})")
     said = str(told.value)
-    assert re.fullmatch(r"A grid of 9 x 9 cells would take 2 GB of memory, and [45]\d(\.\d)? MB may be taken; "
-                        r"use fewer cells \(--grid 1\), or allow more with --memory 2\.\dG\.", said)  # fmt: skip
+    assert re.fullmatch(
+        r"A grid of 9 x 9 cells would take 2 GB of memory, and [45]\d(\.\d)? MB may be taken; "
+        r"use fewer cells \(--grid 1\), or allow more with --memory 2\.\dG\.",
+        said,
+    )
     assert read_size(said.rpartition(" ")[2].rstrip(".")) > 2e9
     shown = told.value.in_window()
     assert "--" not in shown and "use fewer cells, or allow more in the menu Compute, Memory of a job." in shown
@@ -116,10 +130,15 @@ def test_parts_fit() -> None:
         ask(3_000_000, "A few cells, whatever is left,", "nothing")
 
 
-@pytest.mark.parametrize(("line", "file"), [
-    ("0::/jobs/one", "jobs/memory.max"), ("0::/jobs/one", "jobs/one/memory.max"),
-    ("4:cpu,memory:/jobs/one", "memory/memory.limit_in_bytes"), ("4:memory:/jobs/one", "memory/jobs/one/memory.limit_in_bytes"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "file"),
+    [
+        ("0::/jobs/one", "jobs/memory.max"),
+        ("0::/jobs/one", "jobs/one/memory.max"),
+        ("4:cpu,memory:/jobs/one", "memory/memory.limit_in_bytes"),
+        ("4:memory:/jobs/one", "memory/jobs/one/memory.limit_in_bytes"),
+    ],
+)
 def test_limits_of_groups_of_processes_are_kept(tmp_path: Path, line: str, file: str) -> None:
     (tmp_path / "proc" / "self").mkdir(parents=True)
     (tmp_path / "proc" / "self" / "cgroup").write_text(f"2:cpu:/\n{line}\n")
@@ -131,8 +150,9 @@ def test_limits_of_groups_of_processes_are_kept(tmp_path: Path, line: str, file:
     assert machine_memory(tmp_path / "proc", tmp_path / "groups") == machine_memory(tmp_path, tmp_path) > 123_000_000
 
 
-def test_memory_that_runs_out_unasked_is_told_with_its_stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-                                                             capsys: pytest.CaptureFixture[str]) -> None:  # fmt: skip
+def test_memory_that_runs_out_unasked_is_told_with_its_stage(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     def greedy(*args: object, **_: object) -> None:
         args[-1].step(0.3, "Link rings")  # type: ignore[attr-defined]
         np.empty(1 << 36)  # more than anybody has
@@ -142,7 +162,9 @@ def test_memory_that_runs_out_unasked_is_told_with_its_stage(tmp_path: Path, mon
         pytest.skip("only Linux bounds the data of a process")
     assert main(["make", str(FIG2), "-o", str(tmp_path / "a.ngc"), "--memory=50M"]) == 2
     said = capsys.readouterr().err
-    assert said.startswith("hitofude: the memory that the job may take, 50 MB, ran out, at: Link rings; allow more with --memory")
+    assert said.startswith(
+        "hitofude: the memory that the job may take, 50 MB, ran out, at: Link rings; allow more with --memory"
+    )
     assert said.count("\n") == 1 and not list(tmp_path.iterdir())
 
 
@@ -166,7 +188,9 @@ sys.exit(main(sys.argv[1:]))
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_stage_that_hears_no_signal_is_ended(tmp_path: Path, number: signal.Signals) -> None:
     command = [sys.executable, "-c", DEAF, "make", str(FIG2), "-o", str(tmp_path / "a.ngc")]
-    running = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ)
+    running = subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
+    )
     assert running.stdout is not None
     assert running.stdout.readline() == "deaf\n"
     time.sleep(0.3)

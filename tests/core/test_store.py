@@ -170,6 +170,12 @@ def test_reading_notes_the_use(tmp_path: Path) -> None:
 
 def test_a_closed_stderr_is_no_reason_to_fail(program: Path) -> None:
     code = "import sys; sys.stderr = None\n" + SHORT
-    done = subprocess.run([sys.executable, "-c", code], cwd=program, capture_output=True, text=True, timeout=300,
-                          env=os.environ | {"PYTHONPATH": str(program), "XDG_CACHE_HOME": "/dev/null/a", "TMPDIR": "/dev/null/b"})
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=program,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        env=os.environ | {"PYTHONPATH": str(program), "XDG_CACHE_HOME": "/dev/null/a", "TMPDIR": "/dev/null/b"},
+    )
     assert done.stdout.split() == ["4.0"]

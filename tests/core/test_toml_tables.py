@@ -41,18 +41,21 @@ def test_what_is_written_is_read_again(value: Outer) -> None:
     assert read_tables(Outer, "a.toml", write_tables(value).encode(), {}) == value
 
 
-@pytest.mark.parametrize(("old", "new", "words"), [
-    ('colour = "blue"', 'colour = "green"', r"a\.toml:3: colour is 'green'; expected is 'red' or 'blue'"),
-    ("count = 3", "count = 3.5", r"a\.toml:2: count is 3\.5; expected is a whole number"),
-    ("count = 3", "count = true", r"a\.toml:2: count is True; expected is a whole number"),
-    ("ready = false", "ready = 0", r"ready is 0; expected is true or false"),
-    ("[1.0, -2.5]", "[1.0]", r"a\.toml:4: place is \[1\.0\]; expected is a list of 2 numbers"),
-    ('["x", "y"]', '["x", 2]', r"inner\.names is \['x', 2\]; expected is a list of texts"),
-    ("size = 1.5", "size = 9", r"a\.toml:8: inner\.size is 9; expected is a number from 0 to 5"),
-    ("size = 1.5", "", r"inner\.size is missing; add a number"),
-    ("[inner]", "[other]", r"other is not known"),
-    ("[inner]", "inner = 3\n[x]", r"is not known|inner is 3"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('colour = "blue"', 'colour = "green"', r"a\.toml:3: colour is 'green'; expected is 'red' or 'blue'"),
+        ("count = 3", "count = 3.5", r"a\.toml:2: count is 3\.5; expected is a whole number"),
+        ("count = 3", "count = true", r"a\.toml:2: count is True; expected is a whole number"),
+        ("ready = false", "ready = 0", r"ready is 0; expected is true or false"),
+        ("[1.0, -2.5]", "[1.0]", r"a\.toml:4: place is \[1\.0\]; expected is a list of 2 numbers"),
+        ('["x", "y"]', '["x", 2]', r"inner\.names is \['x', 2\]; expected is a list of texts"),
+        ("size = 1.5", "size = 9", r"a\.toml:8: inner\.size is 9; expected is a number from 0 to 5"),
+        ("size = 1.5", "", r"inner\.size is missing; add a number"),
+        ("[inner]", "[other]", r"other is not known"),
+        ("[inner]", "inner = 3\n[x]", r"is not known|inner is 3"),
+    ],
+)
 def test_what_is_wrong_is_named_with_file_line_and_key(old: str, new: str, words: str) -> None:
     text = write_tables(FULL)
     assert old in text
@@ -84,24 +87,45 @@ class Drawer:
     spare: Disc | None = None
 
 
-@pytest.mark.parametrize("value", [
-    Drawer(Disc(2.0)), Drawer(Ring((1.0, 2.0)), Disc(3.0)), Drawer(Ring((1.0, 2.0, 3.0), (Disc(0.5), Disc(0.25)))), Drawer(Ring(())),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "value",
+    [
+        Drawer(Disc(2.0)),
+        Drawer(Ring((1.0, 2.0)), Disc(3.0)),
+        Drawer(Ring((1.0, 2.0, 3.0), (Disc(0.5), Disc(0.25)))),
+        Drawer(Ring(())),
+    ],
+)
 def test_one_of_several_tables_is_told_by_its_kind(value: Drawer) -> None:
     text = write_tables(value)
     assert f'[shape]\nkind = "{value.shape.kind}"\n' in text
     assert read_tables(Drawer, "a.toml", text.encode(), {}) == value
 
 
-@pytest.mark.parametrize(("text", "words"), [
-    ("[shape]\nradius = 1", r'^a\.toml:1: shape\.kind is missing; add kind = "disc" or "ring"\.$'),
-    ("[shape]\nradius = 1\nkind = 'star'", r"^a\.toml:3: shape\.kind is 'star'; expected is \"disc\" or \"ring\"\.$"),
-    ("[shape]\nkind = ['disc']", r"^a\.toml:2: shape\.kind is \['disc'\]; expected is"),
-    ("shape = 3", r"^a\.toml:1: shape is 3; expected is a table with kind = \"disc\" or \"ring\"\.$"),
-    ("[shape]\nkind = 'ring'\nradii = [1, 'a']", r"^a\.toml:3: shape\.radii is \[1, 'a'\]; expected is a list of numbers\.$"),
-    ("\nshape = { kind = 'disc', size = 1 }", r"^a\.toml:2: shape\.size is not known; expected are kind, radius\.$"),
-    ("\nshape = { kind = 'ring', radii = [], holes = [{ radius = 'a' }] }", r"^a\.toml:2: shape\.holes\[1\]\.radius is 'a'; expected"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[shape]\nradius = 1", r'^a\.toml:1: shape\.kind is missing; add kind = "disc" or "ring"\.$'),
+        (
+            "[shape]\nradius = 1\nkind = 'star'",
+            r"^a\.toml:3: shape\.kind is 'star'; expected is \"disc\" or \"ring\"\.$",
+        ),
+        ("[shape]\nkind = ['disc']", r"^a\.toml:2: shape\.kind is \['disc'\]; expected is"),
+        ("shape = 3", r"^a\.toml:1: shape is 3; expected is a table with kind = \"disc\" or \"ring\"\.$"),
+        (
+            "[shape]\nkind = 'ring'\nradii = [1, 'a']",
+            r"^a\.toml:3: shape\.radii is \[1, 'a'\]; expected is a list of numbers\.$",
+        ),
+        (
+            "\nshape = { kind = 'disc', size = 1 }",
+            r"^a\.toml:2: shape\.size is not known; expected are kind, radius\.$",
+        ),
+        (
+            "\nshape = { kind = 'ring', radii = [], holes = [{ radius = 'a' }] }",
+            r"^a\.toml:2: shape\.holes\[1\]\.radius is 'a'; expected",
+        ),
+    ],
+)
 def test_a_table_of_a_wrong_kind_is_told_with_its_line(text: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
         read_tables(Drawer, "a.toml", text.encode(), {})

@@ -28,7 +28,8 @@ def test_arrows_touch_the_extension_lines_and_point_outward() -> None:
     assert [head[1][0] for head in drawn.heads] == [3.0, 27.0]
     assert drawn.lines[-1] == Line((0.0, 10.0), (30.0, 10.0))
     assert [(line.start, line.end) for line in drawn.lines[:2]] == [
-        (pytest.approx((x, 1.2)), pytest.approx((x, 11.8))) for x in (0.0, 30.0)]
+        (pytest.approx((x, 1.2)), pytest.approx((x, 11.8))) for x in (0.0, 30.0)
+    ]
     assert (drawn.at, drawn.angle) == ((15.0, 10.0), 0.0)
 
 
@@ -42,7 +43,9 @@ def test_figures_are_never_upside_down() -> None:
     for degrees in range(0, 360, 15):
         way = (math.cos(math.radians(degrees)) * 20, math.sin(math.radians(degrees)) * 20)
         for kind in (Measure.ALIGNED, Measure.DIAMETER):
-            assert -math.pi / 2 < dimension_lines(Dimension(kind, ((0.0, 0.0), way), way), 3.0).angle <= math.pi / 2 + 1e-9
+            assert (
+                -math.pi / 2 < dimension_lines(Dimension(kind, ((0.0, 0.0), way), way), 3.0).angle <= math.pi / 2 + 1e-9
+            )
 
 
 def test_a_radius_begins_at_the_centre_and_ends_on_the_circle() -> None:
@@ -56,7 +59,7 @@ def test_a_radius_begins_at_the_centre_and_ends_on_the_circle() -> None:
 
 def test_an_angle_is_an_arc_through_the_place() -> None:
     drawn = dimension_lines(Dimension(Measure.ANGLE, ((0.0, 0.0), (5.0, 0.0), (0.0, 5.0)), (10.0, 0.0)), 2.0)
-    arc, = drawn.arcs
+    (arc,) = drawn.arcs
     assert (arc.start, arc.end, arc.radius, arc.ccw) == ((10.0, 0.0), (0.0, 10.0), 10.0, True)
     assert len(drawn.lines) == 2
 

@@ -28,7 +28,12 @@ def ids(document: Document) -> list[int]:
 def test_a_line_is_drawn_answered_and_logged(document: Document) -> None:
     assert document.run("line 10,10 60,10") == "Line, 50.000 mm."
     assert document.log == [LogLine("line 10,10 60,10", "Line, 50.000 mm.")]
-    assert (len(document.part.entities), document.revision, document.modified, document.undo_name) == (1, 1, True, "Line")
+    assert (len(document.part.entities), document.revision, document.modified, document.undo_name) == (
+        1,
+        1,
+        True,
+        "Line",
+    )
 
 
 def test_a_refused_line_changes_nothing_and_is_logged(document: Document) -> None:
@@ -104,7 +109,9 @@ def test_selecting_is_no_change_of_the_job(document: Document) -> None:
 
 
 def test_hidden_and_locked_layers_are_not_selected() -> None:
-    circles = tuple(Entity(n, Circle((n * 10.0, 0.0), 1.0), name) for n, name in ((1, "0"), (2, "hidden"), (3, "locked")))
+    circles = tuple(
+        Entity(n, Circle((n * 10.0, 0.0), 1.0), name) for n, name in ((1, "0"), (2, "hidden"), (3, "locked"))
+    )
     document = Document(Job(Part(circles, (Layer(), Layer("hidden", visible=False), Layer("locked", locked=True)))))
     document.run("select all")
     assert document.selection == {1}
@@ -215,8 +222,26 @@ def test_a_wrong_line_of_a_list_is_found(document: Document) -> None:
         document.run_script("circle 0,0 1\n\nline x\n", "plate.draw")
 
 
-LINES = st.sampled_from(["line 0,0 10,0", "line @0,0 @5,5", "rect 1,1 9,9", "circle 5,5 2", "select all", "select 1", "select none",
-                         "delete", "delete 2", "move @1,1", "undo", "redo", "layer a", "layer b 1", "arc 0,0 5,5 10,0", "nonsense"])
+LINES = st.sampled_from(
+    [
+        "line 0,0 10,0",
+        "line @0,0 @5,5",
+        "rect 1,1 9,9",
+        "circle 5,5 2",
+        "select all",
+        "select 1",
+        "select none",
+        "delete",
+        "delete 2",
+        "move @1,1",
+        "undo",
+        "redo",
+        "layer a",
+        "layer b 1",
+        "arc 0,0 5,5 10,0",
+        "nonsense",
+    ]
+)
 
 
 @settings(max_examples=examples(60), deadline=None)
@@ -246,7 +271,12 @@ def test_a_drawing_that_is_read_again_is_one_step_that_undo_takes_back_with_how_
     document.select({1})
     part = Part(layers=(Layer("cut"),)).with_curves([Line((0, 0), (25.4, 0))], "cut")
     document.read_again("Read a.dxf", replace(document.job, part=part), second)
-    assert (document.part, document.state.source, document.selection, document.layer) == (part, second, frozenset(), "cut")
+    assert (document.part, document.state.source, document.selection, document.layer) == (
+        part,
+        second,
+        frozenset(),
+        "cut",
+    )
     assert set(document.state.names) == {"w"}, "a name of curves that are no longer there"
     assert document.recorded.base is part
     document.run("circle 0,0 1")

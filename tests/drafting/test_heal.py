@@ -26,8 +26,15 @@ def kinds(document: Document, tolerance: float = 0.01) -> list[tuple[FaultKind, 
 
 
 def test_each_kind_is_found_with_its_place_and_its_size() -> None:
-    document = drawn("rect 0,0 60,40", "line 0,0 60,0", "line 100,0 100,0.005", "line 30,40 80,40", "line 80,40.004 80,20", "circle 5,5 2",
-                     "circle 5,5 2.003 cw")
+    document = drawn(
+        "rect 0,0 60,40",
+        "line 0,0 60,0",
+        "line 100,0 100,0.005",
+        "line 30,40 80,40",
+        "line 80,40.004 80,20",
+        "circle 5,5 2",
+        "circle 5,5 2.003 cw",
+    )
     faults = {fault.kind: fault for fault in found_faults(document.part, 0.01)}
     assert faults[FaultKind.TINY].ids == (6,) and faults[FaultKind.TINY].size == pytest.approx(0.005)
     assert [f.ids for f in found_faults(document.part, 0.01) if f.kind is FaultKind.DUPLICATE] == [(1, 5), (9, 10)]
@@ -36,14 +43,17 @@ def test_each_kind_is_found_with_its_place_and_its_size() -> None:
     assert set(gap.ids) == {7, 8} and gap.size == pytest.approx(0.004) and gap.place == pytest.approx((80, 40.002))
 
 
-@pytest.mark.parametrize(("lines", "left", "reply"), [
-    (["line 0,0 10,0", "line 10,0 0,0"], 1, "1 duplicate removed."),
-    (["line 0,0 10,0", "line 2,0 5,0.005"], 1, "1 overlap removed."),
-    (["circle 0,0 5", "arc 5,0 0,5 centre 0,0"], 1, "1 overlap removed."),
-    (["spline 0,0 5,5 10,0 15,5", "spline 15,5 10,0 5,5 0,0"], 1, "1 duplicate removed."),
-    (["ellipse 0,0 5,0 3", "ellipse 0,0 5,0 3 cw"], 1, "1 duplicate removed."),
-    (["line 0,0 10,0", "line 0,1 10,1", "line 0,0 0,1", "arc 5,0 0,5 centre 0,0"], 4, "Nothing to mend."),
-])
+@pytest.mark.parametrize(
+    ("lines", "left", "reply"),
+    [
+        (["line 0,0 10,0", "line 10,0 0,0"], 1, "1 duplicate removed."),
+        (["line 0,0 10,0", "line 2,0 5,0.005"], 1, "1 overlap removed."),
+        (["circle 0,0 5", "arc 5,0 0,5 centre 0,0"], 1, "1 overlap removed."),
+        (["spline 0,0 5,5 10,0 15,5", "spline 15,5 10,0 5,5 0,0"], 1, "1 duplicate removed."),
+        (["ellipse 0,0 5,0 3", "ellipse 0,0 5,0 3 cw"], 1, "1 duplicate removed."),
+        (["line 0,0 10,0", "line 0,1 10,1", "line 0,0 0,1", "arc 5,0 0,5 centre 0,0"], 4, "Nothing to mend."),
+    ],
+)
 def test_what_is_drawn_twice_goes(lines: list[str], left: int, reply: str) -> None:
     document = drawn(*lines)
     assert document.run("heal 0.01") == reply
@@ -51,8 +61,15 @@ def test_what_is_drawn_twice_goes(lines: list[str], left: int, reply: str) -> No
 
 
 def test_what_overlaps_on_a_layer_becomes_one() -> None:
-    document = drawn("line 0,0 10,0", "line 14,0 6,0.004", "line 13,0 40,0", "arc 5,100 -5,100 centre 0,100", "arc 0,105 0,95 centre 0,100",
-                     "arc 55,0 45,0 centre 50,0", "arc 45.5,2.179449471770337 55,0 centre 50,0 ")
+    document = drawn(
+        "line 0,0 10,0",
+        "line 14,0 6,0.004",
+        "line 13,0 40,0",
+        "arc 5,100 -5,100 centre 0,100",
+        "arc 0,105 0,95 centre 0,100",
+        "arc 55,0 45,0 centre 50,0",
+        "arc 45.5,2.179449471770337 55,0 centre 50,0 ",
+    )
     assert document.run("heal 0.01") == "4 overlaps removed."
     assert {e.id for e in document.part.entities} == {3, 4, 7} and not kinds(document)
     assert document.part.curve(3) == Line((0, 0), (40, 0))
@@ -67,8 +84,15 @@ def test_curves_that_end_on_an_overlap_keep_their_places() -> None:
 
 
 def test_of_an_overlap_across_layers_the_rest_stays_and_joins() -> None:
-    document = drawn("line 0,0 10,0", "layer b", "line 6,0 14,0", "layer a", "arc 5,100 -5,100 centre 0,100", "layer b",
-                     "arc 0,105 0,95 centre 0,100")
+    document = drawn(
+        "line 0,0 10,0",
+        "layer b",
+        "line 6,0 14,0",
+        "layer a",
+        "arc 5,100 -5,100 centre 0,100",
+        "layer b",
+        "arc 0,105 0,95 centre 0,100",
+    )
     document.run("heal 0.01")
     assert document.part.curve(2) == Line((10, 0), (14, 0))
     rest = document.part.curve(4)
@@ -88,7 +112,9 @@ def test_gaps_are_closed_half_way_and_arcs_keep_their_sweep() -> None:
 def test_where_a_tiny_curve_was_its_neighbours_meet() -> None:
     document = drawn("line 0,0 10,0 10.004,0.003 20,10")
     assert document.run("heal 0.01") == "1 tiny curve removed, 1 gap closed."
-    assert [e.id for e in document.part.entities] == [1, 3] and document.part.curve(1).end == document.part.curve(3).start
+    assert [e.id for e in document.part.entities] == [1, 3] and document.part.curve(1).end == document.part.curve(
+        3
+    ).start
 
 
 def test_ends_farther_than_the_tolerance_stay_apart_and_nothing_moves_farther() -> None:
@@ -107,9 +133,15 @@ def test_only_what_is_named_or_can_be_reached_is_mended() -> None:
     assert [e.id for e in document.part.entities] == [1, 3, 4]
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ("heal 0", "greater than 0"), ("heal 11", "at most 10"), ("heal 0.1 99", "no entity 99"), ("heal", "too early"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("heal 0", "greater than 0"),
+        ("heal 11", "at most 10"),
+        ("heal 0.1 99", "no entity 99"),
+        ("heal", "too early"),
+    ],
+)
 def test_what_cannot_be_is_told(line: str, says: str) -> None:
     with pytest.raises(InputError, match=says):
         drawn("line 0,0 1,1").run(line)
@@ -128,7 +160,10 @@ def test_a_mended_drawing_has_no_faults_and_nothing_moved_far(seed: int) -> None
     chance = random.Random(seed)
     document = Document()
     for _ in range(12):
-        x, y = chance.randint(0, 4) * 10 + chance.uniform(-0.004, 0.004), chance.randint(0, 4) * 10 + chance.uniform(-0.004, 0.004)
+        x, y = (
+            chance.randint(0, 4) * 10 + chance.uniform(-0.004, 0.004),
+            chance.randint(0, 4) * 10 + chance.uniform(-0.004, 0.004),
+        )
         turn = chance.choice((0, 90, 180, 270))
         line = f"line {x},{y} {x + 10 * math.cos(math.radians(turn))},{y + 10 * math.sin(math.radians(turn))}"
         document.run(line if chance.random() < 0.8 else f"arc {x},{y} {x + 10},{y} radius {chance.choice((5, 10, 20))}")
@@ -139,7 +174,11 @@ def test_a_mended_drawing_has_no_faults_and_nothing_moved_far(seed: int) -> None
             for point in (entity.curve.start, entity.curve.end):
                 assert min(_from_line(was, point) for was in before.values() if isinstance(was, Line)) <= 0.02 + 1e-9
     again = document.part
-    assert document.run("heal 0.02") == "Nothing to mend." or document.part == again or len(document.part.entities) <= len(again.entities)
+    assert (
+        document.run("heal 0.02") == "Nothing to mend."
+        or document.part == again
+        or len(document.part.entities) <= len(again.entities)
+    )
 
 
 def _from_line(line: Line, point: tuple[float, float]) -> float:

@@ -1,4 +1,6 @@
-"""Curves joined into fewer: gaps close where they meet, and pieces of one line, circle or ellipse become one; and the way back."""
+"""Curves joined into fewer: gaps close where they meet, and pieces of one line, circle or ellipse become one; and the
+way back.
+"""
 
 import math
 import random
@@ -34,18 +36,36 @@ def curves(document: Document) -> dict[int, Curve]:
     return {e.id: e.curve for e in document.part.entities}
 
 
-@pytest.mark.parametrize(("lines", "join", "left"), [
-    (["line 0,0 10,0 25,0 30,0"], "join 1-3", {1: Line((0, 0), (30, 0))}),
-    (["line 10,0 0,0", "line 10,0 20,0"], "join 1-2", {1: Line((20, 0), (0, 0))}),
-    (["line 0,0 10,0", "line 10.006,0 20,0"], "join 1-2", {1: Line((0, 0), (20, 0))}),
-    (["line 0,0 10,0", "line 10.2,0 20,0"], "join within 0.3 1-2", {1: Line((0, 0), (20, 0))}),
-    (["line 0,0 10,0", "line 10.05,0.05 10.05,20"], "join within 0.2 1-2", {1: Line((0, 0), (10.05, 0)), 2: Line((10.05, 0), (10.05, 20))}),
-    (["arc 5,0 0,5 centre 0,0", "arc 0,5 -5,0 centre 0,0", "line -5,0 -9,0"], "join 1-3",
-     {1: Arc((5, 0), (-5, 0), (0, 0)), 3: Line((-5, 0), (-9, 0))}),
-    (["arc 5,0 0,5 centre 0,0", "arc 5,0 0,5 centre 0,0 cw"], "join 1-2", {1: Circle((0, 0), 5)}),
-    (["line 5,0 10,0 10,10 0,10 0,0 5,0"], "join 1-5", {1: Line((0, 0), (10, 0)), 2: Line((10, 0), (10, 10)),
-                                                      3: Line((10, 10), (0, 10)), 4: Line((0, 10), (0, 0))}),
-])
+@pytest.mark.parametrize(
+    ("lines", "join", "left"),
+    [
+        (["line 0,0 10,0 25,0 30,0"], "join 1-3", {1: Line((0, 0), (30, 0))}),
+        (["line 10,0 0,0", "line 10,0 20,0"], "join 1-2", {1: Line((20, 0), (0, 0))}),
+        (["line 0,0 10,0", "line 10.006,0 20,0"], "join 1-2", {1: Line((0, 0), (20, 0))}),
+        (["line 0,0 10,0", "line 10.2,0 20,0"], "join within 0.3 1-2", {1: Line((0, 0), (20, 0))}),
+        (
+            ["line 0,0 10,0", "line 10.05,0.05 10.05,20"],
+            "join within 0.2 1-2",
+            {1: Line((0, 0), (10.05, 0)), 2: Line((10.05, 0), (10.05, 20))},
+        ),
+        (
+            ["arc 5,0 0,5 centre 0,0", "arc 0,5 -5,0 centre 0,0", "line -5,0 -9,0"],
+            "join 1-3",
+            {1: Arc((5, 0), (-5, 0), (0, 0)), 3: Line((-5, 0), (-9, 0))},
+        ),
+        (["arc 5,0 0,5 centre 0,0", "arc 5,0 0,5 centre 0,0 cw"], "join 1-2", {1: Circle((0, 0), 5)}),
+        (
+            ["line 5,0 10,0 10,10 0,10 0,0 5,0"],
+            "join 1-5",
+            {
+                1: Line((0, 0), (10, 0)),
+                2: Line((10, 0), (10, 10)),
+                3: Line((10, 10), (0, 10)),
+                4: Line((0, 10), (0, 0)),
+            },
+        ),
+    ],
+)
 def test_pieces_of_one_curve_become_one(lines: list[str], join: str, left: dict[int, Curve]) -> None:
     document = drawn(*lines)
     document.run(join)
@@ -56,11 +76,17 @@ def test_pieces_of_one_curve_become_one(lines: list[str], join: str, left: dict[
         assert sample(made[number]) == pytest.approx(sample(curve))
 
 
-@pytest.mark.parametrize(("lines", "why"), [
-    (["line 0,0 10,0", "line 10.02,0 20,0"], "too far apart"), (["line 0,0 10,0", "line 10,0 20,0.01"], "not one line"),
-    (["line 0,0 10,0", "line 10,0 4,0"], "back again"), (["arc 5,0 0,5 centre 0,0", "arc 0,5 -5,0 radius 5.01"], "not one circle"),
-    (["line 0,0 10,0", "layer cut", "line 10,0 20,0"], "two layers"), (["line 0,0 10,0", "line 10,0 20,0", "line 10,0 10,9"], "a branch"),
-])
+@pytest.mark.parametrize(
+    ("lines", "why"),
+    [
+        (["line 0,0 10,0", "line 10.02,0 20,0"], "too far apart"),
+        (["line 0,0 10,0", "line 10,0 20,0.01"], "not one line"),
+        (["line 0,0 10,0", "line 10,0 4,0"], "back again"),
+        (["arc 5,0 0,5 centre 0,0", "arc 0,5 -5,0 radius 5.01"], "not one circle"),
+        (["line 0,0 10,0", "layer cut", "line 10,0 20,0"], "two layers"),
+        (["line 0,0 10,0", "line 10,0 20,0", "line 10,0 10,9"], "a branch"),
+    ],
+)
 def test_what_is_not_one_stays(lines: list[str], why: str) -> None:
     document = drawn(*lines)
     before = len(document.part.entities)
@@ -109,7 +135,10 @@ def _shaken(curve: Curve, dice: random.Random) -> Curve:
     """Turn some curves round and shorten lines a little."""
     if isinstance(curve, Line):
         share = 0.02 / math.dist(curve.start, curve.end) * dice.random()
-        end = (curve.end[0] + share * (curve.start[0] - curve.end[0]), curve.end[1] + share * (curve.start[1] - curve.end[1]))
+        end = (
+            curve.end[0] + share * (curve.start[0] - curve.end[0]),
+            curve.end[1] + share * (curve.start[1] - curve.end[1]),
+        )
         return Line(curve.start, end) if dice.random() < 0.5 else Line(end, curve.start)
     return curve
 

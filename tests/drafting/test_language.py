@@ -85,26 +85,45 @@ def test_a_polyline_that_ends_where_it_began_closes_by_itself() -> None:
     assert len(drawn("polyline 0,0 5,0 5,5 0,0 close")) == 3
 
 
-@pytest.mark.parametrize(("line", "column", "says"), [
-    ("lime 0,0 1,1", 1, "'lime' is no command"), ("line 0,0", 9, "point"), ("line 0,0 x", 10, "no value"),
-    ("circle 0,0 5 7", 14, "not expected"), ("line 1,2 3,4z", 13, "no unit"), ("rect 0,0 5", 10, "a point such as"),
-    ("arc 0,0 5,5", 12, "end of the arc"),
-    ("move 5,5", 6, "@dx,dy"), ("select", 7, "all, none"), ("delete 3 x", 10, "not expected"), ("line 0,0 @5<zz", 13, "no value"),
-    ("polyline 1,1", 13, "two points"), ('layer ""', 9, "empty"),
-])
+@pytest.mark.parametrize(
+    ("line", "column", "says"),
+    [
+        ("lime 0,0 1,1", 1, "'lime' is no command"),
+        ("line 0,0", 9, "point"),
+        ("line 0,0 x", 10, "no value"),
+        ("circle 0,0 5 7", 14, "not expected"),
+        ("line 1,2 3,4z", 13, "no unit"),
+        ("rect 0,0 5", 10, "a point such as"),
+        ("arc 0,0 5,5", 12, "end of the arc"),
+        ("move 5,5", 6, "@dx,dy"),
+        ("select", 7, "all, none"),
+        ("delete 3 x", 10, "not expected"),
+        ("line 0,0 @5<zz", 13, "no value"),
+        ("polyline 1,1", 13, "two points"),
+        ('layer ""', 9, "empty"),
+    ],
+)
 def test_a_wrong_line_names_the_column_and_what_is_expected(line: str, column: int, says: str) -> None:
     with pytest.raises(CommandError) as caught:
         parse(line)
     assert (caught.value.column, says in caught.value.reason) == (column, True), caught.value
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ("line 1,1 1,1", "same as point 1"), ("line 0,0 5,0 close", "three points"), ("circle 0,0 0", "greater than 0"),
-    ("circle 0,0 -2", "greater"),
-    ("rect 0,0 5,0", "0.000 mm"), ("arc 0,0 5,0 10,0", "straight line"), ("arc 0,0 0,0 centre 5,5", "circle x,y r"),
-    ("arc 0,0 9,0 centre 4,0", "4.000 mm from the centre and the end 5.000"), ("delete", "Nothing is selected"),
-    ("move @1,1", "Nothing is selected"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("line 1,1 1,1", "same as point 1"),
+        ("line 0,0 5,0 close", "three points"),
+        ("circle 0,0 0", "greater than 0"),
+        ("circle 0,0 -2", "greater"),
+        ("rect 0,0 5,0", "0.000 mm"),
+        ("arc 0,0 5,0 10,0", "straight line"),
+        ("arc 0,0 0,0 centre 5,5", "circle x,y r"),
+        ("arc 0,0 9,0 centre 4,0", "4.000 mm from the centre and the end 5.000"),
+        ("delete", "Nothing is selected"),
+        ("move @1,1", "Nothing is selected"),
+    ],
+)
 def test_a_shape_that_is_none_is_refused_with_its_measures(line: str, says: str) -> None:
     with pytest.raises(InputError, match=says):
         parse(line)
@@ -129,14 +148,44 @@ def test_written_numbers_read_back(ids: set[int]) -> None:
         assert parse(f"delete {ids_text(ids)}") == Delete(frozenset(ids))
 
 
-@pytest.mark.parametrize(("text", "word"), [("li", "line"), ("RECT 0,0", "rect"), ("c", "circle"),
-                                             ("5,5", None), ("", None), ("lin", None)])
+@pytest.mark.parametrize(
+    ("text", "word"), [("li", "line"), ("RECT 0,0", "rect"), ("c", "circle"), ("5,5", None), ("", None), ("lin", None)]
+)
 def test_command_words_and_their_short_forms(text: str, word: str | None) -> None:
     assert command_word(text) == word
 
 
-WORDS = st.sampled_from(["line", "pl", "arc", "circle", "rect", "select", "move", "layer", "delete", "close", "cw", "centre", "0,0", "@5,0",
-                         "@2<45", "10,10", "7", "1in", "add", "window", "x", "@", ",", "<", '"', "1,", "@<"])
+WORDS = st.sampled_from(
+    [
+        "line",
+        "pl",
+        "arc",
+        "circle",
+        "rect",
+        "select",
+        "move",
+        "layer",
+        "delete",
+        "close",
+        "cw",
+        "centre",
+        "0,0",
+        "@5,0",
+        "@2<45",
+        "10,10",
+        "7",
+        "1in",
+        "add",
+        "window",
+        "x",
+        "@",
+        ",",
+        "<",
+        '"',
+        "1,",
+        "@<",
+    ]
+)
 
 
 @given(st.lists(WORDS, max_size=7).map(" ".join))

@@ -31,7 +31,9 @@ def test_a_renamed_layer_keeps_its_curves_its_look_and_its_place(document: Docum
 def test_the_job_calls_a_renamed_layer_by_its_new_name(document: Document) -> None:
     job = document.job
     operation = replace(job.operations[0], cut=replace(job.operations[0].cut, layers=("holes", "0")))
-    changed = replace(job, operations=(operation, *job.operations[1:]), layer_names=("holes",), keep_out_layers=("clamps", "holes"))
+    changed = replace(
+        job, operations=(operation, *job.operations[1:]), layer_names=("holes",), keep_out_layers=("clamps", "holes")
+    )
     document.change_job("layers", changed)
     document.run("rename layer holes to bores")
     assert document.job.operations[0].cut.layers == ("bores", "0")
@@ -69,11 +71,18 @@ def test_notes_on_a_removed_layer_are_told(document: Document) -> None:
     assert not document.part.notes
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ("rename layer nothing to x", "no layer nothing"), ("rename layer holes to 0", "a layer 0 already"),
-    ("rename holes to x", "Write rename layer"), ("rename layer holes x", "Write to"), ('rename layer holes to " "', "empty"),
-    ("remove layer nothing", "no layer nothing"), ("remove 1", "with delete"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("rename layer nothing to x", "no layer nothing"),
+        ("rename layer holes to 0", "a layer 0 already"),
+        ("rename holes to x", "Write rename layer"),
+        ("rename layer holes x", "Write to"),
+        ('rename layer holes to " "', "empty"),
+        ("remove layer nothing", "no layer nothing"),
+        ("remove 1", "with delete"),
+    ],
+)
 def test_what_cannot_be_is_told(document: Document, line: str, says: str) -> None:
     with pytest.raises(InputError, match=says):
         document.run(line)

@@ -25,28 +25,40 @@ def shape(*lines: str) -> Shape:
 
 
 def test_expressions_meet_construction_lines_and_take_numbers() -> None:
-    document = drawn("guide up 4,0 as g", "line 0,0 10,5 as l", "line meet(g, l, 0,0) foot(9,9, g)", "line 0,0 meet(1, 2, 0,0)")
+    document = drawn(
+        "guide up 4,0 as g", "line 0,0 10,5 as l", "line meet(g, l, 0,0) foot(9,9, g)", "line 0,0 meet(1, 2, 0,0)"
+    )
     assert [e.curve for e in document.part.entities[1:]] == [Line((4, 2), (4, 9)), Line((0, 0), (4, 2))]
     document.run("point 1,1")
-    for line, says in (("point start(g)", "no ends"), ("point meet(5, 2, 0,0)", "a point or a dimension"), ("trim 1 0,0", "no ends")):
+    for line, says in (
+        ("point start(g)", "no ends"),
+        ("point meet(5, 2, 0,0)", "a point or a dimension"),
+        ("trim 1 0,0", "no ends"),
+    ):
         with pytest.raises(InputError, match=says):
             document.run(line)
 
 
-@pytest.mark.parametrize(("lines", "made"), [
-    (["point 3,4"], Mark((3, 4))),
-    (["guide 1,2 225deg"], Guide((1, 2), math.pi / 4)),
-    (["guide 1,2 -45"], Guide((1, 2), 3 * math.pi / 4)),
-    (["guide 1,2 @0,-5"], Guide((1, 2), QUARTER)),
-    (["guide across 1,2"], Guide((1, 2), 0)),
-    (["guide up 1,2"], Guide((1, 2), QUARTER)),
-    (["dimension 0,0 30,40 place 10,30"], Dimension(Measure.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
-    (["dimension 0,0 30,40 place 10,30 across"], Dimension(Measure.ACROSS, ((0, 0), (30, 40)), (10, 30))),
-    (["line 0,0 30,40", "dimension 1 place 10,30"], Dimension(Measure.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
-    (["circle 1,1 5 as c", "dimension c place 10,30"], Dimension(Measure.DIAMETER, ((1, 1), (6, 1)), (10, 30))),
-    (["arc 5,0 0,5 centre 0,0", "dimension 1 place 3,3"], Dimension(Measure.RADIUS, ((0, 0), (12.5**0.5, 12.5**0.5)), (3, 3))),
-    (["dimension angle 0,0 5,0 0,5 place 3,3"], Dimension(Measure.ANGLE, ((0, 0), (5, 0), (0, 5)), (3, 3))),
-])
+@pytest.mark.parametrize(
+    ("lines", "made"),
+    [
+        (["point 3,4"], Mark((3, 4))),
+        (["guide 1,2 225deg"], Guide((1, 2), math.pi / 4)),
+        (["guide 1,2 -45"], Guide((1, 2), 3 * math.pi / 4)),
+        (["guide 1,2 @0,-5"], Guide((1, 2), QUARTER)),
+        (["guide across 1,2"], Guide((1, 2), 0)),
+        (["guide up 1,2"], Guide((1, 2), QUARTER)),
+        (["dimension 0,0 30,40 place 10,30"], Dimension(Measure.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
+        (["dimension 0,0 30,40 place 10,30 across"], Dimension(Measure.ACROSS, ((0, 0), (30, 40)), (10, 30))),
+        (["line 0,0 30,40", "dimension 1 place 10,30"], Dimension(Measure.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
+        (["circle 1,1 5 as c", "dimension c place 10,30"], Dimension(Measure.DIAMETER, ((1, 1), (6, 1)), (10, 30))),
+        (
+            ["arc 5,0 0,5 centre 0,0", "dimension 1 place 3,3"],
+            Dimension(Measure.RADIUS, ((0, 0), (12.5**0.5, 12.5**0.5)), (3, 3)),
+        ),
+        (["dimension angle 0,0 5,0 0,5 place 3,3"], Dimension(Measure.ANGLE, ((0, 0), (5, 0), (0, 5)), (3, 3))),
+    ],
+)
 def test_each_is_drawn(lines: list[str], made: Shape) -> None:
     found = shape(*lines)
     if isinstance(made, Guide):
@@ -92,18 +104,35 @@ def test_windows_and_crossings_choose_them() -> None:
 
 
 def test_a_text_draws_them_again_in_their_order() -> None:
-    document = drawn("point 1,2", "line 0,0 5,0", "layer help", "guide 1,2 30", "circle 0,0 3", "dimension 4 place 5,5",
-                     "dimension angle 0,0 5,0 0,5 place 3,3", "layer 0", "dimension 0,0 3,4 place 1,9 up")
+    document = drawn(
+        "point 1,2",
+        "line 0,0 5,0",
+        "layer help",
+        "guide 1,2 30",
+        "circle 0,0 3",
+        "dimension 4 place 5,5",
+        "dimension angle 0,0 5,0 0,5 place 3,3",
+        "layer 0",
+        "dimension 0,0 3,4 place 1,9 up",
+    )
     again = Document()
     again.run_script(draw_text(document.part).text)
     assert again.part.entities == document.part.entities and again.part.notes == document.part.notes
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ("point", "too early"), ("guide 0,0 0,0", "two different points"), ("guide 0,0", "another point of it, or its angle"),
-    ("dimension 0,0 0,0 place 1,1", "different points"), ("dimension 0,0 5,5", "place"), ("dimension 1 place 0,0", "give two points"),
-    ("delete 9", "no entity 9"), ("dimension angle 0,0 5,0 place 1,1", "place"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("point", "too early"),
+        ("guide 0,0 0,0", "two different points"),
+        ("guide 0,0", "another point of it, or its angle"),
+        ("dimension 0,0 0,0 place 1,1", "different points"),
+        ("dimension 0,0 5,5", "place"),
+        ("dimension 1 place 0,0", "give two points"),
+        ("delete 9", "no entity 9"),
+        ("dimension angle 0,0 5,0 place 1,1", "place"),
+    ],
+)
 def test_what_cannot_be_is_told(line: str, says: str) -> None:
     with pytest.raises(InputError, match=says):
         drawn("spline 0,0 5,5 9,0").run(line)

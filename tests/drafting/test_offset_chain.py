@@ -34,7 +34,9 @@ def points(curves: list[Curve] | tuple[Curve, ...]) -> np.ndarray:
 
 def _fine(curve: Arc) -> np.ndarray:
     turn = curve.start_angle + np.linspace(0, curve.sweep, 2 + math.ceil(abs(curve.sweep) / 5e-3))
-    found = np.column_stack([curve.centre[0] + curve.radius * np.cos(turn), curve.centre[1] + curve.radius * np.sin(turn)])
+    found = np.column_stack(
+        [curve.centre[0] + curve.radius * np.cos(turn), curve.centre[1] + curve.radius * np.sin(turn)]
+    )
     found[0], found[-1] = curve.start, curve.end
     return found
 
@@ -42,7 +44,9 @@ def _fine(curve: Arc) -> np.ndarray:
 def area_within(curves: list[Curve]) -> shapely.Geometry:
     loops = chained(dict(enumerate(curves)))
     assert all(loop.closed for loop in loops)
-    assert all(a.end == b.start for loop in loops for a, b in pairwise([*loop.curves, loop.curves[0]])), "ends meet exactly"
+    assert all(a.end == b.start for loop in loops for a, b in pairwise([*loop.curves, loop.curves[0]])), (
+        "ends meet exactly"
+    )
     polygons = [shapely.Polygon(points(loop.curves)) for loop in loops]
     assert all(polygon.is_valid for polygon in polygons)
     found = shapely.Polygon()
@@ -80,7 +84,9 @@ def sides(polygon: shapely.Geometry) -> tuple[Point, Point]:
     return (a, b) if polygon.contains(shapely.Point(a)) else (b, a)
 
 
-def assert_bounds_what_is_far_enough(made: shapely.Geometry, polygon: shapely.Geometry, away: float, outward: bool) -> None:
+def assert_bounds_what_is_far_enough(
+    made: shapely.Geometry, polygon: shapely.Geometry, away: float, outward: bool
+) -> None:
     """Check places all over: within the parallel are those that lie on its side of the contour and as far from it.
 
     Buffers of finely sampled arcs are no measure: they simplify what they take.
@@ -136,8 +142,12 @@ def test_parallels_of_open_chains_keep_the_distance_and_the_side(seed: int) -> N
 
 def test_corners_meet_or_stay_round() -> None:
     (square,) = chains("rect 0,0 60,40")
-    assert offset(square, 5, (-10, 20), rounded=False) == [Line((-5, -5), (65, -5)), Line((65, -5), (65, 45)),
-                                                            Line((65, 45), (-5, 45)), Line((-5, 45), (-5, -5))]
+    assert offset(square, 5, (-10, 20), rounded=False) == [
+        Line((-5, -5), (65, -5)),
+        Line((65, -5), (65, 45)),
+        Line((65, 45), (-5, 45)),
+        Line((-5, 45), (-5, -5)),
+    ]
     assert [type(c) for c in offset(square, 5, (-10, 20))].count(Arc) == 4
     assert offset(square, 5, (30, 20), rounded=False)[0] == Line((5, 5), (55, 5))
 
@@ -193,12 +203,19 @@ def test_parallels_of_real_contours_bound_what_is_far_enough(data: Path, name: s
 @pytest.mark.parametrize("off", [0.0, 500.0])
 @pytest.mark.parametrize("angle", [17.0, 30.0])
 @pytest.mark.parametrize("spare", [0.01, 0.0, -0.01])
-def test_half_as_far_as_a_slot_is_wide_nothing_is_left_whatever_digits_it_was_drawn_with(angle: float, off: float, spare: float) -> None:
+def test_half_as_far_as_a_slot_is_wide_nothing_is_left_whatever_digits_it_was_drawn_with(
+    angle: float, off: float, spare: float
+) -> None:
     turn = np.exp(1j * math.radians(angle))
-    at = [np.round([z.real + off, z.imag + off], 4) for z in turn * np.array([-10 - 1.5875j, 10 - 1.5875j, 10 + 1.5875j, -10 + 1.5875j])]
+    at = [
+        np.round([z.real + off, z.imag + off], 4)
+        for z in turn * np.array([-10 - 1.5875j, 10 - 1.5875j, 10 + 1.5875j, -10 + 1.5875j])
+    ]
     text = " ".join(f"{x!r},{y!r}" for x, y in (each.tolist() for each in [*at, at[0]]))
     (contour,) = chains(f"line {text}")
     pieces = chain_parallel(contour, 1.5875 - spare, (off, off))
     assert bool(pieces) is (spare > 0)
     if pieces:
-        assert area_within([curve for _, curve in pieces]).area == pytest.approx(0.02 * (20 - 2 * 1.5875 + 0.02), abs=0.003)
+        assert area_within([curve for _, curve in pieces]).area == pytest.approx(
+            0.02 * (20 - 2 * 1.5875 + 0.02), abs=0.003
+        )

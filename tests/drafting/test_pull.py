@@ -96,13 +96,22 @@ def test_notes_are_pulled_too() -> None:
     for line in ("pull 2 5,5 to 6,6", "pull 3 0,8 to 0,9", "pull 4 5,-4 to 5,-6", "pull 4 10,0 to 12,0"):
         document.run(line)
     assert [note.shape for note in document.part.notes] == [
-        Mark((6, 6)), Guide((0, 9), 0.0), Dimension(Measure.ALIGNED, ((0, 0), (12, 0)), (5, -6))]
+        Mark((6, 6)),
+        Guide((0, 9), 0.0),
+        Dimension(Measure.ALIGNED, ((0, 0), (12, 0)), (5, -6)),
+    ]
 
 
-@pytest.mark.parametrize(("line", "reason"), [
-    ("pull 1 3,3 to 5,5", "nearest place to pull it by is 5.000,0.000"), ("pull 1 0,0 to 10,0", "Nothing would be left"),
-    ("pull 7 0,0 to 1,1", "no entity 7"), ("pull 0,0 to 1,1", "Nothing is selected"), ("pull 1 0,0 1,1", "to x,y"),
-])
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("pull 1 3,3 to 5,5", "nearest place to pull it by is 5.000,0.000"),
+        ("pull 1 0,0 to 10,0", "Nothing would be left"),
+        ("pull 7 0,0 to 1,1", "no entity 7"),
+        ("pull 0,0 to 1,1", "Nothing is selected"),
+        ("pull 1 0,0 1,1", "to x,y"),
+    ],
+)
 def test_what_cannot_be_pulled_is_said(line: str, reason: str) -> None:
     document = drawn("line 0,0 10,0")
     before = document.part

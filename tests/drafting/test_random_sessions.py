@@ -1,4 +1,6 @@
-"""Sessions of lines drawn at random from every command, on real drawings: clear errors alone, sound curves, and a log that draws again."""
+"""Sessions of lines drawn at random from every command, on real drawings: clear errors alone, sound curves, and a log
+that draws again.
+"""
 
 import math
 import random
@@ -45,14 +47,18 @@ class Chance:
 
     def curves(self) -> str:
         first = int(self.curve())
-        return self.rng.choice((self.curve(), f"{self.curve()} {self.curve()} {self.note()}", f"{first}-{first + 3}", ""))
+        return self.rng.choice(
+            (self.curve(), f"{self.curve()} {self.curve()} {self.note()}", f"{first}-{first + 3}", "")
+        )
 
     def point(self) -> str:
         entities = self._document.part.entities
         x, y = self.rng.uniform(-50, 150), self.rng.uniform(-50, 150)
         if entities and self.rng.random() < 0.6:
             curve = self.rng.choice(entities).curve
-            x, y = self.rng.choice((curve.start, curve.end, ((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2)))
+            x, y = self.rng.choice(
+                (curve.start, curve.end, ((curve.start[0] + curve.end[0]) / 2, (curve.start[1] + curve.end[1]) / 2))
+            )
         near = self.curve()
         plain = (f"{x!r},{y!r}", f"{x:.2f},{y:.2f}", "@5,-3", "@12<45")
         return self.rng.choice((*plain * 4, f"foot({x},{y}, {near})", f"meet({near}, {self.curve()}, {x},{y})"))
@@ -60,63 +66,46 @@ class Chance:
     def line(self) -> str:
         """Return a line of a command drawn at random."""
         one = self.curve()
-        fill = {"P": self.point, "D": self.length, "A": self.angle, "C": self.curve, "S": self.curves, "N": self.note, "L": self.layer,
-                "C1": lambda: one, "C2": lambda: str(int(one) + 1)}
+        fill = {
+            "P": self.point,
+            "D": self.length,
+            "A": self.angle,
+            "C": self.curve,
+            "S": self.curves,
+            "N": self.note,
+            "L": self.layer,
+            "C1": lambda: one,
+            "C2": lambda: str(int(one) + 1),
+        }
         template = self.rng.choice(self.rng.choice(list(CHOICES.values())))
         return re.sub(r"\b([PDASNL]|C[12]?)\b", lambda found: fill[found[1]](), template)
 
     def layer(self) -> str:
-        return '"' + self.rng.choice([*(layer.name for layer in self._document.part.layers), "new"]).replace('"', "'") + '"'
+        return (
+            '"'
+            + self.rng.choice([*(layer.name for layer in self._document.part.layers), "new"]).replace('"', "'")
+            + '"'
+        )
 
 
 LINES = """
-line P P | line P P P close
-polyline P P arc P P close
-arc P P P | arc P P radius D large | arc on P | arc P P centre P cw
-circle P D | circle P through P as c | circle through P P P
-rect P P | rect P P round D
-polygon 6 P P | polygon 5 P side P
-slot P P D
-ellipse P P D | ellipse P P D from A to A cw
-spline P P P P | spline degree 2 P P P weights 1 2 1
-text P 10 "R2" angle A
-point P
-guide P A | guide up P as g
-dimension C place P | dimension P P place P across | dimension angle P P P place P
-select all | select C | select chain C | select add crossing P P | select layer L | select none
-delete C
-reverse S
-layer L | layer L C
-move @3,-2 S
-copy @D<A times 2 S
-rotate P A S
-scale P 0.5 S | scale P -1 S | scale P 1.001 S
-mirror P P copy S
-array 2 3 @D,D C | array polar P 4 C
-hide L
-show L
-lock L
-unlock L
-colour L "#d55e00" | colour L none
-order layer L before L
-rename layer L to "other"
-remove layer L
-trim C P | trim C1 middle(C1) by C2 N | line P P; trim C P
-extend C P | extend C P to N
-break C P | break C P P | break C1 middle(C1)
-fillet D C P C P | fillet D S | fillet 0 C1 C2 | fillet D C1 C2
-chamfer D C C | chamfer D and D S | chamfer D C1 C2
-offset D P C | offset D P S round
-join S | join within D S
-explode C
-measure | measure S | measure P P
-heal 0.01 | heal D S
-pull C1 start(C1) to P | pull C1 C2 finish(C1) to P | pull S P to P
-set C length D | set C radius D | set C angle A | set C major D | set C sweep A | set C start P | set C end P | set C centre P
-undo | undo 2
-redo
+line P P | line P P P close polyline P P arc P P close arc P P P | arc P P radius D large | arc on P | arc P P centre P
+cw circle P D | circle P through P as c | circle through P P P rect P P | rect P P round D polygon 6 P P | polygon 5 P
+side P slot P P D ellipse P P D | ellipse P P D from A to A cw spline P P P P | spline degree 2 P P P weights 1 2 1
+text P 10 "R2" angle A point P guide P A | guide up P as g dimension C place P | dimension P P place P across |
+dimension angle P P P place P select all | select C | select chain C | select add crossing P P | select layer L |
+select none delete C reverse S layer L | layer L C move @3,-2 S copy @D<A times 2 S rotate P A S scale P 0.5 S | scale
+P -1 S | scale P 1.001 S mirror P P copy S array 2 3 @D,D C | array polar P 4 C hide L show L lock L unlock L colour L
+"#d55e00" | colour L none order layer L before L rename layer L to "other" remove layer L trim C P | trim C1 middle(C1)
+by C2 N | line P P; trim C P extend C P | extend C P to N break C P | break C P P | break C1 middle(C1) fillet D C P C
+P | fillet D S | fillet 0 C1 C2 | fillet D C1 C2 chamfer D C C | chamfer D and D S | chamfer D C1 C2 offset D P C |
+offset D P S round join S | join within D S explode C measure | measure S | measure P P heal 0.01 | heal D S pull C1
+start(C1) to P | pull C1 C2 finish(C1) to P | pull S P to P set C length D | set C radius D | set C angle A | set C
+major D | set C sweep A | set C start P | set C end P | set C centre P undo | undo 2 redo
 """
-"""What is asked for, a command a line: P a point, D a length, A an angle, C a curve, S some curves, N a note, L a layer."""
+"""What is asked for, a command a line: P a point, D a length, A an angle, C a curve, S some curves, N a note, L a
+layer.
+"""
 
 CHOICES = {words.split()[0]: words.split(" | ") for words in LINES.strip().splitlines()}
 
@@ -162,7 +151,9 @@ def check_curve(curve: Curve, what: str) -> None:
 
 
 def check_alike(one: Part, other: Part) -> None:
-    assert [(e.id, e.layer, type(e.curve)) for e in one.entities] == [(e.id, e.layer, type(e.curve)) for e in other.entities]
+    assert [(e.id, e.layer, type(e.curve)) for e in one.entities] == [
+        (e.id, e.layer, type(e.curve)) for e in other.entities
+    ]
     assert one.layers == other.layers and [(n.id, n.layer) for n in one.notes] == [(n.id, n.layer) for n in other.notes]
     for a, b in zip(one.entities, other.entities, strict=True):
         assert numbers(a.curve) == pytest.approx(numbers(b.curve), rel=1e-9, abs=1e-6)
@@ -205,7 +196,9 @@ def test_trimming_leaves_what_lies_outside_the_edges(seed: int) -> None:
     ends = [(rng.uniform(0, 100), rng.uniform(0, 100)) for _ in range(10)]
     segments = [shapely.LineString(pair) for pair in zip(ends[::2], ends[1::2], strict=True)]
     document = Document()
-    document.run("; ".join(f"line {a[0]!r},{a[1]!r} {b[0]!r},{b[1]!r}" for a, b in zip(ends[::2], ends[1::2], strict=True)))
+    document.run(
+        "; ".join(f"line {a[0]!r},{a[1]!r} {b[0]!r},{b[1]!r}" for a, b in zip(ends[::2], ends[1::2], strict=True))
+    )
     at = segments[0].interpolate(rng.uniform(0.1, 0.9), normalized=True)
     pieces = list(shapely.ops.split(segments[0], shapely.MultiLineString(segments[1:])).geoms)
     if len(pieces) < 2:

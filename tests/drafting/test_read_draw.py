@@ -24,11 +24,19 @@ def is_closed(drawn: tuple[Curve, ...]) -> bool:
     return all(a.end == b.start for a, b in zip(drawn, (*drawn[1:], drawn[0]), strict=True))
 
 
-@pytest.mark.parametrize(("words", "sweep", "centre"), [
-    ("", math.pi / 2, (0, 0)), ("cw", -math.pi / 2, (5, 5)), ("large", 1.5 * math.pi, (5, 5)), ("cw large", -1.5 * math.pi, (0, 0)),
-    ("large cw", -1.5 * math.pi, (0, 0)),
-])
-def test_an_arc_with_a_radius_is_the_smaller_one_unless_told(words: str, sweep: float, centre: tuple[float, float]) -> None:
+@pytest.mark.parametrize(
+    ("words", "sweep", "centre"),
+    [
+        ("", math.pi / 2, (0, 0)),
+        ("cw", -math.pi / 2, (5, 5)),
+        ("large", 1.5 * math.pi, (5, 5)),
+        ("cw large", -1.5 * math.pi, (0, 0)),
+        ("large cw", -1.5 * math.pi, (0, 0)),
+    ],
+)
+def test_an_arc_with_a_radius_is_the_smaller_one_unless_told(
+    words: str, sweep: float, centre: tuple[float, float]
+) -> None:
     (arc,) = curves(f"arc 5,0 0,5 radius 5 {words}")
     assert isinstance(arc, Arc)
     assert arc.sweep == pytest.approx(sweep)
@@ -48,10 +56,15 @@ def test_an_arc_goes_on_without_a_corner() -> None:
     assert onward.centre[1] == pytest.approx(5)  # the arc before ends straight up
 
 
-@pytest.mark.parametrize(("line", "circle"), [
-    ("circle 1,2 through 4,6", Circle((1, 2), 5)), ("circle diameter 0,0 6,8", Circle((3, 4), 5)),
-    ("circle through 5,0 0,5 -5,0", Circle((0, 0), 5)), ("circle 1,2 3 cw", Circle((1, 2), 3, ccw=False)),
-])
+@pytest.mark.parametrize(
+    ("line", "circle"),
+    [
+        ("circle 1,2 through 4,6", Circle((1, 2), 5)),
+        ("circle diameter 0,0 6,8", Circle((3, 4), 5)),
+        ("circle through 5,0 0,5 -5,0", Circle((0, 0), 5)),
+        ("circle 1,2 3 cw", Circle((1, 2), 3, ccw=False)),
+    ],
+)
 def test_circles_by_what_is_known_of_them(line: str, circle: Circle) -> None:
     (drawn,) = curves(line)
     assert isinstance(drawn, Circle)
@@ -71,13 +84,20 @@ def test_polygons_by_corner_and_by_side() -> None:
     by_corner, by_side = curves("polygon 6 0,0 10,0"), curves("polygon 6 0,0 side 10,0")
     assert is_closed(by_corner) and is_closed(by_side)
     assert [math.hypot(*c.start) for c in by_corner] == pytest.approx([10] * 6)
-    assert [math.dist(((c.start[0] + c.end[0]) / 2, (c.start[1] + c.end[1]) / 2), (0, 0)) for c in by_side] == pytest.approx([10] * 6)
+    assert [
+        math.dist(((c.start[0] + c.end[0]) / 2, (c.start[1] + c.end[1]) / 2), (0, 0)) for c in by_side
+    ] == pytest.approx([10] * 6)
     assert any(has(c, (10, 0)) and abs(c.start[0] - 10) < 1e-9 for c in by_side)
 
 
 def test_a_slot_is_all_within_half_its_width_of_a_line() -> None:
     drawn = curves("slot 0,0 10,0 4")
-    assert drawn == (Line((0, -2), (10, -2)), Arc((10, -2), (10, 2), (10, 0)), Line((10, 2), (0, 2)), Arc((0, 2), (0, -2), (0, 0)))
+    assert drawn == (
+        Line((0, -2), (10, -2)),
+        Arc((10, -2), (10, 2), (10, 0)),
+        Line((10, 2), (0, 2)),
+        Arc((0, 2), (0, -2), (0, 0)),
+    )
 
 
 def test_ellipses_take_the_longer_axis_for_major() -> None:
@@ -109,21 +129,36 @@ def test_a_spline_through_points_is_the_interpolating_cubic(close: bool) -> None
 
 
 def test_splines_by_control_points() -> None:
-    (plain,), (given,) = curves("spline degree 2 0,0 5,5 10,0"), curves("spline degree 2 0,0 5,5 10,0 knots 0 0 0 1 1 1 weights 1 0.5 1")
+    (plain,), (given,) = (
+        curves("spline degree 2 0,0 5,5 10,0"),
+        curves("spline degree 2 0,0 5,5 10,0 knots 0 0 0 1 1 1 weights 1 0.5 1"),
+    )
     assert plain == Spline(2, ((0, 0), (5, 5), (10, 0)), (0, 0, 0, 1, 1, 1))
     assert given == Spline(2, ((0, 0), (5, 5), (10, 0)), (0, 0, 0, 1, 1, 1), (1, 0.5, 1))
     assert len(sample(given)) > 2
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ("arc 0,0 10,0 radius 4", "5.000 mm or more"), ("arc on 5,5", "Nothing that was drawn"),
-    ("circle through 0,0 1,1 2,2", "straight line"),
-    ("rect 0,0 10,4 round 3", "at most 2.000"), ("polygon 2 0,0 1,0", "from 3 to 1000"), ("polygon 3.5 0,0 1,0", "whole number"),
-    ("slot 0,0 0,0 3", "greater than 0"), ("ellipse 0,0 5,0 0", "half axes"), ("ellipse 0,0 5,0 2 from 10", "add to"),
-    ("ellipse 0,0 5,0 2 from 90 to 90", "spans"), ("spline 0,0 1,1", "three points"), ("spline 0,0 1,1 1,1", "same as point 2"),
-    ("spline degree 3 0,0 1,1 2,2", "4 control points"), ("spline degree 1 0,0 1,1 knots 0 0 1", "4 knots"),
-    ("spline degree 1 0,0 1,1 weights 1 -1", "greater than 0"), ("spline degree 1 0,0 1,1 knots 0 0 1 0", "do not fall"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("arc 0,0 10,0 radius 4", "5.000 mm or more"),
+        ("arc on 5,5", "Nothing that was drawn"),
+        ("circle through 0,0 1,1 2,2", "straight line"),
+        ("rect 0,0 10,4 round 3", "at most 2.000"),
+        ("polygon 2 0,0 1,0", "from 3 to 1000"),
+        ("polygon 3.5 0,0 1,0", "whole number"),
+        ("slot 0,0 0,0 3", "greater than 0"),
+        ("ellipse 0,0 5,0 0", "half axes"),
+        ("ellipse 0,0 5,0 2 from 10", "add to"),
+        ("ellipse 0,0 5,0 2 from 90 to 90", "spans"),
+        ("spline 0,0 1,1", "three points"),
+        ("spline 0,0 1,1 1,1", "same as point 2"),
+        ("spline degree 3 0,0 1,1 2,2", "4 control points"),
+        ("spline degree 1 0,0 1,1 knots 0 0 1", "4 knots"),
+        ("spline degree 1 0,0 1,1 weights 1 -1", "greater than 0"),
+        ("spline degree 1 0,0 1,1 knots 0 0 1 0", "do not fall"),
+    ],
+)
 def test_a_shape_that_is_none_is_refused(line: str, says: str) -> None:
     with pytest.raises(InputError, match=says):
         Document().run(line)

@@ -17,7 +17,11 @@ def document() -> Document:
 def test_copies_stand_in_a_row_and_keep_their_layer(document: Document) -> None:
     document.run("copy @0,10 times 3 1")
     assert [(e.id, e.curve.centre, e.layer) for e in document.part.entities if isinstance(e.curve, Circle)] == [
-        (1, (10, 0), "holes"), (3, (10, 10), "holes"), (4, (10, 20), "holes"), (5, (10, 30), "holes")]
+        (1, (10, 0), "holes"),
+        (3, (10, 10), "holes"),
+        (4, (10, 20), "holes"),
+        (5, (10, 30), "holes"),
+    ]
 
 
 def test_turning_with_and_without_the_original(document: Document) -> None:
@@ -38,7 +42,12 @@ def test_arrays(document: Document) -> None:
     assert centres == [(10, 0), (30, 0), (50, 0), (10, 15), (30, 15), (50, 15)]
     document.undo()
     document.run("array polar 0,0 4 1")
-    assert [e.curve.centre for e in document.part.entities if isinstance(e.curve, Circle)] == [(10, 0), (0, 10), (-10, 0), (0, -10)]
+    assert [e.curve.centre for e in document.part.entities if isinstance(e.curve, Circle)] == [
+        (10, 0),
+        (0, 10),
+        (-10, 0),
+        (0, -10),
+    ]
     document.undo()
     document.run("array polar 0,0 3 over 90 1 as more")
     assert [e.curve.centre for e in document.part.entities if isinstance(e.curve, Circle)][-1] == (0, 10)
@@ -54,12 +63,21 @@ def test_reversing_twice_is_nothing(document: Document) -> None:
     assert document.part == before
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ("copy @1,1 times 0 1", "from 1 to"), ("array 1 1 @1,1 1", "2 to 10000"), ("array 200 200 @1,1 1", "40000 places"),
-    ("scale 0,0 -1 1", "greater than 0"), ("mirror 0,0 0,0 1", "two different"), ("rotate 0,0 5mm 1", "does not fit"),
-    ("copy 1,1 1", "no shift"),
-    ("reverse 9", "no entity 9"), ("array polar 0,0 1 1", "from 2"), ("rotate 0,0 90", "Nothing is selected"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("copy @1,1 times 0 1", "from 1 to"),
+        ("array 1 1 @1,1 1", "2 to 10000"),
+        ("array 200 200 @1,1 1", "40000 places"),
+        ("scale 0,0 -1 1", "greater than 0"),
+        ("mirror 0,0 0,0 1", "two different"),
+        ("rotate 0,0 5mm 1", "does not fit"),
+        ("copy 1,1 1", "no shift"),
+        ("reverse 9", "no entity 9"),
+        ("array polar 0,0 1 1", "from 2"),
+        ("rotate 0,0 90", "Nothing is selected"),
+    ],
+)
 def test_what_cannot_be_is_refused(document: Document, line: str, says: str) -> None:
     before = document.part
     with pytest.raises(InputError, match=says):

@@ -14,12 +14,32 @@ from app.model.curves import Circle, Line
 from app.model.job import Job, OriginXY
 from app.model.part import Entity, Part
 
-LINES = st.sampled_from([
-    "line 0,0 10,0 10,10", "circle @5,5 2", "rect 1,1 @4,3 round 1", "arc on @2,2",
-    "select all", "select none", "select window 0,0 9,9",
-    "delete", "move @1,0", "copy @3,1 times 2", "mirror 0,0 0,1 copy", "layer cut", "layer 0", "undo", "redo", "clear",
-    "clear; circle 1,1 1", "let w = 4", "circle 0,0 w as hole", "repeat 2 as k; line k,0 k,5; end", "reverse", "fillet 1 1 2",
-])
+LINES = st.sampled_from(
+    [
+        "line 0,0 10,0 10,10",
+        "circle @5,5 2",
+        "rect 1,1 @4,3 round 1",
+        "arc on @2,2",
+        "select all",
+        "select none",
+        "select window 0,0 9,9",
+        "delete",
+        "move @1,0",
+        "copy @3,1 times 2",
+        "mirror 0,0 0,1 copy",
+        "layer cut",
+        "layer 0",
+        "undo",
+        "redo",
+        "clear",
+        "clear; circle 1,1 1",
+        "let w = 4",
+        "circle 0,0 w as hole",
+        "repeat 2 as k; line k,0 k,5; end",
+        "reverse",
+        "fillet 1 1 2",
+    ]
+)
 
 
 def drawn_again(document: Document) -> Part:
@@ -94,7 +114,11 @@ def test_clear_begins_anew_and_is_undone() -> None:
     document.run("circle 0,0 w")
     before = document.session
     document.run("clear")
-    assert document.part.entities == () and document.layer == "0" and [layer.name for layer in document.part.layers] == ["0"]
+    assert (
+        document.part.entities == ()
+        and document.layer == "0"
+        and [layer.name for layer in document.part.layers] == ["0"]
+    )
     with pytest.raises(InputError):
         document.run("circle 0,0 w")
     document.run("circle 0,0 1")

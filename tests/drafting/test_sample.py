@@ -10,8 +10,12 @@ from app.geometry.sample import bounds, sample, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 
 CURVES: list[Curve] = [
-    Line((1, 2), (5, -3)), Arc((10, 0), (0, 10), (0, 0)), Arc((10, 0), (0, 10), (0, 0), ccw=False), Circle((3, 4), 2.5),
-    Ellipse((1, 1), (6, 2), 0.4), Ellipse((0, 0), (5, 0), 0.5, 0.3, 2.0, ccw=False),
+    Line((1, 2), (5, -3)),
+    Arc((10, 0), (0, 10), (0, 0)),
+    Arc((10, 0), (0, 10), (0, 0), ccw=False),
+    Circle((3, 4), 2.5),
+    Ellipse((1, 1), (6, 2), 0.4),
+    Ellipse((0, 0), (5, 0), 0.5, 0.3, 2.0, ccw=False),
     Spline(3, ((0, 0), (1, 5), (4, 5), (6, 0), (9, 3)), (0, 0, 0, 0, 0.5, 1, 1, 1, 1)),
 ]
 

@@ -15,8 +15,14 @@ from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 SPLINE = Spline(3, ((0, 0), (10, 20), (20, -20), (30, 10), (40, 0)), (0, 0, 0, 0, 0.4, 1, 1, 1, 1))
 RATIONAL = Spline(2, ((5, 0), (5, 5), (0, 5)), (0, 0, 0, 1, 1, 1), (1, math.sqrt(0.5), 1))
 CURVES: list[Curve] = [
-    Line((0, 0), (30, 10)), Arc((20, 0), (0, 20), (0, 0)), Arc((0, 20), (20, 0), (0, 0), ccw=False), Arc((20, 0), (0, -20), (0, 0)),
-    Ellipse((0, 0), (30, 5), 0.5, 0.2, 4.0), Ellipse((0, 0), (30, 5), 0.5, 0.2, 4.0, ccw=False), SPLINE, RATIONAL,
+    Line((0, 0), (30, 10)),
+    Arc((20, 0), (0, 20), (0, 0)),
+    Arc((0, 20), (20, 0), (0, 0), ccw=False),
+    Arc((20, 0), (0, -20), (0, 0)),
+    Ellipse((0, 0), (30, 5), 0.5, 0.2, 4.0),
+    Ellipse((0, 0), (30, 5), 0.5, 0.2, 4.0, ccw=False),
+    SPLINE,
+    RATIONAL,
 ]
 
 
@@ -50,22 +56,33 @@ def test_what_is_closed_needs_two_points(whole: Curve) -> None:
 
 
 def test_points_on_either_side_of_where_angles_begin_again_are_one() -> None:
-    """A circle's angles go round from pi to -pi; two points a nanometre apart there cut it once with a third one, not into a hair."""
+    """A circle's angles go round from pi to -pi; two points a nanometre apart there cut it once with a third one, not
+    into a hair.
+    """
     pieces = split(Circle((0, 0), 10), [(-10.0, 3e-8), (-10.0, -3e-8), (10.0, 0.0)])
     assert [curve_length(piece) for piece in pieces] == pytest.approx([10 * math.pi] * 2)
     assert len(split(Circle((0, 0), 10), [(-10.0, 3e-8), (-10.0, -3e-8)])) == 1
 
 
-@pytest.mark.parametrize(("a", "b", "count"), [
-    (Line((0, 0), (10, 0)), Line((5, -5), (5, 5)), 1), (Line((0, 0), (4, 0)), Line((5, -5), (5, 5)), 0),
-    (Line((-20, 3), (20, 3)), Circle((0, 0), 5), 2), (Line((-20, 5), (20, 5)), Circle((0, 0), 5), 1),
-    (Circle((0, 0), 5), Circle((6, 0), 4), 2),
-    (Circle((0, 0), 5), Circle((9, 0), 4), 1), (Circle((0, 0), 5), Circle((1, 0), 1), 0), (Arc((5, 0), (0, 5), (0, 0)), Line((0, 0),
-    (-9, -9)), 0),
-    (Arc((5, 0), (0, 5), (0, 0)), Line((0, 0), (9, 9)), 1), (SPLINE, Line((0, 0.5), (40, 0.5)), 4),
-    (Ellipse((0, 0), (10, 0), 0.5), Circle((0, 0), 7), 4),
-    (SPLINE, Ellipse((20, 0), (15, 0), 0.3), 2), (RATIONAL, Line((0, 0), (9, 9)), 1), (Line((0, 0), (9, 0)), Line((0, 0), (9, 0)), 0),
-])
+@pytest.mark.parametrize(
+    ("a", "b", "count"),
+    [
+        (Line((0, 0), (10, 0)), Line((5, -5), (5, 5)), 1),
+        (Line((0, 0), (4, 0)), Line((5, -5), (5, 5)), 0),
+        (Line((-20, 3), (20, 3)), Circle((0, 0), 5), 2),
+        (Line((-20, 5), (20, 5)), Circle((0, 0), 5), 1),
+        (Circle((0, 0), 5), Circle((6, 0), 4), 2),
+        (Circle((0, 0), 5), Circle((9, 0), 4), 1),
+        (Circle((0, 0), 5), Circle((1, 0), 1), 0),
+        (Arc((5, 0), (0, 5), (0, 0)), Line((0, 0), (-9, -9)), 0),
+        (Arc((5, 0), (0, 5), (0, 0)), Line((0, 0), (9, 9)), 1),
+        (SPLINE, Line((0, 0.5), (40, 0.5)), 4),
+        (Ellipse((0, 0), (10, 0), 0.5), Circle((0, 0), 7), 4),
+        (SPLINE, Ellipse((20, 0), (15, 0), 0.3), 2),
+        (RATIONAL, Line((0, 0), (9, 9)), 1),
+        (Line((0, 0), (9, 0)), Line((0, 0), (9, 0)), 0),
+    ],
+)
 def test_places_where_curves_meet_lie_on_both(a: Curve, b: Curve, count: int) -> None:
     for one, other in ((a, b), (b, a)):
         found = meets(one, other)

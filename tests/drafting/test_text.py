@@ -48,8 +48,10 @@ def test_no_stretch_of_a_letter_is_engraved_twice(letter: str) -> None:
     lines = [curve for curve in engraving().glyphs[letter].curves if isinstance(curve, Line)]
     for n, a in enumerate(lines):
         way = complex(a.end[0] - a.start[0], a.end[1] - a.start[1])
-        for b in lines[n + 1:]:
-            ends = [complex(p[0] - a.start[0], p[1] - a.start[1]) * way.conjugate() / abs(way) for p in (b.start, b.end)]
+        for b in lines[n + 1 :]:
+            ends = [
+                complex(p[0] - a.start[0], p[1] - a.start[1]) * way.conjugate() / abs(way) for p in (b.start, b.end)
+            ]
             if all(abs(z.imag) < 1e-6 for z in ends):
                 low, high = sorted(z.real for z in ends)
                 assert min(high, abs(way)) - max(low, 0) < 1e-6
@@ -59,7 +61,11 @@ def test_roundings_join_without_a_corner_and_must_fit() -> None:
     curves = list(rounded([(0, 0, 0), (10, 0, 3), (10, 10, 0)]))
     assert [type(curve) for curve in curves] == [Line, Arc, Line]
     assert all(math.dist(a.end, b.start) < 1e-12 for a, b in pairwise(curves))
-    assert isinstance(curves[1], Arc) and curves[1].centre == pytest.approx((7, 3)) and curves[1].sweep == pytest.approx(math.pi / 2)
+    assert (
+        isinstance(curves[1], Arc)
+        and curves[1].centre == pytest.approx((7, 3))
+        and curves[1].sweep == pytest.approx(math.pi / 2)
+    )
     with pytest.raises(ValueError, match="too large"):
         list(rounded([(0, 0, 0), (2, 0, 3), (2, 10, 0)]))
 
@@ -90,11 +96,17 @@ def test_words_that_are_drawn_are_one_step_and_read_back() -> None:
     assert not document.part.entities
 
 
-@pytest.mark.parametrize(("line", "says"), [
-    ('text 0,0 10 "日本"', "no letter for 日 本"), ('text 0,0 0 "A"', "height"), ('text 0,0 10 "  "', "letters"),
-    ('text 0,0 10', "words"), ('text 0,0 10 "A" font "no such font at all"', "no font"),
-    ('text 0,0 10 "A" font "nowhere/none.ttf"', "no font file"),
-])
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ('text 0,0 10 "日本"', "no letter for 日 本"),
+        ('text 0,0 0 "A"', "height"),
+        ('text 0,0 10 "  "', "letters"),
+        ("text 0,0 10", "words"),
+        ('text 0,0 10 "A" font "no such font at all"', "no font"),
+        ('text 0,0 10 "A" font "nowhere/none.ttf"', "no font file"),
+    ],
+)
 def test_what_cannot_be_drawn_says_why(line: str, says: str) -> None:
     with pytest.raises(CommandError, match=says):
         Document().run(line)
@@ -146,8 +158,12 @@ def test_a_font_that_lacks_a_letter_or_is_none_says_so(font: Path, tmp_path: Pat
         Document().run(f'text 0,0 7 "O" font "{(tmp_path / "broken.ttf").as_posix()}"')
 
 
-def test_a_font_with_any_byte_broken_draws_or_says_so(font: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """Its tables were read by a library that raises whatever comes: struct.error, IndexError, MemoryError for a length of 4 GB."""
+def test_a_font_with_any_byte_broken_draws_or_says_so(
+    font: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Its tables were read by a library that raises whatever comes: struct.error, IndexError, MemoryError for a length
+    of 4 GB.
+    """
     whole, refused = font.read_bytes(), 0
     for k in range(0, len(whole), 5):
         (tmp_path / "broken.ttf").write_bytes(whole[:k] + b"\xff" * 2 + whole[k + 2 :])

@@ -48,7 +48,10 @@ def test_no_place_of_a_spline_is_missed_and_each_lies_on_it(base: Point) -> None
         assert len(found) >= turns(WAVE, base, square)
         assert all(math.dist(foot(WAVE, p), p) < 1e-7 for p in found)
     nearest = foot(WAVE, base)
-    if nearest not in (WAVE.start, WAVE.end) and min(math.dist(nearest, WAVE.start), math.dist(nearest, WAVE.end)) > 1e-3:
+    if (
+        nearest not in (WAVE.start, WAVE.end)
+        and min(math.dist(nearest, WAVE.start), math.dist(nearest, WAVE.end)) > 1e-3
+    ):
         assert min(math.dist(nearest, p) for p in square_points(WAVE, base)) < 1e-6
 
 

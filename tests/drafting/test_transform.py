@@ -15,16 +15,25 @@ from app.geometry.transform import Similarity, mirroring, scaling, shift, transf
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 
 CURVES: tuple[Curve, ...] = (
-    Line((1, 2), (5, -3)), Arc((5, 0), (0, 5), (0, 0)), Arc((5, 0), (0, 5), (0, 0), ccw=False),
-    Circle((3, 4), 2), Circle((3, 4), 2, ccw=False),
-    Ellipse((1, 1), (4, 1), 0.4), Ellipse((1, 1), (4, 1), 0.4, 0.3, 2.5), Ellipse((1, 1), (4, 1), 0.4, 0.3, 2.5, ccw=False),
+    Line((1, 2), (5, -3)),
+    Arc((5, 0), (0, 5), (0, 0)),
+    Arc((5, 0), (0, 5), (0, 0), ccw=False),
+    Circle((3, 4), 2),
+    Circle((3, 4), 2, ccw=False),
+    Ellipse((1, 1), (4, 1), 0.4),
+    Ellipse((1, 1), (4, 1), 0.4, 0.3, 2.5),
+    Ellipse((1, 1), (4, 1), 0.4, 0.3, 2.5, ccw=False),
     Spline(2, ((0, 0), (3, 5), (6, -1), (9, 2)), (0, 0, 0, 0.5, 1, 1, 1), (1, 2, 1, 1)),
 )
 COORDINATE = st.floats(-50, 50).map(lambda v: round(v, 3))
 POINT = st.tuples(COORDINATE, COORDINATE)
 SIMILARITY = st.one_of(
-    POINT.map(shift), st.builds(turn, POINT, st.floats(-400, 400)), st.builds(scaling, POINT, st.floats(0.1, 10)),
-    st.builds(lambda p, turned: mirroring(p, (p[0] + math.cos(turned), p[1] + math.sin(turned))), POINT, st.floats(0, 6)),
+    POINT.map(shift),
+    st.builds(turn, POINT, st.floats(-400, 400)),
+    st.builds(scaling, POINT, st.floats(0.1, 10)),
+    st.builds(
+        lambda p, turned: mirroring(p, (p[0] + math.cos(turned), p[1] + math.sin(turned))), POINT, st.floats(0, 6)
+    ),
 )
 
 

@@ -1,4 +1,6 @@
-"""Undo over a thousand random edits, all the way back and forth: each time the identical document; bounded by memory."""
+"""Undo over a thousand random edits, all the way back and forth: each time the identical document; bounded by
+memory.
+"""
 
 import random
 
@@ -16,13 +18,32 @@ def random_line(rng: random.Random, document: Document) -> str:
     """Return one line of the language that may or may not be possible."""
     x, y, r = (round(rng.uniform(-100, 100), 3) for _ in range(3))
     some = " ".join(str(e.id) for e in rng.sample(document.part.entities, min(3, len(document.part.entities))))
-    return rng.choice([
-        f"line {x},{y} {y},{r}", f"circle {x},{y} {abs(r) + 1}", f"rect {x},{y} @{abs(r) + 1},5", f"let w = {x}",
-        f"layer l{rng.randrange(4)}", f"arc {x},{y} @10,0 @5,5 as bow", f"polygon 5 {x},{y} @{abs(r) + 1},0",
-        f"move @{x},{y} {some}", f"copy @{x},{y} {some}", f"rotate {x},{y} 30 {some}", f"delete {some}",
-        f"layer m {some}", "hide m", "show m", "select all", f"mirror 0,0 {abs(x) + 1},{y} {some}", f"reverse {some}",
-        f"repeat 3 as k; line {x},10*k @5,0; end", f"define d{rng.randrange(3)}(r); circle 0,0 r; end", "undo", "redo", "undo 2",
-    ])
+    return rng.choice(
+        [
+            f"line {x},{y} {y},{r}",
+            f"circle {x},{y} {abs(r) + 1}",
+            f"rect {x},{y} @{abs(r) + 1},5",
+            f"let w = {x}",
+            f"layer l{rng.randrange(4)}",
+            f"arc {x},{y} @10,0 @5,5 as bow",
+            f"polygon 5 {x},{y} @{abs(r) + 1},0",
+            f"move @{x},{y} {some}",
+            f"copy @{x},{y} {some}",
+            f"rotate {x},{y} 30 {some}",
+            f"delete {some}",
+            f"layer m {some}",
+            "hide m",
+            "show m",
+            "select all",
+            f"mirror 0,0 {abs(x) + 1},{y} {some}",
+            f"reverse {some}",
+            f"repeat 3 as k; line {x},10*k @5,0; end",
+            f"define d{rng.randrange(3)}(r); circle 0,0 r; end",
+            "undo",
+            "redo",
+            "undo 2",
+        ]
+    )
 
 
 @pytest.mark.parametrize("seed", [1, 2])

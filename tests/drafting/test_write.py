@@ -29,11 +29,14 @@ CURVE: st.SearchStrategy[Curve] = st.one_of(
     st.tuples(POINT, POINT).filter(lambda ends: math.dist(*ends) > 1e-3).map(lambda ends: Line(*ends)),
     st.builds(arc_about, POINT, SIZE, st.floats(0, 6), st.floats(0.1, 6), st.booleans()),
     st.builds(Circle, POINT, SIZE, st.booleans()),
-    st.builds(Ellipse, POINT, st.tuples(SIZE, SIZE), st.floats(0.05, 1), st.floats(-7, 7), st.just(0.0), st.booleans()).map(
-        lambda e: replace(e, end_parameter=e.start_parameter + 2)),
+    st.builds(
+        Ellipse, POINT, st.tuples(SIZE, SIZE), st.floats(0.05, 1), st.floats(-7, 7), st.just(0.0), st.booleans()
+    ).map(lambda e: replace(e, end_parameter=e.start_parameter + 2)),
     st.builds(Ellipse, POINT, st.tuples(SIZE, SIZE), st.floats(0.05, 1), ccw=st.booleans()),
     st.lists(POINT, min_size=4, max_size=4).map(lambda points: Spline(3, tuple(points), (0.0,) * 4 + (1.0,) * 4)),
-    st.lists(POINT, min_size=3, max_size=3).map(lambda points: Spline(2, tuple(points), (0.0,) * 3 + (1.0,) * 3, (1.0, 0.5, 2.0))),
+    st.lists(POINT, min_size=3, max_size=3).map(
+        lambda points: Spline(2, tuple(points), (0.0,) * 3 + (1.0,) * 3, (1.0, 0.5, 2.0))
+    ),
 )
 
 
@@ -71,7 +74,8 @@ def test_every_curve_comes_back(curves: list[Curve]) -> None:
 @settings(deadline=None)
 @given(POINT, POINT, st.floats(0.5, 50, exclude_min=True), st.booleans(), st.booleans())
 def test_what_is_drawn_by_a_radius_comes_back_to_the_last_digit(
-        start: tuple[float, float], end: tuple[float, float], share: float, ccw: bool, large: bool) -> None:
+    start: tuple[float, float], end: tuple[float, float], share: float, ccw: bool, large: bool
+) -> None:
     assume(math.dist(start, end) > 1e-3)
     radius = share * math.dist(start, end)
     part = Part().with_curves([arc_of_radius(start, end, radius, ccw, large)], "0")
@@ -83,7 +87,9 @@ def test_layers_come_back_with_their_looks_and_order() -> None:
     entities = (Entity(1, Circle((0, 0), 1), "c"), Entity(2, Circle((0, 0), 2), "b"), Entity(3, Circle((0, 0), 3), "b"))
     again = read_again(Part(entities, layers))
     assert again.entities == entities
-    assert [layer for layer in again.layers if layer.name != "0"] == [replace(layer, name=layer.name.replace('"', "'")) for layer in layers]
+    assert [layer for layer in again.layers if layer.name != "0"] == [
+        replace(layer, name=layer.name.replace('"', "'")) for layer in layers
+    ]
 
 
 def test_the_first_layer_comes_back_in_its_place() -> None:

@@ -45,7 +45,15 @@ def test_the_table_has_every_way_and_says_who_draws() -> None:
     text, data = figure.text(), figure.report()
     assert figure.renderer in text and f"{data['threads']} threads" in text
     assert ("(software)" in text) is data["software"]
-    for word in ("9,542", "5 mm", "64 x 64 cells", "16.83 s", "195 MHz", f"{row.polygons.drawn:,}", f"{row.seconds[Way.RECORD]:.3f} s"):
+    for word in (
+        "9,542",
+        "5 mm",
+        "64 x 64 cells",
+        "16.83 s",
+        "195 MHz",
+        f"{row.polygons.drawn:,}",
+        f"{row.seconds[Way.RECORD]:.3f} s",
+    ):
         assert word in text
     assert data["programs"][0]["moves"] == 9542 and data["programs"][0]["ratios"]["published_by_quads"] == ratio
 

@@ -97,8 +97,13 @@ def test_the_overlap_is_marked_at_any_stepover_up_to_the_next_path(stepover: flo
     changed = frame != marked
     assert np.all(frame[changed] == PixelCode.CONTOUR) and np.all(marked[changed] == PixelCode.PROCESSED)
     second = walk[0].part.label == 2
-    assert np.array_equal(changed, second & (paths.pixels == 1) & (frame != PixelCode.FRAME)) and np.count_nonzero(changed) > 100
-    assert np.array_equal(marked == PixelCode.CONTOUR, paths.pixels >= 2), "what is left begins with the next path's pixels"
+    assert (
+        np.array_equal(changed, second & (paths.pixels == 1) & (frame != PixelCode.FRAME))
+        and np.count_nonzero(changed) > 100
+    )
+    assert np.array_equal(marked == PixelCode.CONTOUR, paths.pixels >= 2), (
+        "what is left begins with the next path's pixels"
+    )
     rings = [stage for stage in walk[2] if stage.number in (145, 146, 147)]
     for before, after in pairwise(rings):
         assert not np.array_equal(before.plane, after.plane), (before.number, before.turn)
@@ -141,10 +146,15 @@ def test_more_than_thirty_stages_a_second(walk: Walk) -> None:
 
 def test_the_published_variant_marks_what_it_gets_wrong() -> None:
     """A comb: in its teeth the strands of the offset merge."""
-    teeth = [point for k in range(9, -1, -1) for point in ((6 * k + 3.2, 8), (6 * k + 3.2, 30), (6 * k, 30), (6 * k, 8))]
+    teeth = [
+        point for k in range(9, -1, -1) for point in ((6 * k + 3.2, 8), (6 * k + 3.2, 30), (6 * k, 30), (6 * k, 8))
+    ]
     comb = [(0, 0), (60, 0), (60, 8), *teeth]
-    walk = walked(job_of([polygon_contour([point for k, point in enumerate(comb) if k == 0 or point != comb[k - 1]])], 2.0, 3.0), 120,
-                  Variant.PUBLISHED)
+    walk = walked(
+        job_of([polygon_contour([point for k, point in enumerate(comb) if k == 0 or point != comb[k - 1]])], 2.0, 3.0),
+        120,
+        Variant.PUBLISHED,
+    )
     fill = [stage for stage in walk[2] if stage.number in (208, 130)]
     assert all(stage.wrong is not None for stage in fill)
     settled = next(stage for stage in stages(walk[0].job, walk[0].part, walk[1].paths) if stage.number == 208)
@@ -161,14 +171,18 @@ def test_a_contour_alone_and_a_pocket_alone_have_their_own_steps() -> None:
     assert last(alone, 407) is not None
     pocket = walked(Job(job.part, job.tools, job.operations[:1]), 200)
     assert {142, 146, 407} <= {stage.number for stage in pocket[2]}
-    assert np.array_equal(last(pocket, 130).plane == 1, pocket[0].part.free), "without a contour tool the area is filled up to its walls"
+    assert np.array_equal(last(pocket, 130).plane == 1, pocket[0].part.free), (
+        "without a contour tool the area is filled up to its walls"
+    )
 
 
 FIGURES = {"figure_2a": 110, "figure_2b": 130, "figure_2c": 140, "frames": 143, "smoothed": 407}
 
 
 @pytest.mark.parametrize(("name", "number"), FIGURES.items())
-def test_figures_of_the_text_look_as_they_did_when_they_were_looked_at(walk: Walk, name: str, number: int, tmp_path: Path) -> None:
+def test_figures_of_the_text_look_as_they_did_when_they_were_looked_at(
+    walk: Walk, name: str, number: int, tmp_path: Path
+) -> None:
     expected = cv2.imread(str(SNAPSHOTS / f"{name}.png"))
     got = cv2.imdecode(np.frombuffer(png(last(walk, number)), np.uint8), cv2.IMREAD_COLOR)
     if not np.array_equal(got, expected):
@@ -181,7 +195,9 @@ def test_figure_5_in_codes() -> None:
     shape = polygon_contour([(1.5, 1.5), (11.5, 1.5), (11.5, 7.5), (8.5, 4.5), (5.5, 8.5), (1.5, 8.5)])
     seen: dict[int, np.ndarray] = {}
     fill(Frame(10, 13, 1.0), [shape], seen.__setitem__)
-    rows = [["".join(".12RI"[code] for code in row) for row in seen[number].tolist()] for number in (201, 206, 208, 130)]
+    rows = [
+        ["".join(".12RI"[code] for code in row) for row in seen[number].tolist()] for number in (201, 206, 208, 130)
+    ]
     assert [" ".join(each) for each in zip(*rows, strict=True)] == [
         "............. ............. ............. .............",
         ".11111....... .RRRRR....... .RRRRR....... .11111.......",

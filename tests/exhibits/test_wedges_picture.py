@@ -1,6 +1,5 @@
 """The sweep of a few moves in facets, for a picture of the method."""
 
-
 from itertools import pairwise
 
 import numpy as np

@@ -14,15 +14,21 @@ from tests.raster.oracle import even_odd
 
 def traces(frame: Frame, contours: list[Contour]) -> list[np.ndarray]:
     """The chains of pixels whose centres lie inside, as points in mm; the longest first."""
-    chains = sorted((border.chain for border in borders_of(even_odd(frame, contours))), key=lambda chain: -len(chain.directions))
-    return [np.ascontiguousarray(frame.to_mm(chain.pixels()[:-1, ::-1] + 0.5)) for chain in chains if len(chain.directions)]
+    chains = sorted(
+        (border.chain for border in borders_of(even_odd(frame, contours))), key=lambda chain: -len(chain.directions)
+    )
+    return [
+        np.ascontiguousarray(frame.to_mm(chain.pixels()[:-1, ::-1] + 0.5)) for chain in chains if len(chain.directions)
+    ]
 
 
 def sampled(contour: Contour, step: float) -> np.ndarray:
     """Points exactly on a contour, about a step apart, its joints among them."""
     rows = contour_rows(contour)
-    points = [points_at(np.repeat(row[None], n, axis=0), np.arange(n) / n)
-              for row, n in ((row, max(2, round(float(length(row)) / step))) for row in rows)]
+    points = [
+        points_at(np.repeat(row[None], n, axis=0), np.arange(n) / n)
+        for row, n in ((row, max(2, round(float(length(row)) / step))) for row in rows)
+    ]
     return np.ascontiguousarray(np.concatenate(points))
 
 

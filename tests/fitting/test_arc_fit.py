@@ -1,4 +1,6 @@
-"""Lines and arcs keep within the tolerance of the polyline all along, whatever it is, and are few where it is round or straight."""
+"""Lines and arcs keep within the tolerance of the polyline all along, whatever it is, and are few where it is round or
+straight.
+"""
 
 import math
 from itertools import pairwise
@@ -29,7 +31,9 @@ def spread(points: Floats) -> Floats:
 def along(path: FittedPath) -> Floats:
     """Points along the motions, from nothing but their ends and centres."""
     parts = []
-    for a, b, c, kind, plane in zip(*(getattr(path.motions, name) for name in ("start", "end", "centre", "kind", "plane")), strict=True):
+    for a, b, c, kind, plane in zip(
+        *(getattr(path.motions, name) for name in ("start", "end", "centre", "kind", "plane")), strict=True
+    ):
         if kind == MotionKind.LINE:
             parts.append(spread(np.array([a, b])))
             continue
@@ -38,7 +42,9 @@ def along(path: FittedPath) -> Floats:
         first, last = (math.atan2(p[v] - c[v], p[u] - c[u]) for p in (a, b))
         sweep = (sign * (last - first)) % math.tau
         radius = math.dist((a[u], a[v]), (c[u], c[v]))
-        assert math.isclose(radius, math.dist((b[u], b[v]), (c[u], c[v])), abs_tol=1e-7), "both ends are as far from the centre"
+        assert math.isclose(radius, math.dist((b[u], b[v]), (c[u], c[v])), abs_tol=1e-7), (
+            "both ends are as far from the centre"
+        )
         assert sweep < math.radians(230)
         share = np.linspace(0, 1, max(2, math.ceil(radius * sweep / STEP)))
         arc = np.empty((len(share), 3))
@@ -132,7 +138,9 @@ def test_chords_in_two_halves_change_nothing() -> None:
 def test_noise_below_the_tolerance_on_a_line_is_one_line() -> None:
     x = np.linspace(0, 100, 2_001)
     noise = np.random.default_rng(5).uniform(-0.5, 0.5, (2, len(x))) * TOLERANCE
-    noise[:, (x < 10 * TOLERANCE) | (x > 100 - 10 * TOLERANCE)] = 0  # at its ends a path is too short to tell noise from a corner
+    noise[:, (x < 10 * TOLERANCE) | (x > 100 - 10 * TOLERANCE)] = (
+        0  # at its ends a path is too short to tell noise from a corner
+    )
     assert kinds(fitted(np.column_stack([x, *noise]))) == [MotionKind.LINE]
 
 
@@ -167,7 +175,9 @@ def test_adversaries_stay_within(name: str, tolerance: float) -> None:
         "noise": np.column_stack([3 * t, np.sin(t), 0 * t]) + rng.normal(0, 0.4 * tolerance, (801, 3)),
         "stairs": np.round(np.column_stack([10 * np.cos(t), 10 * np.sin(t), 4 * np.sin(t)]), 1)[::4],
         "steep": np.column_stack([0.3 * np.cos(3 * t), 0.3 * np.sin(3 * t), 20 * t])[::20],
-        "hairpin": np.array([[0, 0, 0], [5, 0, 0], [5.001, 0, 0], [5.001, 0.001, 0], [0, 0.001, 0], [0, 0.002, 0], [5, 0.002, 0]]),
+        "hairpin": np.array(
+            [[0, 0, 0], [5, 0, 0], [5.001, 0, 0], [5.001, 0.001, 0], [0, 0.001, 0], [0, 0.002, 0], [5, 0.002, 0]]
+        ),
     }[name]
     points = points[np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])]
     either, lines = (fitted(np.ascontiguousarray(points), tolerance, arcs) for arcs in (True, False))
@@ -177,7 +187,9 @@ def test_adversaries_stay_within(name: str, tolerance: float) -> None:
 def test_lines_alone_when_asked() -> None:
     path = fitted(circle(10_000), arcs=False)
     assert set(kinds(path)) == {MotionKind.LINE}
-    assert len(path.motions) < 80, "a chord of 0.05 mm sagitta at 30 mm spans 6.6 degrees; twice that is allowed by the ends alone"
+    assert len(path.motions) < 80, (
+        "a chord of 0.05 mm sagitta at 30 mm spans 6.6 degrees; twice that is allowed by the ends alone"
+    )
 
 
 def test_what_is_flatter_than_the_largest_radius_is_lines() -> None:

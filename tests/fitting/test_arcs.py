@@ -28,7 +28,9 @@ def on_curve(curve: Ellipse | Spline, count: int) -> NDArray[np.float64]:
     weights = np.array(curve.weights or [1.0] * len(curve.control_points))
     homogeneous = np.column_stack([np.array(curve.control_points) * weights[:, None], weights])
     knots = np.array(curve.knots)
-    values = BSpline(knots, homogeneous, curve.degree)(np.linspace(knots[curve.degree], knots[-curve.degree - 1], count))
+    values = BSpline(knots, homogeneous, curve.degree)(
+        np.linspace(knots[curve.degree], knots[-curve.degree - 1], count)
+    )
     return values[:, :2] / values[:, 2:]
 
 
@@ -38,7 +40,9 @@ def on_primitive(p: Primitive, count: int) -> NDArray[np.float64]:
         return np.array(p.start) + np.outer(share, np.subtract(p.end, p.start))
     sweep = (math.tau if p.ccw else -math.tau) if isinstance(p, Circle) else p.sweep
     first = 0.0 if isinstance(p, Circle) else p.start_angle
-    return np.array(p.centre) + p.radius * np.column_stack([np.cos(first + share * sweep), np.sin(first + share * sweep)])
+    return np.array(p.centre) + p.radius * np.column_stack(
+        [np.cos(first + share * sweep), np.sin(first + share * sweep)]
+    )
 
 
 def off_primitives(points: NDArray[np.float64], primitives: tuple[Primitive, ...]) -> float:
@@ -49,11 +53,15 @@ def off_primitives(points: NDArray[np.float64], primitives: tuple[Primitive, ...
         if isinstance(p, Line):
             way = np.subtract(p.end, p.start)
             share = ((points - p.start) @ way) / (way @ way)
-            distance = np.where((share >= 0) & (share <= 1), np.abs((points - p.start) @ (-way[1], way[0])) / np.hypot(*way), ends)
+            distance = np.where(
+                (share >= 0) & (share <= 1), np.abs((points - p.start) @ (-way[1], way[0])) / np.hypot(*way), ends
+            )
         else:
             arm = points - p.centre
             ahead = np.arctan2(arm[:, 1], arm[:, 0]) - (0.0 if isinstance(p, Circle) else p.start_angle)
-            within = np.mod(ahead if p.ccw else -ahead, math.tau) <= (math.tau if isinstance(p, Circle) else abs(p.sweep))
+            within = np.mod(ahead if p.ccw else -ahead, math.tau) <= (
+                math.tau if isinstance(p, Circle) else abs(p.sweep)
+            )
             distance = np.where(within, np.abs(np.hypot(*arm.T) - p.radius), ends)
         best = np.minimum(best, distance)
     return float(best.max())
@@ -84,8 +92,11 @@ def heading(p: Primitive, at_end: bool) -> float:
 
 
 def corners(made: LinesAndArcs) -> list[Point]:
-    return [b.start for a, b in pairwise(made.primitives)
-            if abs(math.remainder(heading(a, True) - heading(b, False), math.tau)) > 1e-4]
+    return [
+        b.start
+        for a, b in pairwise(made.primitives)
+        if abs(math.remainder(heading(a, True) - heading(b, False), math.tau)) > 1e-4
+    ]
 
 
 @pytest.mark.parametrize("ratio", [0.9999, 0.9, 0.5, 0.1, 0.01, 1e-4])
@@ -129,7 +140,12 @@ def test_round_ellipse_is_a_circle() -> None:
 def test_rational_spline_circle_is_a_circle() -> None:
     h = math.sqrt(0.5)
     points = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0))
-    curve = Spline(2, tuple((5 + 7 * x, 7 * y) for x, y in points), (0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4), (1, h, 1, h, 1, h, 1, h, 1))
+    curve = Spline(
+        2,
+        tuple((5 + 7 * x, 7 * y) for x, y in points),
+        (0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4),
+        (1, h, 1, h, 1, h, 1, h, 1),
+    )
     (circle,) = lines_and_arcs(curve).primitives
     assert isinstance(circle, Circle) and circle.ccw
     assert circle.centre == pytest.approx((5, 0), abs=1e-9) and circle.radius == pytest.approx(7, abs=1e-9)
@@ -154,7 +170,9 @@ def test_polygon_given_as_a_spline_becomes_its_lines() -> None:
     assert made.deviation < 1e-12
 
 
-@pytest.mark.parametrize("middle", [((30, 30), (-10, 30)), ((20, 20), (0, 20)), ((50, 40), (-30, 40))], ids=["bend", "cusp", "loop"])
+@pytest.mark.parametrize(
+    "middle", [((30, 30), (-10, 30)), ((20, 20), (0, 20)), ((50, 40), (-30, 40))], ids=["bend", "cusp", "loop"]
+)
 def test_bends_cusps_and_loops(middle: tuple[Point, Point]) -> None:
     curve = Spline(3, ((0, 0), *middle, (20, 0)), (0, 0, 0, 0, 1, 1, 1, 1))
     check(curve, lines_and_arcs(curve))
@@ -174,7 +192,9 @@ def test_doubled_control_points_at_the_ends() -> None:
 
 def test_spline_that_stands_still_on_the_way() -> None:
     still = (0.0, 0.0)
-    curve = Spline(3, ((0, 5), (1, 0), still, still, still, still, (3, 3), (0, 1)), (0, 0, 0, 0, 1, 2, 3, 4, 5, 5, 5, 5))
+    curve = Spline(
+        3, ((0, 5), (1, 0), still, still, still, still, (3, 3), (0, 1)), (0, 0, 0, 0, 1, 2, 3, 4, 5, 5, 5, 5)
+    )
     check(curve, lines_and_arcs(curve))
 
 

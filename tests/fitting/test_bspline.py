@@ -84,7 +84,9 @@ def test_noise_below_the_tolerance_costs_few_spans() -> None:
 def test_corners_are_kept_exactly_and_crumbs_make_none() -> None:
     leg = np.linspace(0, 10, 200)[:, None]
     up = np.hstack([leg, 0.3 * np.sin(leg), 0 * leg])
-    path = np.vstack([up, up[-1] + np.array([0, 1e-4, 0]), up[-1] + np.hstack([0.3 * np.sin(leg[1:]), leg[1:], 0 * leg[1:]])])
+    path = np.vstack(
+        [up, up[-1] + np.array([0, 1e-4, 0]), up[-1] + np.hstack([0.3 * np.sin(leg[1:]), leg[1:], 0 * leg[1:]])]
+    )
     made = fit_splines(path, SplineOptions(Tube(0.02)))
     corner = np.abs(made.motions.end - up[-1]).max(axis=1)
     assert corner.min() <= 2e-4
@@ -97,7 +99,9 @@ def test_chords_stand_where_a_spline_would_take_more_blocks() -> None:
     points = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0)
     made = fit_splines(points, SplineOptions(Tube(1e-3), corner=np.pi))
     assert judge(curve_of_motions(made.motions), points, Tube(1e-3)).answer is Answer.INSIDE
-    blocks = sum(len(curve.points) for curve in made.motions.splines.values()) + int(np.sum(made.motions.kind == MotionKind.LINE))
+    blocks = sum(len(curve.points) for curve in made.motions.splines.values()) + int(
+        np.sum(made.motions.kind == MotionKind.LINE)
+    )
     assert blocks <= len(points) - 1
 
 
@@ -107,7 +111,9 @@ def test_adversaries_end_and_are_proven() -> None:
         "eight": np.column_stack([10 * np.sin(angle), 5 * np.sin(2 * angle), 0 * angle]),
         "helix": np.column_stack([10 * np.cos(angle), 10 * np.sin(angle), angle]),
         "quantised": np.round(circle(2000, 10.0), 2),
-        "noisy line": np.column_stack([np.linspace(0, 100, 3000), np.random.default_rng(0).uniform(-0.004, 0.004, 3000), np.zeros(3000)]),
+        "noisy line": np.column_stack(
+            [np.linspace(0, 100, 3000), np.random.default_rng(0).uniform(-0.004, 0.004, 3000), np.zeros(3000)]
+        ),
         "reversal": np.array([[0, 0, 0], [10, 0, 0], [0, 0, 0], [10, 0.0, 0]]),
         "zigzag": np.column_stack([np.arange(500) * 0.002, (np.arange(500) % 2) * 0.001, np.zeros(500)]),
         "ten um": np.column_stack([np.arange(4000) * 0.01, np.sin(np.arange(4000) * 0.001), np.zeros(4000)]),
@@ -122,7 +128,9 @@ def test_adversaries_end_and_are_proven() -> None:
 
 @pytest.mark.parametrize("tolerance", [0.01, 0.05])
 def test_a_dense_wave_is_one_spline_of_few_spans(tolerance: float) -> None:
-    """In narrow places samples' places draw away from one another; the curve between them must not be left without hold."""
+    """In narrow places samples' places draw away from one another; the curve between them must not be left without
+    hold.
+    """
     t = np.linspace(0, 2 * np.pi, 100_001)
     r = 60 + 4 * np.sin(9 * t) + 0.8 * np.sin(31 * t)
     points = np.round(np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t]), 4)

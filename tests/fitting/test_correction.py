@@ -1,4 +1,6 @@
-"""Corrected points: the text's own example, correction curves against scipy's, and how near the true shape they come."""
+"""Corrected points: the text's own example, correction curves against scipy's, and how near the true shape they
+come.
+"""
 
 import math
 from collections.abc import Callable
@@ -67,7 +69,9 @@ def test_the_least_squares_cubic_is_that_of_numpy(count: int) -> None:
 @pytest.mark.parametrize("rise", [0.0, 3.0])
 @pytest.mark.parametrize("move", list(Move))
 def test_points_of_a_polygon_come_back_to_its_circle(move: Move, rise: float) -> None:
-    """Sides of 3.9 mm lie 77 um off the circle; corrected, their points are within a tenth of a micrometre of it, but at the ends."""
+    """Sides of 3.9 mm lie 77 um off the circle; corrected, their points are within a tenth of a micrometre of it, but
+    at the ends.
+    """
     points = on_polygon(circle(40, rise), 6)
     state = effective_points(points, EffectiveOptions(1e-6)).state
     assert off_circle(points) > 0.07
@@ -78,7 +82,9 @@ def test_points_of_a_polygon_come_back_to_its_circle(move: Move, rise: float) ->
     assert off_circle(after.places) < 1e-3
     assert after.moved == pytest.approx(np.linalg.norm(after.places - points, axis=1), abs=1e-15)
     if move == Move.PERPENDICULAR:
-        chords = np.diff(points[state == E], axis=0)[np.searchsorted(np.flatnonzero(state == E), np.flatnonzero(state == V)) - 1]
+        chords = np.diff(points[state == E], axis=0)[
+            np.searchsorted(np.flatnonzero(state == E), np.flatnonzero(state == V)) - 1
+        ]
         assert np.abs(np.einsum("ij,ij->i", (after.places - points)[state == V], chords)).max() < 1e-9
 
 
@@ -98,7 +104,9 @@ def test_final_curves_of_both_embodiments_keep_to_the_circle() -> None:
 
 
 def test_effective_points_move_by_least_squares_alone() -> None:
-    """Corners that lie off a circle by noise: the curve through them keeps them, the one near them brings them nearer."""
+    """Corners that lie off a circle by noise: the curve through them keeps them, the one near them brings them
+    nearer.
+    """
     corners = circle(240)
     corners[1:-1, :2] *= 1 + 4e-4 * np.random.default_rng(1).normal(size=(239, 1))
     points = on_polygon(corners, 4)
@@ -156,11 +164,15 @@ def test_equal_and_few_points() -> None:
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: CorrectionOptions(before=-1), lambda: CorrectionOptions(after=0), lambda: CorrectionOptions(after=51),
-        lambda: CorrectionOptions(1.1), lambda: CorrectionOptions(-1.0, Select.DISTANCE), lambda: CorrectionOptions(math.nan),
+        lambda: CorrectionOptions(before=-1),
+        lambda: CorrectionOptions(after=0),
+        lambda: CorrectionOptions(after=51),
+        lambda: CorrectionOptions(1.1),
+        lambda: CorrectionOptions(-1.0, Select.DISTANCE),
+        lambda: CorrectionOptions(math.nan),
         lambda: corrected(circle(5), np.array([E, E, E, E, E, V], np.uint8), CorrectionOptions()),
     ],
-)  # fmt: skip
+)
 def test_bad_parameters_are_named(make: Callable[[], object]) -> None:
     with pytest.raises(ParameterError, match="must be"):
         make()

@@ -97,7 +97,9 @@ def test_a_straight_cloud_of_many_points_is_one_range() -> None:
     assert len(effective_points(many, EffectiveOptions(0.02)).ranges) == 1
 
 
-@pytest.mark.parametrize("bad", [(0.0,), (math.nan,), (0.1, Ends.RATIO, 0.6), (0.1, Ends.RATIO, -0.1), (0.1, Ends.DISTANCE, -1.0)])
+@pytest.mark.parametrize(
+    "bad", [(0.0,), (math.nan,), (0.1, Ends.RATIO, 0.6), (0.1, Ends.RATIO, -0.1), (0.1, Ends.DISTANCE, -1.0)]
+)
 def test_bad_parameters_are_named(bad: tuple[float, ...]) -> None:
     with pytest.raises(ParameterError, match="must be"):
         EffectiveOptions(*bad)  # type: ignore[arg-type]

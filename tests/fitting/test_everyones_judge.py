@@ -1,4 +1,6 @@
-"""The judge of curves asked about what it did not make: the exact rings, and what smoothing makes of the bitmap's borders."""
+"""The judge of curves asked about what it did not make: the exact rings, and what smoothing makes of the bitmap's
+borders.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,8 @@ def in_space(points: np.ndarray) -> np.ndarray:
 
 
 def in_tube(path: Smoothed, points: np.ndarray, tube: Tube) -> bool:
-    """Whether the judge finds a closed path to go round with closed points (n, 2): from that at which it says that it starts,
+    """Whether the judge finds a closed path to go round with closed points (n, 2): from that at which it says that it
+    starts,
     or from that nearest to its start of those about there; a circle may start anywhere.
     """
     near = np.arange(len(points)) if len(path.rows) == 1 else (path.ends[0] + np.arange(-20, 21)) % len(points)
@@ -48,7 +51,9 @@ def in_tube(path: Smoothed, points: np.ndarray, tube: Tube) -> bool:
 
 def chords(rows: Rows) -> np.ndarray:
     """(n, 2) places on closed rows, no chord farther than CHORD from its arc."""
-    steps = np.where(rows[:, 7] == 0, 1, np.ceil(lengths(rows) / np.sqrt(8 * CHORD * np.maximum(rows[:, 6], 1e-9)))).astype(int)
+    steps = np.where(
+        rows[:, 7] == 0, 1, np.ceil(lengths(rows) / np.sqrt(8 * CHORD * np.maximum(rows[:, 6], 1e-9)))
+    ).astype(int)
     found = []
     for row, count in zip(rows, steps, strict=True):
         share = np.linspace(0, 1, count + 1)[:-1]
@@ -76,10 +81,12 @@ def from_there(ring: shapely.LinearRing, start: np.ndarray, ccw: bool) -> np.nda
 def test_every_ring_keeps_within_a_micrometre_of_what_shapely_offsets(seed: int | None) -> None:
     contours: list[Contour] = fig2() if seed is None else random_part(seed)[0]
     regions = tuple(nest(contours))
-    polygons = shapely.union_all([
-        shapely.Polygon(chords(contour_rows(outer)), [chords(contour_rows(island)) for island in islands])
-        for outer, *islands in (region.contours for region in regions)
-    ])  # fmt: skip
+    polygons = shapely.union_all(
+        [
+            shapely.Polygon(chords(contour_rows(outer)), [chords(contour_rows(island)) for island in islands])
+            for outer, *islands in (region.contours for region in regions)
+        ]
+    )
     judged = 0
     for level in offset_levels(pack(regions), [0.7, 1.9, 3.3]):
         arcs = max(8, int(np.ceil(np.pi / 4 / np.sqrt(2 * CHORD / level.distance))))

@@ -17,7 +17,9 @@ RADIUS, EACH, SIDES, ROWS = 20.0, 5, 12, 9
 
 
 def prism() -> Floats:
-    """A cylinder's polyhedron: flat sides of EACH steps between corners on the circle (columns), along its axis (rows)."""
+    """A cylinder's polyhedron: flat sides of EACH steps between corners on the circle (columns), along its axis
+    (rows).
+    """
     turn = np.linspace(0, math.pi, SIDES + 1)
     corners = RADIUS * np.column_stack((np.cos(turn), np.sin(turn)))
     share = np.arange(EACH)[:, None, None] / EACH

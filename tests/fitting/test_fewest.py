@@ -1,4 +1,6 @@
-"""The fewest lines and arcs: closed forms, all choices on small inputs, bends within what is allowed, samples within the tolerance."""
+"""The fewest lines and arcs: closed forms, all choices on small inputs, bends within what is allowed, samples within
+the tolerance.
+"""
 
 import math
 from functools import cache
@@ -64,7 +66,11 @@ def by_all_choices(points: Floats, limit: float) -> int:
         inner = points[i : j + 1, 0] + 1j * points[i : j + 1, 1]
         inner = np.concatenate([p + (q - p) * np.linspace(0, 1, 17) for p, q in pairwise(inner)])
         w = (inner - (a + b) / 2) / ((b - a) / 2)
-        tried = heights if j - i >= 3 and np.abs(np.diff(points[i : j + 1, :2], axis=0)).max() <= abs(b - a) / 2 else heights[400:401]
+        tried = (
+            heights
+            if j - i >= 3 and np.abs(np.diff(points[i : j + 1, :2], axis=0)).max() <= abs(b - a) / 2
+            else heights[400:401]
+        )
         for t in tried:
             if abs(t) < 1e-9:
                 off = np.abs(w.imag) if np.all(np.diff(w.real) > 0) else np.full(1, np.inf)
@@ -94,12 +100,16 @@ def test_small_inputs_take_no_more_than_all_choices_from_point_to_point(seed: in
 
 
 def test_without_places_beside_the_points_it_finds_what_all_choices_find(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It holds arcs to few samples of each chord, so that it may find what is off by a little more: the proof is for that."""
+    """It holds arcs to few samples of each chord, so that it may find what is off by a little more: the proof is for
+    that.
+    """
     monkeypatch.setattr(fewest, "_ASIDE", np.zeros(1))
     found = []
     for seed in range(6):
         turn = np.cumsum(np.random.default_rng(seed).uniform(-0.5, 0.5, 10))
-        points = np.concatenate([np.zeros((1, 3)), np.cumsum(np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]), axis=0)])
+        points = np.concatenate(
+            [np.zeros((1, 3)), np.cumsum(np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]), axis=0)]
+        )
         found.append((by_all_choices(points, 0.12), searched(points, 0.1, math.pi), by_all_choices(points, 0.0999)))
     assert all(looser <= count <= exact for looser, count, exact in found)
     assert sum(count == exact for _, count, exact in found) >= 4
@@ -120,13 +130,17 @@ def test_bends_keep_to_what_is_asked_and_samples_to_the_tolerance(bend: float) -
 
 
 def test_a_wider_bend_never_costs_blocks_and_saves_some() -> None:
-    counts = [len(fit_arcs(wave(4_000), ArcOptions(TOLERANCE, bend=math.radians(bend))).motions) for bend in (0.5, 5.0, 180.0)]
+    counts = [
+        len(fit_arcs(wave(4_000), ArcOptions(TOLERANCE, bend=math.radians(bend))).motions) for bend in (0.5, 5.0, 180.0)
+    ]
     assert counts == sorted(counts, reverse=True)
     assert counts[-1] < counts[0]
 
 
 def test_more_pieces_than_are_searched_together_still_meet(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Searched in parts: the next sets out in the direction in which the one before arrives, at a point of the polyline."""
+    """Searched in parts: the next sets out in the direction in which the one before arrives, at a point of the
+    polyline.
+    """
     whole = len(fit_arcs(wave(4_000), ArcOptions(TOLERANCE)).motions)
     monkeypatch.setattr(fewest, "_PIECES", 20)
     path = fit_arcs(wave(4_000), ArcOptions(TOLERANCE))

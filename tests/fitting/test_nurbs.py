@@ -39,20 +39,27 @@ def test_no_point_is_farther_than_the_tolerance(curve: Nurbs, tolerance: float) 
     edges = np.unique(curve.knots)
     samples = nurbs_points(curve, np.concatenate([np.linspace(a, b, 300) for a, b in itertools.pairwise(edges)]))
     assert distances(samples, chords).max() <= tolerance * (1 + 1e-9)
-    assert np.array_equal(chords[[0, -1]], curve.points[[0, -1]]) or np.abs(chords[[0, -1]] - curve.points[[0, -1]]).max() < 1e-9
+    assert (
+        np.array_equal(chords[[0, -1]], curve.points[[0, -1]])
+        or np.abs(chords[[0, -1]] - curve.points[[0, -1]]).max() < 1e-9
+    )
     assert distances(chords, samples).max() < 5.0
 
 
 def test_chords_are_not_many_more_than_needed() -> None:
     half = np.sqrt(0.5)
-    quarter = Nurbs(np.array([[10.0, 0, 0], [10, 10, 0], [0, 10, 0]]), np.array([1, half, 1]), np.array([0, 0, 0, 1.0, 1, 1]), 2)
+    quarter = Nurbs(
+        np.array([[10.0, 0, 0], [10, 10, 0], [0, 10, 0]]), np.array([1, half, 1]), np.array([0, 0, 0, 1.0, 1, 1]), 2
+    )
     chords = flattened(quarter, 0.001)
     needed = (np.pi / 2) / (2 * np.arccos(1 - 0.001 / 10))
     assert needed < len(chords) - 1 < 3 * needed
     assert np.hypot(chords[:, 0], chords[:, 1]) == pytest.approx(10.0, abs=1e-12)
 
 
-@pytest.mark.parametrize("points", [np.zeros((4, 3)), np.array([[0.0, 0, 0], [9, 0, 0], [-9, 0, 0], [1, 0, 0]]), np.eye(4, 3) * 1e9])
+@pytest.mark.parametrize(
+    "points", [np.zeros((4, 3)), np.array([[0.0, 0, 0], [9, 0, 0], [-9, 0, 0], [1, 0, 0]]), np.eye(4, 3) * 1e9]
+)
 def test_curves_that_stand_still_turn_back_or_are_huge(points: np.ndarray) -> None:
     curve = Nurbs(points, np.array([1e-6, 1e6, 1e-6, 1e6]), np.array([0.0, 0, 0, 0, 1, 1, 1, 1]), 3)
     begun = time.perf_counter()

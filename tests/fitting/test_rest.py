@@ -27,7 +27,12 @@ def curve(radius: float, waves: dict[int, float]) -> Contour:
     return polygon_contour(list(zip((50 + r * np.cos(t)).tolist(), (50 + r * np.sin(t)).tolist(), strict=True)))
 
 
-CURVES = {"bean": curve(30, {2: 8, 3: 3}), "egg": curve(35, {1: 4, 2: 5}), "three": curve(34, {3: 5}), "five": curve(34, {5: 2.5})}
+CURVES = {
+    "bean": curve(30, {2: 8, 3: 3}),
+    "egg": curve(35, {1: 4, 2: 5}),
+    "three": curve(34, {3: 5}),
+    "five": curve(34, {5: 2.5}),
+}
 
 
 def bends(path: Smoothed) -> np.ndarray:
@@ -77,7 +82,9 @@ def test_a_free_curve_moved_out_stays_smooth() -> None:
     assert path.tangent.mean() > 0.6
     out = moved(path, points, np.full(len(path.rows), 0.3), TOLERANCE)
     assert joins(out)
-    assert bends(out)[path.tangent].max() < 0.5, "next to a slight bend, which moves along its arcs, ends are no circle's own"
+    assert bends(out)[path.tangent].max() < 0.5, (
+        "next to a slight bend, which moves along its arcs, ends are no circle's own"
+    )
     assert distance(along(out, 0.05), [CURVES["egg"]]).max() < 0.3 + 2 * TOLERANCE
 
 
@@ -91,11 +98,18 @@ def test_bends_that_no_curve_near_enough_avoids_stay() -> None:
 
 def test_arcs_that_turn_opposite_ways_touch_where_they_nearly_do() -> None:
     """A lobe on fillets, as tools leave it: its arcs stay circles, and no corner stays between them."""
-    lobe = Contour((
-        Line((10, 10), (70, 10)), Line((70, 10), (70, 38)), Arc((70, 38), (78, 46), (78, 38), ccw=False),
-        Arc((78, 46), (78, 60), (78, 53)), Arc((78, 60), (70, 68), (78, 68), ccw=False), Line((70, 68), (70, 90)),
-        Line((70, 90), (10, 90)), Line((10, 90), (10, 10)),
-    ))  # fmt: skip
+    lobe = Contour(
+        (
+            Line((10, 10), (70, 10)),
+            Line((70, 10), (70, 38)),
+            Arc((70, 38), (78, 46), (78, 38), ccw=False),
+            Arc((78, 46), (78, 60), (78, 53)),
+            Arc((78, 60), (70, 68), (78, 68), ccw=False),
+            Line((70, 68), (70, 90)),
+            Line((70, 90), (10, 90)),
+            Line((10, 90), (10, 10)),
+        )
+    )
     for tolerance, points in ((TOLERANCE, traces(FRAME, [lobe])[0]), (0.01, sampled(lobe, 0.1))):
         path = smooth(points, SmoothOptions(tolerance))
         arc = path.kinds == PieceKind.ARC

@@ -26,10 +26,18 @@ ON_PIXELS = SmoothOptions(0.75 * PITCH, 20.0, PITCH)
 
 def plate() -> Contour:
     """A plate with three fillets and a wall aslant, all tangent but for two corners."""
-    return Contour((
-        Line((10, 0), (90, 0)), Arc((90, 0), (100, 10), (90, 10)), Line((100, 10), (100, 40)), Arc((100, 40), (80, 60), (80, 40)),
-        Line((80, 60), (30, 60)), Line((30, 60), (0, 45)), Line((0, 45), (0, 10)), Arc((0, 10), (10, 0), (10, 10)),
-    ))  # fmt: skip
+    return Contour(
+        (
+            Line((10, 0), (90, 0)),
+            Arc((90, 0), (100, 10), (90, 10)),
+            Line((100, 10), (100, 40)),
+            Arc((100, 40), (80, 60), (80, 40)),
+            Line((80, 60), (30, 60)),
+            Line((30, 60), (0, 45)),
+            Line((0, 45), (0, 10)),
+            Arc((0, 10), (10, 0), (10, 10)),
+        )
+    )
 
 
 def contour_of(path: Smoothed) -> Contour:
@@ -168,7 +176,9 @@ def test_points_given_again_and_again_change_nothing() -> None:
     points = sampled(plate(), 0.3)
     once, thrice = (smooth(np.repeat(points, count, axis=0), SmoothOptions(0.05)) for count in (1, 3))
     assert np.array_equal(once.rows, thrice.rows)
-    assert np.array_equal(np.repeat(points, 3, axis=0)[thrice.ends % (3 * len(points))], points[once.ends % len(points)])
+    assert np.array_equal(
+        np.repeat(points, 3, axis=0)[thrice.ends % (3 * len(points))], points[once.ends % len(points)]
+    )
 
 
 def test_what_fits_nothing_does_not_spoil_the_rest() -> None:

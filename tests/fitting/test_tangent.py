@@ -70,9 +70,16 @@ def rounded(width: float, height: float, radius: float) -> list[Floats]:
     """A rectangle with round corners from the middle of its lower side on."""
     w, h, r = width, height, radius
     return [
-        side((w / 2, 0), (w - r, 0)), arc((w - r, r), r, -90, 0), side((w, r), (w, h - r)), arc((w - r, h - r), r, 0, 90),
-        side((w - r, h), (r, h)), arc((r, h - r), r, 90, 180), side((0, h - r), (0, r)), arc((r, r), r, 180, 270), side((r, 0), (w / 2, 0)),
-    ]  # fmt: skip
+        side((w / 2, 0), (w - r, 0)),
+        arc((w - r, r), r, -90, 0),
+        side((w, r), (w, h - r)),
+        arc((w - r, h - r), r, 0, 90),
+        side((w - r, h), (r, h)),
+        arc((r, h - r), r, 90, 180),
+        side((0, h - r), (0, r)),
+        arc((r, r), r, 180, 270),
+        side((r, 0), (w / 2, 0)),
+    ]
 
 
 @pytest.mark.parametrize("roll", [0, 1, 2])
@@ -80,10 +87,14 @@ def rounded(width: float, height: float, radius: float) -> list[Floats]:
 def test_a_rounded_rectangle_is_its_sides_and_corners_again(roll: int, step: float, decimals: int) -> None:
     points = np.roll(chorded(rounded(40, 25, 6), step, decimals), roll, axis=1)
     path = fit_arcs(np.ascontiguousarray(points), ArcOptions(TOLERANCE))
-    assert [MotionKind(kind) for kind in path.motions.kind] == [MotionKind.LINE, MotionKind.ARC_CCW] * 4 + [MotionKind.LINE]
+    assert [MotionKind(kind) for kind in path.motions.kind] == [MotionKind.LINE, MotionKind.ARC_CCW] * 4 + [
+        MotionKind.LINE
+    ]
     assert bends(path).max() < 0.1
     radius = np.linalg.norm((path.motions.start - path.motions.centre)[1::2], axis=1)
-    assert np.allclose(radius, 6, atol=0.12), "within the tolerance an arc of 90 degrees may differ by two to three times as much"
+    assert np.allclose(radius, 6, atol=0.12), (
+        "within the tolerance an arc of 90 degrees may differ by two to three times as much"
+    )
 
 
 def test_an_s_of_arcs_is_few_arcs() -> None:
@@ -102,8 +113,16 @@ def waves(count: int, turns: tuple[int, int], depth: float) -> Floats:
 
 
 @settings(max_examples=examples(20), deadline=None)
-@given(st.integers(500, 6_000), st.integers(2, 9), st.integers(3, 23), st.floats(0.1, 4.0), st.sampled_from([0.005, 0.02, 0.1]))
-def test_free_forms_are_smoother_than_their_points_and_within(count: int, one: int, other: int, depth: float, tolerance: float) -> None:
+@given(
+    st.integers(500, 6_000),
+    st.integers(2, 9),
+    st.integers(3, 23),
+    st.floats(0.1, 4.0),
+    st.sampled_from([0.005, 0.02, 0.1]),
+)
+def test_free_forms_are_smoother_than_their_points_and_within(
+    count: int, one: int, other: int, depth: float, tolerance: float
+) -> None:
     points = np.round(waves(count, (one, other), depth), 4)
     path = fit_arcs(points, ArcOptions(tolerance))
     assert judge(curve_of_motions(path.motions), points, Tube(tolerance)).answer is Answer.INSIDE
@@ -129,7 +148,9 @@ def test_moved_joints_cost_next_to_nothing() -> None:
 
 @pytest.mark.parametrize("tolerance", [0.01, 0.05])
 def test_bends_that_only_rounding_makes_are_not_there_any_more(tolerance: float) -> None:
-    """Chords of 4 um in steps of 0.1 um turn by up to 3 degrees, where the wave that they are cut from turns by none."""
+    """Chords of 4 um in steps of 0.1 um turn by up to 3 degrees, where the wave that they are cut from turns by
+    none.
+    """
     t = np.linspace(0, math.tau, 100_001)
     r = 60 + 4 * np.sin(9 * t) + 0.8 * np.sin(31 * t)
     points = np.round(np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t]), 4)
@@ -150,7 +171,9 @@ def test_chords_that_were_thinned_become_arcs_that_meet() -> None:
 
 @pytest.mark.parametrize("count", [24, 48])
 def test_a_barrel_lets_arcs_stand_for_long_chords(count: int) -> None:
-    """The points are on the circle to the last digit, the chords' middles 0.02 and 0.09 mm off it: cylinders hold no arc."""
+    """The points are on the circle to the last digit, the chords' middles 0.02 and 0.09 mm off it: cylinders hold no
+    arc.
+    """
     t = np.linspace(0, math.tau, count + 1)
     points = np.column_stack([10 * np.cos(t), 10 * np.sin(t), 0 * t])
     assert not np.any(fit_arcs(points, ArcOptions(0.01)).motions.kind >= MotionKind.ARC_CW)
@@ -186,7 +209,9 @@ def test_another_scale_gives_the_same_pieces(scale: float) -> None:
 
 def test_pieces_follow_one_another_without_a_gap() -> None:
     path = fit_arcs(np.round(waves(5_000, (5, 13), 2.0), 4), ArcOptions(TOLERANCE))
-    assert all(np.array_equal(a, b) for (_, a), (b, _) in pairwise(zip(path.motions.start, path.motions.end, strict=True)))
+    assert all(
+        np.array_equal(a, b) for (_, a), (b, _) in pairwise(zip(path.motions.start, path.motions.end, strict=True))
+    )
 
 
 @pytest.mark.parametrize(("unit", "digits"), [(1.0, 0), (1.0, 3), (1.0, 4), (25.4, 4), (25.4, 5)])
@@ -197,9 +222,13 @@ def test_the_last_digit_of_points_is_seen_in_mm_and_in_inches(unit: float, digit
 
 
 def test_what_rounding_can_make_is_no_bend_and_bends_that_are_meant_are() -> None:
-    """Steps of 1 um turn chords of 10 um by no more than 0.28 radians; facets of 2 degrees, 1 mm long, keep all but 0.16 degrees."""
+    """Steps of 1 um turn chords of 10 um by no more than 0.28 radians; facets of 2 degrees, 1 mm long, keep all but
+    0.16 degrees.
+    """
     rng, step = np.random.default_rng(7), 1e-3
-    straight = np.round(np.column_stack([np.arange(500) * 0.01, rng.uniform(-0.0005, 0.0005, 500) + 0.37371 * np.arange(500) * 0.01]), 3)
+    straight = np.round(
+        np.column_stack([np.arange(500) * 0.01, rng.uniform(-0.0005, 0.0005, 500) + 0.37371 * np.arange(500) * 0.01]), 3
+    )
     assert Polyline(straight, 0.04).turns.max() > math.radians(1)
     assert Polyline(straight, 0.04, step).turns.max() == 0.0
     t = np.radians(np.arange(0, 90, 2.0))

@@ -1,4 +1,6 @@
-"""The judge of curves: what it calls inside is inside by dense sampling, what it calls outside has a witness that is."""
+"""The judge of curves: what it calls inside is inside by dense sampling, what it calls outside has a witness that
+is.
+"""
 
 import math
 from itertools import pairwise
@@ -39,8 +41,12 @@ def off_chords(places: Floats, points: Floats) -> Floats:
     return least
 
 
-def assert_really_inside(curve: SpaceCurve, points: Floats, judgement: Judgement, radius: float, samples: int = 400) -> None:
-    """By samples alone: stretch by stretch near its chord, feet near their points and in order, chords near the curve."""
+def assert_really_inside(
+    curve: SpaceCurve, points: Floats, judgement: Judgement, radius: float, samples: int = 400
+) -> None:
+    """By samples alone: stretch by stretch near its chord, feet near their points and in order, chords near the
+    curve.
+    """
     feet = judgement.feet
     assert feet is not None
     assert judgement.answer is Answer.INSIDE
@@ -60,7 +66,8 @@ def assert_really_inside(curve: SpaceCurve, points: Floats, judgement: Judgement
 
 
 @pytest.mark.parametrize(
-    ("share", "answer"), [(0.9999, Answer.INSIDE), (1 - 1e-9, Answer.INSIDE), (1.0001, Answer.OUTSIDE), (1 + 1e-8, Answer.OUTSIDE)]
+    ("share", "answer"),
+    [(0.9999, Answer.INSIDE), (1 - 1e-9, Answer.INSIDE), (1.0001, Answer.OUTSIDE), (1 + 1e-8, Answer.OUTSIDE)],
 )
 def test_a_bulge_between_points_is_refused_as_soon_as_it_is_too_far(share: float, answer: Answer) -> None:
     top = share * TOLERANCE
@@ -116,7 +123,9 @@ def test_once_round_is_not_twice_round() -> None:
     assert judge(curve_of_points(twice), twice[:1001], Tube(0.01)).answer is Answer.OUTSIDE
 
 
-def motions(kind: MotionKind, start: list[float], end: list[float], centre: list[float], plane: Plane, turns: int = 1) -> Motions:
+def motions(
+    kind: MotionKind, start: list[float], end: list[float], centre: list[float], plane: Plane, turns: int = 1
+) -> Motions:
     first, last, middle = (np.array([row], float) for row in (start, end, centre))
     whole = np.zeros(1, np.int32)
     words = np.array([kind], np.uint8), np.array([plane], np.uint8), np.array([turns], np.int32)
@@ -152,7 +161,9 @@ def test_an_arc_and_its_chords_are_apart_by_the_sagitta() -> None:
 
 def test_a_curve_with_weights_is_judged_too() -> None:
     half = math.sqrt(0.5)
-    quarter = Nurbs(np.array([[10, 0, 0], [10, 10, 0], [0, 10, 0.0]]), np.array([1, half, 1]), np.array([0.0, 0, 0, 1, 1, 1]), 2)
+    quarter = Nurbs(
+        np.array([[10, 0, 0], [10, 10, 0], [0, 10, 0.0]]), np.array([1, half, 1]), np.array([0.0, 0, 0, 1, 1, 1]), 2
+    )
     angle = np.linspace(0, np.pi / 2, 200)
     points = np.column_stack([10 * np.cos(angle), 10 * np.sin(angle), 0 * angle])
     judgement = judge(curve_of_nurbs(quarter), points, Tube(1e-3))
@@ -185,7 +196,10 @@ def test_what_is_called_inside_is_inside(seed: int, count: int, radius: float) -
         assert_really_inside(curve, points, judgement, radius)
     else:
         given_feet = np.arange(count, dtype=float)
-        worst = max(float(off_chords(curve.at(np.linspace(a, a + 1, 2000)), points[int(a) : int(a) + 2]).max()) for a in given_feet[:-1])
+        worst = max(
+            float(off_chords(curve.at(np.linspace(a, a + 1, 2000)), points[int(a) : int(a) + 2]).max())
+            for a in given_feet[:-1]
+        )
         worst = max(worst, float(np.linalg.norm(curve.at(given_feet) - points, axis=1).max()))
         assert worst > radius * (1 - 1e-6), "the obvious feet would have done"
 
@@ -201,7 +215,9 @@ def test_spheroids_and_signs_agree(seed: int, size: float) -> None:
     feet = np.arange(4.0)
     for tube in (Tube(0.05), Tube(0.02, 0.08)):
         end, middle = tube.radius, tube.widest
-        outline = Outline(lambda share, end=end, middle=middle: math.sqrt(end**2 + 4 * (middle**2 - end**2) * share * (1 - share)))  # type: ignore[misc]
+        outline = Outline(
+            lambda share, end=end, middle=middle: math.sqrt(end**2 + 4 * (middle**2 - end**2) * share * (1 - share))
+        )  # type: ignore[misc]
         answer, at = lies_within(curve, points, outline, feet)
         if answer is Answer.INSIDE:
             assert judge(curve, points, tube, feet).answer is Answer.INSIDE
@@ -219,8 +235,10 @@ def test_answers_stay_under_rotation_scale_and_reversal() -> None:
     turn, _ = np.linalg.qr(rng.normal(0, 1, (3, 3)))
     bound = judge(SpaceCurve(control, np.zeros(8, np.int64)), points, Tube(1.0)).bound
     for changed, path, size in (
-        (control @ turn, points @ turn, 1.0), (control * 25.4, points * 25.4, 25.4), (control[::-1, ::-1], points[::-1], 1.0),
-    ):  # fmt: skip
+        (control @ turn, points @ turn, 1.0),
+        (control * 25.4, points * 25.4, 25.4),
+        (control[::-1, ::-1], points[::-1], 1.0),
+    ):
         curve = SpaceCurve(np.ascontiguousarray(changed), np.zeros(8, np.int64))
         assert judge(curve, np.ascontiguousarray(path), Tube(1.0 * size)).bound == pytest.approx(bound * size, rel=2e-3)
 

@@ -11,7 +11,12 @@ from app.geometry import typeface
 from app.geometry.sample import bounds, union
 from app.model.curves import Curve
 
-LETTERS = {"H": (100, 0, 500, 700, 600), "p": (100, -200, 400, 500, 500), "Ø": (0, 0, 700, 700, 700), "±": (100, 100, 300, 300, 400)}
+LETTERS = {
+    "H": (100, 0, 500, 700, 600),
+    "p": (100, -200, 400, 500, 500),
+    "Ø": (0, 0, 700, 700, 700),
+    "±": (100, 100, 300, 300, 400),
+}
 """x0, y0, x1, y1 and the advance, units."""
 NAMES = {"H": "H", "p": "p", "Ø": "Oslash", "±": "plusminus", " ": "space"}
 
@@ -33,7 +38,9 @@ def save(path: Path, family: str = "Block", style: str = "Regular") -> None:
     made.setupGlyphOrder([".notdef", *NAMES.values()])
     made.setupCharacterMap({ord(letter): name for letter, name in NAMES.items()})
     made.setupGlyf({".notdef": blank, "space": blank} | {NAMES[letter]: _glyph(box) for letter, box in LETTERS.items()})
-    made.setupHorizontalMetrics({".notdef": (500, 0), "space": (300, 0)} | {NAMES[k]: (box[4], box[0]) for k, box in LETTERS.items()})
+    made.setupHorizontalMetrics(
+        {".notdef": (500, 0), "space": (300, 0)} | {NAMES[k]: (box[4], box[0]) for k, box in LETTERS.items()}
+    )
     made.setupHorizontalHeader(ascent=800, descent=-200)
     made.setupNameTable({"familyName": family, "styleName": style})
     made.setupOS2(sCapHeight=700)
@@ -49,7 +56,9 @@ def forget_fonts() -> None:
 
 @pytest.fixture
 def fonts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """A machine on which the block font is all there is: as block.ttf, family Block, and its bold style as heavy.ttf."""
+    """A machine on which the block font is all there is: as block.ttf, family Block, and its bold style as
+    heavy.ttf.
+    """
     folder = tmp_path / "fonts"
     folder.mkdir()
     save(folder / "block.ttf")

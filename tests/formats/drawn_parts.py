@@ -24,7 +24,9 @@ def arc(centre: Point, radius: float, first: float, sweep: float) -> Arc:
     return Arc(on_circle(centre, radius, first), on_circle(centre, radius, first + sweep), centre, sweep > 0)
 
 
-def clamped(degree: int, control: list[Point], weights: tuple[float, ...] = (), inner: list[float] | tuple[float, ...] = ()) -> Spline:
+def clamped(
+    degree: int, control: list[Point], weights: tuple[float, ...] = (), inner: list[float] | tuple[float, ...] = ()
+) -> Spline:
     knots = [0.0] * (degree + 1) + sorted(inner) + [1.0] * (degree + 1)
     return Spline(degree, tuple(control), tuple(knots), weights)
 
@@ -36,7 +38,9 @@ arcs = st.builds(lambda c, r, a, s, sign: arc(c, r, a, s * sign), points, st.flo
 circles = st.builds(Circle, points, st.floats(0.01, 300.0), st.booleans())
 radii, ratios = st.floats(0.5, 300.0), st.floats(0.05, 0.99)
 wholes = st.builds(lambda c, r, a, q: Ellipse(c, on_circle((0.0, 0.0), r, a), q), points, radii, angles, ratios)
-parts_of = st.builds(lambda e, a, s, ccw: Ellipse(e.centre, e.major, e.ratio, a, a + s, ccw), wholes, angles, sweeps, st.booleans())
+parts_of = st.builds(
+    lambda e, a, s, ccw: Ellipse(e.centre, e.major, e.ratio, a, a + s, ccw), wholes, angles, sweeps, st.booleans()
+)
 
 
 @st.composite
@@ -50,7 +54,9 @@ def splines(draw: st.DrawFn, degrees: tuple[int, ...], rational: bool = False) -
     return clamped(degree, control, weights, inner)
 
 
-letters = st.characters(max_codepoint=0xFFFF, exclude_categories=["Cc", "Cn", "Cs"], exclude_characters='<>/\\":;?*|=`,')
+letters = st.characters(
+    max_codepoint=0xFFFF, exclude_categories=["Cc", "Cn", "Cs"], exclude_characters='<>/\\":;?*|=`,'
+)
 names = st.text(letters, min_size=1, max_size=20)
 colours = st.one_of(st.just(""), st.integers(1, 0xFFFFFF).map(lambda value: f"#{value:06x}"))
 
@@ -58,18 +64,27 @@ colours = st.one_of(st.just(""), st.integers(1, 0xFFFFFF).map(lambda value: f"#{
 @st.composite
 def parts(draw: st.DrawFn, curves: st.SearchStrategy[Curve]) -> Part:
     """A part on one to three layers, some of whose curves follow one another."""
-    found = draw(st.lists(names.filter(lambda name: name.strip() == name), min_size=1, max_size=3, unique_by=str.casefold))
+    found = draw(
+        st.lists(names.filter(lambda name: name.strip() == name), min_size=1, max_size=3, unique_by=str.casefold)
+    )
     layers = tuple(Layer(name, draw(colours), draw(st.booleans()), draw(st.booleans())) for name in found)
     entities: list[Entity] = []
     for number, curve in enumerate(draw(st.lists(curves, min_size=1, max_size=6)), 1):
-        if entities and draw(st.booleans()) and isinstance(curve, Line) and math.dist(entities[-1].curve.end, curve.end) > 1e-3:
+        if (
+            entities
+            and draw(st.booleans())
+            and isinstance(curve, Line)
+            and math.dist(entities[-1].curve.end, curve.end) > 1e-3
+        ):
             curve = Line(entities[-1].curve.end, curve.end)
         entities.append(Entity(number, curve, draw(st.sampled_from(found))))
     return Part(tuple(entities), layers)
 
 
 def trace(curve: Curve) -> NDArray[np.float64]:
-    """Points that tell a curve: ends of a line, samples of an arc, the Bézier control points of a spline (with weights)."""
+    """Points that tell a curve: ends of a line, samples of an arc, the Bézier control points of a spline (with
+    weights).
+    """
     if isinstance(curve, Line):
         return np.array([curve.start, curve.end])
     if isinstance(curve, Arc):
@@ -87,11 +102,15 @@ def trace(curve: Curve) -> NDArray[np.float64]:
 
 
 def apart(a: Curve, b: Curve) -> float:
-    """Return how far two curves are from being the same, mm, whichever way they run; inf for curves of different kinds."""
+    """Return how far two curves are from being the same, mm, whichever way they run; inf for curves of different
+    kinds.
+    """
     if type(a) is not type(b):
         return math.inf
     first, second = trace(a), trace(b)
     if first.shape != second.shape:
         return math.inf
-    turned = [np.roll(second, 4, axis=0)] if isinstance(a, Ellipse) and len(first) == 8 else []  # the other end of the axis
+    turned = (
+        [np.roll(second, 4, axis=0)] if isinstance(a, Ellipse) and len(first) == 8 else []
+    )  # the other end of the axis
     return min(float(np.abs(first - other).max()) for other in (second, second[::-1], *turned))

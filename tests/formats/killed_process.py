@@ -1,4 +1,6 @@
-"""Draws, saves and keeps without end, as a window does; `python -m tests.formats.killed_process FILE` is there to be killed."""
+"""Draws, saves and keeps without end, as a window does; `python -m tests.formats.killed_process FILE` is there to be
+killed.
+"""
 
 import sys
 from pathlib import Path

@@ -23,7 +23,12 @@ from app.simulation.heights_file import read_heights
 
 
 def chunk(kind: bytes, body: bytes, length: int | None = None) -> bytes:
-    return struct.pack(">I", len(body) if length is None else length) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    return (
+        struct.pack(">I", len(body) if length is None else length)
+        + kind
+        + body
+        + struct.pack(">I", zlib.crc32(kind + body))
+    )
 
 
 def png(pixels: bytes, end: bytes = chunk(b"IEND", b"")) -> bytes:
@@ -33,9 +38,15 @@ def png(pixels: bytes, end: bytes = chunk(b"IEND", b"")) -> bytes:
 WHOLE = chunk(b"IDAT", zlib.compress((b"\0" + b"\xff\x00" * 4) * 8))
 
 
-@pytest.mark.parametrize("data", [
-    png(chunk(b"IDAT", b"abc", 0xFFFFFFF0)), png(chunk(b"zTXt", b"abc", 0xFFFFFFF0) + WHOLE),
-    png(WHOLE, chunk(b"IEND", b"", 12)), png(WHOLE)[:-2]])  # fmt: skip
+@pytest.mark.parametrize(
+    "data",
+    [
+        png(chunk(b"IDAT", b"abc", 0xFFFFFFF0)),
+        png(chunk(b"zTXt", b"abc", 0xFFFFFFF0) + WHOLE),
+        png(WHOLE, chunk(b"IEND", b"", 12)),
+        png(WHOLE)[:-2],
+    ],
+)
 def test_a_png_whose_chunk_is_longer_than_the_file_is_not_decoded(data: bytes) -> None:
     with pytest.raises(InputError, match=r"^p\.png: .* cannot be decoded: its part '\w+' at byte \d+ reaches beyond"):
         read_picture("p.png", data, PictureOptions(pitch=0.1))
@@ -52,15 +63,22 @@ def npy(header: bytes, body: bytes = b"") -> bytes:
 WHERE = b'{"x0": 0, "y0": 0, "pitch": 1}'
 
 
-@pytest.mark.parametrize("header", [
-    b"{'descr': '<f4', 'fortran_order': False, 'shape': (400000000, 400000000), }\n",
-    b"{'descr': '<f4', 'fortran_order': False, 'shape': (" + b"9" * 400 + b", 2), }\n",
-    b"{'descr': '<f4', 'fortran_order': False, 'shape': (" + b"9" * 4400 + b", 2), }\n",
-    b"{'descr': '<f4', 'fortran_order': False, 'shape': (-1, 2), }\n",
-    b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n",
-    b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2\n",
-    b"{'descr': 'O', 'fortran_order': False, 'shape': (2, 2), }\n",
-    b"((((((((((\n", b"'''\n", b"\x00\xff", b""])  # fmt: skip
+@pytest.mark.parametrize(
+    "header",
+    [
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (400000000, 400000000), }\n",
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (" + b"9" * 400 + b", 2), }\n",
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (" + b"9" * 4400 + b", 2), }\n",
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (-1, 2), }\n",
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n",
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2\n",
+        b"{'descr': 'O', 'fortran_order': False, 'shape': (2, 2), }\n",
+        b"((((((((((\n",
+        b"'''\n",
+        b"\x00\xff",
+        b"",
+    ],
+)
 def test_a_stock_with_an_absurd_header_is_refused_in_one_sentence(header: bytes) -> None:
     with pytest.raises(InputError) as caught:
         read_heights("s.npy", npy(header, np.ones(4, np.float32).tobytes()), WHERE)
@@ -102,13 +120,17 @@ def spline_dxf(count: int) -> bytes:
 def test_a_spline_of_too_many_points_is_refused_before_it_is_read() -> None:
     data = spline_dxf(MOST_POINTS + 1)
     begun = time.perf_counter()
-    with pytest.raises(InputError, match=rf"^s\.dxf:5: a spline has {MOST_POINTS + 1} points; {MOST_POINTS} are the most"):
+    with pytest.raises(
+        InputError, match=rf"^s\.dxf:5: a spline has {MOST_POINTS + 1} points; {MOST_POINTS} are the most"
+    ):
         load(data, "s.dxf")
     assert time.perf_counter() - begun < 5
 
 
 def test_a_spline_takes_time_by_its_points_and_not_by_their_square() -> None:
-    """4,000 points took four times as long as 2,000 and 31 s at 10,000; the directions of all joints are now worked out together."""
+    """4,000 points took four times as long as 2,000 and 31 s at 10,000; the directions of all joints are now worked out
+    together.
+    """
     count = 8000
     knots = (0.0,) * 4 + tuple(map(float, range(1, count - 3))) + (count - 3.0,) * 4
     begun = time.perf_counter()
@@ -135,9 +157,16 @@ def test_a_wrong_value_is_shown_in_sixty_letters() -> None:
     assert len(str(caught.value)) < 200
 
 
-@pytest.mark.parametrize("where", [
-    b'{"x0": 1%s, "y0": 0, "pitch": 1}' % (b"0" * 400), b'{"x0": 0, "y0": 0, "pitch": 1, "floor": 1%s}' % (b"0" * 400),
-    b'{"x0": 0, "y0": 0, "pitch": 1, "floor": NaN}', b'{"x0": 0, "y0": 1e300, "pitch": 1}', b"[" * 100_000])  # fmt: skip
+@pytest.mark.parametrize(
+    "where",
+    [
+        b'{"x0": 1%s, "y0": 0, "pitch": 1}' % (b"0" * 400),
+        b'{"x0": 0, "y0": 0, "pitch": 1, "floor": 1%s}' % (b"0" * 400),
+        b'{"x0": 0, "y0": 0, "pitch": 1, "floor": NaN}',
+        b'{"x0": 0, "y0": 1e300, "pitch": 1}',
+        b"[" * 100_000,
+    ],
+)
 def test_a_stock_whose_place_is_absurd_is_refused_in_one_sentence(where: bytes) -> None:
     data = npy(b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }\n", np.ones(4, np.float32).tobytes())
     with pytest.raises(InputError, match=r"^s\.npy: this is no field of heights") as caught:
@@ -153,11 +182,15 @@ def test_heights_beyond_what_is_kept_of_them_are_refused() -> None:
 
 
 def test_a_polyline_of_too_many_points_is_refused_before_it_is_read() -> None:
-    """A million took nine seconds and half a gigabyte to be refused, for the rows and columns of blocks that it had not."""
+    """A million took nine seconds and half a gigabyte to be refused, for the rows and columns of blocks that it had
+    not.
+    """
     points = "".join(f"10\n{k}\n20\n0\n" for k in range(MOST_CURVES + 1))
     data = f"0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n{MOST_CURVES + 1}\n{points}0\nENDSEC\n0\nEOF\n".encode()
     begun = time.process_time()
-    with pytest.raises(InputError, match=rf"^p\.dxf:5: a polyline has {MOST_CURVES + 1} points; {MOST_CURVES} are the most"):
+    with pytest.raises(
+        InputError, match=rf"^p\.dxf:5: a polyline has {MOST_CURVES + 1} points; {MOST_CURVES} are the most"
+    ):
         load(data, "p.dxf")
     assert time.process_time() - begun < 3
 

@@ -24,7 +24,9 @@ def test_the_sample_plate_is_what_it_says() -> None:
     assert holes == {(8, 8), (82, 8), (8, 52), (82, 52)}
 
 
-@pytest.mark.parametrize(("name", "curves", "contours"), [("bolt-circle", 13, 12), ("gear", 24 * 6 + 4, 2), ("lever", 11, 4)])
+@pytest.mark.parametrize(
+    ("name", "curves", "contours"), [("bolt-circle", 13, 12), ("gear", 24 * 6 + 4, 2), ("lever", 11, 4)]
+)
 def test_every_sample_draws_closed_contours(name: str, curves: int, contours: int) -> None:
     path = resource("samples", f"{name}.draw")
     part = read_drawing(str(path), path.read_bytes()).part
@@ -54,11 +56,17 @@ def test_only_the_layers_asked_for_are_kept() -> None:
         read_drawing("a.draw", text, None, ("holes",))
 
 
-@pytest.mark.parametrize(("data", "says"), [
-    (b"", "draws nothing"), (b"# nothing but a remark\n", "draws nothing"), (b"circle 0,0 5\n\xff\n", r"a\.draw:2: this is no text"),
-    (b"circle 0,0 5\nlime 0,0", r"a\.draw:2: column 1: 'lime' is no command"), (b"circle 0,0 5\n" * 2_000_000, "at most 20000000"),
-    (b"rect 0,0 1,1\narray 100 99 @2,2 1-4\narray 2 5 @9,9 1-39600", "at most 100000"),
-])
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (b"", "draws nothing"),
+        (b"# nothing but a remark\n", "draws nothing"),
+        (b"circle 0,0 5\n\xff\n", r"a\.draw:2: this is no text"),
+        (b"circle 0,0 5\nlime 0,0", r"a\.draw:2: column 1: 'lime' is no command"),
+        (b"circle 0,0 5\n" * 2_000_000, "at most 20000000"),
+        (b"rect 0,0 1,1\narray 100 99 @2,2 1-4\narray 2 5 @9,9 1-39600", "at most 100000"),
+    ],
+)
 def test_a_text_that_is_no_drawing_is_refused(data: bytes, says: str) -> None:
     with pytest.raises(InputError, match=says):
         read_drawing("a.draw", data)
@@ -80,9 +88,9 @@ def test_damaged_texts_are_drawings_or_sentences(seed: int) -> None:
             case 0:
                 data[at] = rng.randrange(256)
             case 1:
-                del data[at:at + rng.randint(1, 20)]
+                del data[at : at + rng.randint(1, 20)]
             case _:
-                data[at:at] = data[rng.randrange(len(data)):][:rng.randint(1, 20)]
+                data[at:at] = data[rng.randrange(len(data)) :][: rng.randint(1, 20)]
     try:
         read_drawing("a.draw", bytes(data))
     except InputError as error:

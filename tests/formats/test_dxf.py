@@ -59,7 +59,9 @@ def test_arc_of_a_full_turn_is_a_circle() -> None:
 
 def test_an_arc_whose_ends_all_but_meet_is_no_point() -> None:
     (arc,) = curves(lambda space: space.add_arc((0, 0), 1, 30, 389.99996))
-    assert isinstance(arc, Arc) and arc.sweep == pytest.approx(math.tau, abs=1e-6) and math.dist(arc.start, arc.end) < 1e-6
+    assert (
+        isinstance(arc, Arc) and arc.sweep == pytest.approx(math.tau, abs=1e-6) and math.dist(arc.start, arc.end) < 1e-6
+    )
 
 
 @pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])
@@ -148,7 +150,12 @@ def test_view_from_below_mirrors() -> None:
 
     circle, arc, side, line = curves(draw)
     assert isinstance(circle, Circle) and circle.centre == pytest.approx((-5, 6)) and circle.radius == pytest.approx(2)
-    assert isinstance(arc, Arc) and not arc.ccw and arc.start == pytest.approx((-7, 0)) and arc.end == pytest.approx((-5, 2))
+    assert (
+        isinstance(arc, Arc)
+        and not arc.ccw
+        and arc.start == pytest.approx((-7, 0))
+        and arc.end == pytest.approx((-5, 2))
+    )
     assert side == Line((0, 0), (-3, 0)) and line == Line((1, 1), (2, 1))
 
 
@@ -166,8 +173,18 @@ def test_height_is_projected_and_said() -> None:
     assert "Z runs from 0 to 5 mm" in found.text and not found.counts
 
 
-@pytest.mark.parametrize(("code", "size", "units"), [(1, 25.4, Units.INCH), (2, 304.8, Units.FOOT), (4, 1, Units.MM), (5, 10, Units.CM),
-                                                     (6, 1000, Units.M), (9, 0.0254, Units.INCH), (13, 1e-3, Units.MICRON)])
+@pytest.mark.parametrize(
+    ("code", "size", "units"),
+    [
+        (1, 25.4, Units.INCH),
+        (2, 304.8, Units.FOOT),
+        (4, 1, Units.MM),
+        (5, 10, Units.CM),
+        (6, 1000, Units.M),
+        (9, 0.0254, Units.INCH),
+        (13, 1e-3, Units.MICRON),
+    ],
+)
 def test_units_of_the_header(code: int, size: float, units: Units) -> None:
     drawing = read(lambda space: space.add_line((0, 0), (100, 0)), units=code)
     assert drawing.units_named and drawing.part.units is units and not drawing.findings
@@ -240,7 +257,12 @@ def test_entities_without_length_are_counted_and_located() -> None:
     drawing = read(draw)
     assert len(drawing.part.entities) == 1
     (found,) = drawing.findings
-    assert found.kind is FindingKind.TINY_ENTITY and found.amount == 3 and "3 entities have no length" in found.text and found.x is not None
+    assert (
+        found.kind is FindingKind.TINY_ENTITY
+        and found.amount == 3
+        and "3 entities have no length" in found.text
+        and found.x is not None
+    )
 
 
 def test_drawing_without_curves_is_refused_with_what_it_has() -> None:
@@ -271,8 +293,9 @@ def with_layers_off(*names: str) -> bytes:
 
 def test_curves_on_layers_that_are_off_or_frozen_are_named() -> None:
     found = [f for f in read_dxf(with_layers_off("OFF", "FRZ")).findings if "switched off" in f.text]
-    assert [f.text for f in found] == ["Layers OFF, FRZ are switched off or frozen; 2 curves on them are not machined. "
-                                       "Say --layer OFF to machine one."]
+    assert [f.text for f in found] == [
+        "Layers OFF, FRZ are switched off or frozen; 2 curves on them are not machined. Say --layer OFF to machine one."
+    ]
     assert found[0].kind is FindingKind.LEFT_OUT and not found[0].counts and found[0].amount == 2
     (one,) = [f.text for f in read_dxf(with_layers_off("FRZ")).findings if "switched off" in f.text]
     assert one == "Layer FRZ is switched off or frozen; 1 curve on it is not machined. Say --layer FRZ to machine it."

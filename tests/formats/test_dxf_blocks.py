@@ -43,14 +43,21 @@ def shapes(block: Any) -> None:
 def test_moved_and_turned() -> None:
     line, arc, circle = with_block(shapes, rotation=90)
     assert isinstance(line, Line) and line.start == pytest.approx((10, 20)) and line.end == pytest.approx((10, 22))
-    assert isinstance(arc, Arc) and arc.ccw and arc.start == pytest.approx((10, 22)) and arc.end == pytest.approx((8, 20))
+    assert (
+        isinstance(arc, Arc) and arc.ccw and arc.start == pytest.approx((10, 22)) and arc.end == pytest.approx((8, 20))
+    )
     assert isinstance(circle, Circle) and circle.centre == pytest.approx((10, 20)) and circle.radius == pytest.approx(5)
 
 
 def test_mirrored() -> None:
     line, arc, circle = with_block(shapes, xscale=-2, yscale=2)
     assert line.end == pytest.approx((6, 20))
-    assert isinstance(arc, Arc) and not arc.ccw and arc.start == pytest.approx((6, 20)) and arc.end == pytest.approx((10, 24))
+    assert (
+        isinstance(arc, Arc)
+        and not arc.ccw
+        and arc.start == pytest.approx((6, 20))
+        and arc.end == pytest.approx((10, 24))
+    )
     assert isinstance(circle, Circle) and circle.radius == pytest.approx(10)
 
 
@@ -60,7 +67,11 @@ def test_unequal_scales_make_ellipses() -> None:
     assert line.end == pytest.approx((10 + 6 * c, 20 + 6 * s))
     assert isinstance(arc, Ellipse) and arc.ccw
     assert arc.start == pytest.approx(line.end) and arc.end == pytest.approx((10 - 2 * s, 20 + 2 * c))
-    assert isinstance(circle, Ellipse) and circle.ratio == pytest.approx(1 / 3) and math.hypot(*circle.major) == pytest.approx(15)
+    assert (
+        isinstance(circle, Ellipse)
+        and circle.ratio == pytest.approx(1 / 3)
+        and math.hypot(*circle.major) == pytest.approx(15)
+    )
 
 
 def test_mirrored_unequal_scales_turn_the_direction() -> None:
@@ -74,16 +85,39 @@ def test_inserted_from_below() -> None:
     document.blocks.new("B").add_arc((3, 0), 1, 0, 90)
     document.modelspace().add_blockref("B", (10, 20), dxfattribs={"extrusion": (0, 0, -1)})
     (arc,) = (e.curve for e in read(document).part.entities)
-    assert isinstance(arc, Arc) and not arc.ccw and arc.centre == pytest.approx((-13, 20)) and arc.start == pytest.approx((-14, 20))
+    assert (
+        isinstance(arc, Arc)
+        and not arc.ccw
+        and arc.centre == pytest.approx((-13, 20))
+        and arc.start == pytest.approx((-14, 20))
+    )
 
 
 def test_rows_and_columns_follow_the_rotation_not_the_scale() -> None:
     document = new()
     document.blocks.new("B").add_circle((0, 0), 1)
-    document.modelspace().add_blockref("B", (100, 0), dxfattribs={
-        "row_count": 2, "column_count": 3, "row_spacing": 10, "column_spacing": 5, "rotation": 90, "xscale": 2, "yscale": 2})
+    document.modelspace().add_blockref(
+        "B",
+        (100, 0),
+        dxfattribs={
+            "row_count": 2,
+            "column_count": 3,
+            "row_spacing": 10,
+            "column_spacing": 5,
+            "rotation": 90,
+            "xscale": 2,
+            "yscale": 2,
+        },
+    )
     circles = [e.curve for e in read(document).part.entities]
-    assert sorted((round(c.centre[0]), round(c.centre[1])) for c in circles) == [(90, 0), (90, 5), (90, 10), (100, 0), (100, 5), (100, 10)]
+    assert sorted((round(c.centre[0]), round(c.centre[1])) for c in circles) == [
+        (90, 0),
+        (90, 5),
+        (90, 10),
+        (100, 0),
+        (100, 5),
+        (100, 10),
+    ]
     assert all(isinstance(c, Circle) and c.radius == pytest.approx(2) for c in circles)
 
 
@@ -91,9 +125,13 @@ def test_nested_agrees_with_another_reader() -> None:
     """Three levels, unequal scales under turns and a mirror: end points as ezdxf's own exploding gives them."""
     document = new()
     document.blocks.new("inner").add_line((1, 2), (3, 5))
-    document.blocks.new("middle", base_point=(2, 2)).add_blockref("inner", (4, 1), dxfattribs={"xscale": 2, "yscale": -1, "rotation": 25})
+    document.blocks.new("middle", base_point=(2, 2)).add_blockref(
+        "inner", (4, 1), dxfattribs={"xscale": 2, "yscale": -1, "rotation": 25}
+    )
     document.blocks.new("outer").add_blockref("middle", (-3, 7), dxfattribs={"rotation": 60})
-    insert = document.modelspace().add_blockref("outer", (10, 20), dxfattribs={"xscale": -1.5, "yscale": 1.5, "rotation": -40})
+    insert = document.modelspace().add_blockref(
+        "outer", (10, 20), dxfattribs={"xscale": -1.5, "yscale": 1.5, "rotation": -40}
+    )
     (line,) = (e.curve for e in read(document).part.entities)
     (expected,) = (e for a in insert.virtual_entities() for b in a.virtual_entities() for e in b.virtual_entities())
     assert line.start == pytest.approx((expected.dxf.start.x, expected.dxf.start.y))
@@ -101,7 +139,9 @@ def test_nested_agrees_with_another_reader() -> None:
 
 
 def test_unequal_scales_over_a_turn_shear() -> None:
-    """Such an insert cannot be exploded into other inserts, only into curves: a turned circle under x 3 stays upright."""
+    """Such an insert cannot be exploded into other inserts, only into curves: a turned circle under x 3 stays
+    upright.
+    """
     document = new()
     document.blocks.new("inner").add_circle((2, 0), 1)
     document.blocks.new("outer").add_blockref("inner", (0, 0), dxfattribs={"rotation": 45, "xscale": 2})

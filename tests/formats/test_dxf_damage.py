@@ -16,16 +16,19 @@ from app.geometry.chaining.chain import chain
 from tests.conftest import ROOT
 
 
-@pytest.mark.parametrize(("data", "what"), [
-    (b"", "the file is empty"),
-    (b"  \r\n ", "the file is empty"),
-    (b"<svg/>", "not a DXF file"),
-    (bytes(range(256)) * 40, "not a DXF file"),
-    (b"AC1027\x00\x00\x00", "this is a DWG file"),
-    (b"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n", "cut short"),
-    (b"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n  0\nEOF\n", "no lines, arcs or curves"),
-    (b"AutoCAD Binary DXF\r\n\x1a\x00" + b"\x07" * 50, "damaged and cannot be repaired"),
-])
+@pytest.mark.parametrize(
+    ("data", "what"),
+    [
+        (b"", "the file is empty"),
+        (b"  \r\n ", "the file is empty"),
+        (b"<svg/>", "not a DXF file"),
+        (bytes(range(256)) * 40, "not a DXF file"),
+        (b"AC1027\x00\x00\x00", "this is a DWG file"),
+        (b"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n", "cut short"),
+        (b"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n  0\nEOF\n", "no lines, arcs or curves"),
+        (b"AutoCAD Binary DXF\r\n\x1a\x00" + b"\x07" * 50, "damaged and cannot be repaired"),
+    ],
+)
 def test_refused_in_one_line(data: bytes, what: str) -> None:
     with pytest.raises(InputError) as caught:
         read_dxf(data, "odd.dxf")
@@ -124,7 +127,9 @@ def test_random_damage_never_escapes(data: Path, seed: int) -> None:
         elif action == 2:
             lines[k], lines[k + 1] = lines[k + 1], lines[k]
         else:
-            lines[k] = rng.choice([b"", b"0", b"-1", b"nan", b"1e999", b"\xff\xfe", b"LINE", b"ENDSEC", b"999999999999"])
+            lines[k] = rng.choice(
+                [b"", b"0", b"-1", b"nan", b"1e999", b"\xff\xfe", b"LINE", b"ENDSEC", b"999999999999"]
+            )
     try:
         read_dxf(b"\n".join(lines), name)
     except HitofudeError as error:
@@ -140,7 +145,11 @@ def altered(content: bytes, rng: random.Random) -> bytes:
         code = lines[k - 1].strip()
         if not code.isdigit() or not 10 <= int(code) < 80:
             continue
-        choices = [b"0.0", b"-1.0", b"1e15", b"1e300", b"1e-300", b"7.0"] if int(code) < 60 else [b"0", b"1", b"-1", b"3", b"16"]
+        choices = (
+            [b"0.0", b"-1.0", b"1e15", b"1e300", b"1e-300", b"7.0"]
+            if int(code) < 60
+            else [b"0", b"1", b"-1", b"3", b"16"]
+        )
         lines[k] = rng.choice(choices)
         if rng.random() < 0.1:
             del lines[k - 1 : k + 1]
@@ -188,12 +197,88 @@ print(told)
 
 
 def test_a_document_that_falls_apart_when_it_is_looked_at_is_repaired_or_refused() -> None:
-    """A record of a block without a name, in the section of entities, takes the place of model space in the library's table."""
-    tables = ["0", "SECTION", "2", "TABLES", "0", "TABLE", "70", "1", *record("1F", "*MODEL_SPACE"), *record("1B", "*PAPER_SPACE")]
-    spline = ["0", "SPLINE", "5", "100", "100", "AcDbSpline", "70", "8", "71", "3", "330", "0", "100", "AcDbSymbolTable", "70", "2"]
-    nameless = ["0", "BLOCK_RECORD", "5", "1F", "330", "1", "100", "AcDbBlockBegin", "2", "*Model_Space", "70", "0", "281", "1"]
-    lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1014", "9", "$HANDSEED", "5", "FFFF", *tables, "0", "ENDTAB"]
-    lines += ["0", "ENDSEC", "100", "AcDbBlockEnd", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES", *spline, *nameless, "0", "ENDSEC"]
+    """A record of a block without a name, in the section of entities, takes the place of model space in the library's
+    table.
+    """
+    tables = [
+        "0",
+        "SECTION",
+        "2",
+        "TABLES",
+        "0",
+        "TABLE",
+        "70",
+        "1",
+        *record("1F", "*MODEL_SPACE"),
+        *record("1B", "*PAPER_SPACE"),
+    ]
+    spline = [
+        "0",
+        "SPLINE",
+        "5",
+        "100",
+        "100",
+        "AcDbSpline",
+        "70",
+        "8",
+        "71",
+        "3",
+        "330",
+        "0",
+        "100",
+        "AcDbSymbolTable",
+        "70",
+        "2",
+    ]
+    nameless = [
+        "0",
+        "BLOCK_RECORD",
+        "5",
+        "1F",
+        "330",
+        "1",
+        "100",
+        "AcDbBlockBegin",
+        "2",
+        "*Model_Space",
+        "70",
+        "0",
+        "281",
+        "1",
+    ]
+    lines = [
+        "0",
+        "SECTION",
+        "2",
+        "HEADER",
+        "9",
+        "$ACADVER",
+        "1",
+        "AC1014",
+        "9",
+        "$HANDSEED",
+        "5",
+        "FFFF",
+        *tables,
+        "0",
+        "ENDTAB",
+    ]
+    lines += [
+        "0",
+        "ENDSEC",
+        "100",
+        "AcDbBlockEnd",
+        "0",
+        "ENDSEC",
+        "0",
+        "SECTION",
+        "2",
+        "ENTITIES",
+        *spline,
+        *nameless,
+        "0",
+        "ENDSEC",
+    ]
     with pytest.raises(InputError, match=r"^d\.dxf: [^\n]+$"):
         read_dxf("\n".join([*lines, "0", "EOF"]).encode(), "d.dxf")
 

@@ -1,4 +1,6 @@
-"""What other people's DXF do: decimal commas, frozen inserts, radii below 0, places beyond 1 km, paper space, wrong units."""
+"""What other people's DXF do: decimal commas, frozen inserts, radii below 0, places beyond 1 km, paper space, wrong
+units.
+"""
 
 import io
 from typing import Any
@@ -86,7 +88,9 @@ def test_a_comma_that_may_part_thousands_is_refused() -> None:
 
 
 def with_insert(state: str, layer: str = "HID", nested: bool = False) -> Any:
-    """A plate, and a block of a circle on layer 0 and one on layer CUT, inserted on a frozen layer or one that is off, also in another."""
+    """A plate, and a block of a circle on layer 0 and one on layer CUT, inserted on a frozen layer or one that is off,
+    also in another.
+    """
     document = new()
     for name in ("HID", "CUT"):
         document.layers.add(name)
@@ -115,7 +119,10 @@ def test_an_insert_on_a_frozen_layer_is_left_out_named_and_counted(nested: bool)
     drawing = read(with_insert("freeze", nested=nested))
     assert circles(drawing) == [(5, "CUT")] * nested
     found = telling(drawing, "frozen")
-    assert "Block HOLE is inserted, at (13.000, 14.000), on layer HID, which is frozen; 2 curves are not shown" in found.text
+    assert (
+        "Block HOLE is inserted, at (13.000, 14.000), on layer HID, which is frozen; 2 curves are not shown"
+        in found.text
+    )
     assert "--layer HID --layer CUT" in found.text and found.amount == 2 and not found.counts
 
 
@@ -177,7 +184,11 @@ def test_a_drawing_beyond_1_km_is_refused_with_the_remedy_and_read_by_it() -> No
         read(document)
     drawing = read(document, to_zero=True)
     assert [entity.curve for entity in drawing.part.entities] == [
-        Line((0, 0), (40, 0)), Line((40, 0), (40, 30)), Line((40, 30), (0, 30)), Line((0, 30), (0, 0))]  # fmt: skip
+        Line((0, 0), (40, 0)),
+        Line((40, 0), (40, 30)),
+        Line((40, 30), (0, 30)),
+        Line((0, 30), (0, 0)),
+    ]
     assert "moved by (-2500000.000, 4000000000.000) mm" in telling(drawing, "was moved").text
 
 
@@ -215,7 +226,9 @@ def width(drawing: Drawing) -> float:
 
 
 def test_a_part_of_40_m_for_a_tool_of_6_mm_asks_for_its_units() -> None:
-    with pytest.raises(InputError, match=r"40000 x 30000 mm, and the largest tool 6 mm.*names m as its units; say which.*--units mm or"):
+    with pytest.raises(
+        InputError, match=r"40000 x 30000 mm, and the largest tool 6 mm.*names m as its units; say which.*--units mm or"
+    ):
         sized(6, None)
     assert width(sized(6, Units.MM)) == 40.0 and width(sized(6, Units.M)) == 40000.0
 
@@ -245,9 +258,15 @@ def test_layers_and_types_are_left_out_as_asked() -> None:
         read(document, without_layers=("0", "centre"))
 
 
-@pytest.mark.parametrize(("name", "how", "option"), [
-    ("a.draw", {"to_zero": True}, "--to-zero"), ("a.svg", {"layout": "x"}, "--layout"),
-    ("a.svg", {"without_types": ("TEXT",)}, "--skip-type"), ("a.dxf", {"pixels_per_inch": 90.0}, "--px-per-inch")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "how", "option"),
+    [
+        ("a.draw", {"to_zero": True}, "--to-zero"),
+        ("a.svg", {"layout": "x"}, "--layout"),
+        ("a.svg", {"without_types": ("TEXT",)}, "--skip-type"),
+        ("a.dxf", {"pixels_per_inch": 90.0}, "--px-per-inch"),
+    ],
+)
 def test_options_that_say_nothing_of_a_kind_of_file_are_refused(name: str, how: dict[str, Any], option: str) -> None:
     with pytest.raises(InputError, match=f"^{option} is for .* and says nothing of {name}"):
         read_drawing(name, b"", None, (), ReadOptions(**how))
@@ -275,9 +294,13 @@ def test_every_answer_is_read_as_it_says() -> None:
         assert choice.outcome == size_words(size_of(part))
 
 
-@pytest.mark.parametrize(("size", "words"), [
-    ((40.0, 20.0), "40 \u00d7 20 mm"), ((1204.1479, 1976.72), "1\u2009204.148 \u00d7 1\u2009976.72 mm"),
-    ((0.04, 2e-5), "0.04 \u00d7 2e-05 mm"),
-])
+@pytest.mark.parametrize(
+    ("size", "words"),
+    [
+        ((40.0, 20.0), "40 \u00d7 20 mm"),
+        ((1204.1479, 1976.72), "1\u2009204.148 \u00d7 1\u2009976.72 mm"),
+        ((0.04, 2e-5), "0.04 \u00d7 2e-05 mm"),
+    ],
+)
 def test_sizes_have_three_decimals_at_most(size: tuple[float, float], words: str) -> None:
     assert size_words(size) == words

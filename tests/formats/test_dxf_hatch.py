@@ -40,7 +40,9 @@ def test_a_hatch_with_a_hole_is_two_outlines_and_said() -> None:
     assert area(drawing) == pytest.approx(40 * 30 - 100)
     assert {entity.layer for entity in drawing.part.entities} == {"fill"}
     found = telling(drawing, "hatch")
-    assert found.text == "2 boundaries of hatches are read as outlines to machine; leave them out with --skip-type HATCH."
+    assert (
+        found.text == "2 boundaries of hatches are read as outlines to machine; leave them out with --skip-type HATCH."
+    )
     assert not found.counts
 
 
@@ -115,14 +117,18 @@ def test_a_boundary_on_drawn_curves_erases_nothing_and_is_said(shift: float) -> 
     """Also one that goes the other way, begins elsewhere, and is off by less than loose ends are joined over."""
     drawing = read(outlined([SQUARE[2], SQUARE[1], SQUARE[0], SQUARE[3]], HOLE, shift=shift))
     assert len(drawing.part.entities) == 8 and area(drawing) == pytest.approx(1100)
-    assert telling(drawing, "hatch").text == ("2 boundaries of hatches are drawn as curves too, and not taken twice; "
-                                              "leave them out with --skip-type HATCH.")
+    assert telling(drawing, "hatch").text == (
+        "2 boundaries of hatches are drawn as curves too, and not taken twice; leave them out with --skip-type HATCH."
+    )
 
 
 def test_a_boundary_beside_drawn_curves_is_an_outline() -> None:
     drawing = read(outlined([(30, 10), (35, 10), (35, 15)], HOLE))
     assert area(drawing) == pytest.approx(1100 - 12.5)
-    assert "2 boundaries of hatches are read as outlines to machine, but for 1 drawn as curves too" in telling(drawing, "hatch").text
+    assert (
+        "2 boundaries of hatches are read as outlines to machine, but for 1 drawn as curves too"
+        in telling(drawing, "hatch").text
+    )
     assert len(read(outlined(SQUARE, shift=0.02)).part.entities) == 12
 
 

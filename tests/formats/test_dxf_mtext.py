@@ -18,7 +18,9 @@ LINE = 35 / 3
 
 def mtext(content: str, **attributes: Any) -> Any:
     document = new()
-    document.modelspace().add_mtext(content, dxfattribs={"style": "BLOCK", "char_height": 7, "attachment_point": 7, **attributes})
+    document.modelspace().add_mtext(
+        content, dxfattribs={"style": "BLOCK", "char_height": 7, "attachment_point": 7, **attributes}
+    )
     return document
 
 
@@ -57,11 +59,24 @@ def test_spacing_and_empty_lines(fonts: Path) -> None:
     assert near(corners("H\n{\\H14;H}"), [(0, 2 * LINE), (0, 0)])
 
 
-@pytest.mark.parametrize(("content", "box"), [
-    ("\\H2x;H", (2, 0, 10, 14)), ("\\H14;H", (2, 0, 10, 14)), ("\\W2;H", (2, 0, 10, 7)), ("{\\H2x;}H", (1, 0, 5, 7)),
-    ("\\fBlock|b1|i0;H", (1, 0, 5, 7)), ("\\Fheavy.ttf;H", (1, 0, 5, 7)), ("\\pql;H", (1, 0, 5, 7)), ("\\pi1;H", (8, 0, 12, 7)),
-    ("\\C1;H", (1, 0, 5, 7)), ("\\U+0048", (1, 0, 5, 7)), ("%%c", (0, 0, 7, 7)),
-    ("\tH", (29, 0, 33, 7)), ("\\pt2;\tH", (15, 0, 19, 7))])  # fmt: skip
+@pytest.mark.parametrize(
+    ("content", "box"),
+    [
+        ("\\H2x;H", (2, 0, 10, 14)),
+        ("\\H14;H", (2, 0, 10, 14)),
+        ("\\W2;H", (2, 0, 10, 7)),
+        ("{\\H2x;}H", (1, 0, 5, 7)),
+        ("\\fBlock|b1|i0;H", (1, 0, 5, 7)),
+        ("\\Fheavy.ttf;H", (1, 0, 5, 7)),
+        ("\\pql;H", (1, 0, 5, 7)),
+        ("\\pi1;H", (8, 0, 12, 7)),
+        ("\\C1;H", (1, 0, 5, 7)),
+        ("\\U+0048", (1, 0, 5, 7)),
+        ("%%c", (0, 0, 7, 7)),
+        ("\tH", (29, 0, 33, 7)),
+        ("\\pt2;\tH", (15, 0, 19, 7)),
+    ],
+)
 def test_codes(fonts: Path, content: str, box: tuple[float, ...]) -> None:
     assert near(letters(content), [box])
 
@@ -123,14 +138,31 @@ def test_what_to_do_about_columns_and_lines_that_run_down_is_said() -> None:
     document = mtext("H", flow_direction=3)
     document.modelspace().add_mtext_static_columns(["H", "H"], 50, 5, 100)
     (text,) = [each.text for each in left_out(document).findings if each.text.startswith("Left out")]
-    assert text.endswith("(vertical). To machine them, set texts to no columns and let letters run to the right, or turn them into "
-                         "curves, where they were drawn.")  # fmt: skip
+    assert text.endswith(
+        "(vertical). To machine them, set texts to no columns and let letters run to the right, or turn them into "
+        "curves, where they were drawn."
+    )
     (plain,) = [each.text for each in left_out(mtext("H" * 10_001)).findings if each.text.startswith("Left out")]
     assert plain.endswith("letters).")
 
 
-@pytest.mark.parametrize("content", [
-    "\\S", "\\S;", "\\H;H", "{{{H", "}}}H", "\\pi;H", "\\f;H", "\\", "\\H-2x;H", "\\pt;\tH", "\\W0;H", "\\T0;H", "\\Q90;H",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "content",
+    [
+        "\\S",
+        "\\S;",
+        "\\H;H",
+        "{{{H",
+        "}}}H",
+        "\\pi;H",
+        "\\f;H",
+        "\\",
+        "\\H-2x;H",
+        "\\pt;\tH",
+        "\\W0;H",
+        "\\T0;H",
+        "\\Q90;H",
+    ],
+)
 def test_codes_that_are_not_whole_do_no_harm(fonts: Path, content: str) -> None:
     assert not any("MTEXT" in what for what, _ in left_out(mtext(content)).left_out)

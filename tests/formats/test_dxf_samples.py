@@ -58,8 +58,24 @@ def test_every_shared_drawing_is_here(shared: Path, data: Path) -> None:
 
 def test_fig2_areas(data: Path) -> None:
     """The outline's two half discs of radius 8, one out and one in, cancel; the shoelace sum of the corners is left."""
-    corners = [(6, 6), (60, 6), (68, 14), (68, 60), (60, 60), (60, 70), (28, 70), (20, 76), (6, 76), (6, 50), (14, 44), (14, 34), (6, 28)]
-    shoelace = sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(corners, [*corners[1:], corners[0]], strict=True)) / 2
+    corners = [
+        (6, 6),
+        (60, 6),
+        (68, 14),
+        (68, 60),
+        (60, 60),
+        (60, 70),
+        (28, 70),
+        (20, 76),
+        (6, 76),
+        (6, 50),
+        (14, 44),
+        (14, 34),
+        (6, 28),
+    ]
+    shoelace = (
+        sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(corners, [*corners[1:], corners[0]], strict=True)) / 2
+    )
     areas = [abs(signed_area(contour_rows(c))) for c in chained(read(data, "fig2.dxf")).contours]
     assert areas == pytest.approx([shoelace, 24 * 24 / 2, math.pi * 144])
 
@@ -81,8 +97,10 @@ def test_plate_leaves_out_dimensions_and_points_and_has_its_texts_in_strokes(dat
     drawing = read(data, "LM2.dxf")
     assert drawing.left_out == (("DIMENSION", 22), ("POINT", 31))
     (text,) = [found.text for found in drawing.findings if "text" in found.text]
-    assert text == ("5 texts are read as curves to machine: 5 in the engraving face, for font standard is not installed here; "
-                    "leave them out with --skip-type TEXT.")
+    assert text == (
+        "5 texts are read as curves to machine: 5 in the engraving face, for font standard is not installed here; "
+        "leave them out with --skip-type TEXT."
+    )
     assert {entity.layer for entity in drawing.part.entities if entity.lettering} == {"GRAVIRANJE"}
     assert {layer.name for layer in drawing.part.layers} >= {"0", "HOLES", "GRAVIRANJE", "IZREZ"}
     circles = [c for c in chained(drawing).contours if len(c.primitives) == 1]

@@ -1,4 +1,6 @@
-"""TEXT and attributes of a DXF: letters at their place, height, width, angle, in the font that is named or the engraving face."""
+"""TEXT and attributes of a DXF: letters at their place, height, width, angle, in the font that is named or the
+engraving face.
+"""
 
 import io
 import math
@@ -64,11 +66,24 @@ def test_letters_stand_at_the_insertion_point_at_the_height_of_their_capitals(fo
     assert near(found, [(11, 20, 15, 27), (17, 18, 20, 25), (22, 20, 26, 27)])
 
 
-@pytest.mark.parametrize(("align", "x", "y"), [
-    (Align.LEFT, 0, 0), (Align.CENTER, -6, 0), (Align.RIGHT, -12, 0), (Align.MIDDLE, -6, -2.5),
-    (Align.TOP_LEFT, 0, -7), (Align.TOP_CENTER, -6, -7), (Align.TOP_RIGHT, -12, -7),
-    (Align.MIDDLE_LEFT, 0, -3.5), (Align.MIDDLE_CENTER, -6, -3.5), (Align.MIDDLE_RIGHT, -12, -3.5),
-    (Align.BOTTOM_LEFT, 0, 2), (Align.BOTTOM_CENTER, -6, 2), (Align.BOTTOM_RIGHT, -12, 2)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("align", "x", "y"),
+    [
+        (Align.LEFT, 0, 0),
+        (Align.CENTER, -6, 0),
+        (Align.RIGHT, -12, 0),
+        (Align.MIDDLE, -6, -2.5),
+        (Align.TOP_LEFT, 0, -7),
+        (Align.TOP_CENTER, -6, -7),
+        (Align.TOP_RIGHT, -12, -7),
+        (Align.MIDDLE_LEFT, 0, -3.5),
+        (Align.MIDDLE_CENTER, -6, -3.5),
+        (Align.MIDDLE_RIGHT, -12, -3.5),
+        (Align.BOTTOM_LEFT, 0, 2),
+        (Align.BOTTOM_CENTER, -6, 2),
+        (Align.BOTTOM_RIGHT, -12, 2),
+    ],
+)
 def test_alignments(fonts: Path, align: Align, x: float, y: float) -> None:
     """Two letters are 12 wide, 7 high, and small ones reach 2 below the baseline."""
     document = text("HH")
@@ -78,7 +93,9 @@ def test_alignments(fonts: Path, align: Align, x: float, y: float) -> None:
 
 
 @pytest.mark.parametrize(("align", "width", "height"), [(Align.FIT, 2, 1), (Align.ALIGNED, 2, 2)])
-def test_a_text_between_two_points_is_wider_or_larger_altogether(fonts: Path, align: Align, width: float, height: float) -> None:
+def test_a_text_between_two_points_is_wider_or_larger_altogether(
+    fonts: Path, align: Align, width: float, height: float
+) -> None:
     document = text("HH")
     (entity,) = document.modelspace()
     entity.set_placement((0, 0), (0, 24), align)
@@ -89,7 +106,9 @@ def test_a_text_between_two_points_is_wider_or_larger_altogether(fonts: Path, al
 @pytest.mark.parametrize("degrees", [0, 90, 17, -132.5])
 @pytest.mark.parametrize("flags", [0, 2, 4, 6])
 def test_turned_leaning_wide_and_mirrored(fonts: Path, degrees: float, flags: int) -> None:
-    """The corner (5, 7) of the letter, twice as wide, leaning by 20 degrees, mirrored about the point, then turned about it."""
+    """The corner (5, 7) of the letter, twice as wide, leaning by 20 degrees, mirrored about the point, then turned
+    about it.
+    """
     document = text("H", insert=(30, 40), rotation=degrees, oblique=20, width=2, text_generation_flag=flags)
     x, y = 10 + 7 * math.tan(math.radians(20)), 7.0
     turn = complex(math.cos(math.radians(degrees)), math.sin(math.radians(degrees)))
@@ -103,12 +122,20 @@ def test_from_below_x_runs_the_other_way(fonts: Path) -> None:
 
 
 @settings(max_examples=examples(60), deadline=None)
-@given(st.lists(st.floats(-3, 3).filter(lambda v: abs(v) > 0.05), min_size=2, max_size=2),
-       st.lists(st.floats(-180, 180), min_size=2, max_size=2), st.lists(st.floats(-500, 500), min_size=4, max_size=4),
-       st.floats(-40, 40), st.floats(0.2, 4))  # fmt: skip
+@given(
+    st.lists(st.floats(-3, 3).filter(lambda v: abs(v) > 0.05), min_size=2, max_size=2),
+    st.lists(st.floats(-180, 180), min_size=2, max_size=2),
+    st.lists(st.floats(-500, 500), min_size=4, max_size=4),
+    st.floats(-40, 40),
+    st.floats(0.2, 4),
+)
 def test_letters_of_a_block_go_where_its_maps_take_them(
-    scales: list[float], turns: list[float], places: list[float], lean: float, wide: float,
-) -> None:  # fmt: skip
+    scales: list[float],
+    turns: list[float],
+    places: list[float],
+    lean: float,
+    wide: float,
+) -> None:
     """Each corner of a letter under the text's own map, then under that of the insert, against products of matrices."""
     document = new()
     attributes = {"style": "STROKES", "insert": places[:2], "rotation": turns[0], "oblique": lean, "width": wide}
@@ -116,7 +143,12 @@ def test_letters_of_a_block_go_where_its_maps_take_them(
     insert = {"xscale": scales[0], "yscale": scales[1], "rotation": turns[1]}
     document.modelspace().add_blockref("B", places[2:], dxfattribs=insert)
     inner = _turn(turns[0], *places[:2]).after(Affine(wide, math.tan(math.radians(lean)), 0, 1))
-    to = _turn(turns[1], *places[2:]).after(Affine(scales[0], 0, 0, scales[1])).after(inner).after(Affine(0.5, 0, 0, 0.5))
+    to = (
+        _turn(turns[1], *places[2:])
+        .after(Affine(scales[0], 0, 0, scales[1]))
+        .after(inner)
+        .after(Affine(0.5, 0, 0, 0.5))
+    )
     expected = [to.point(p) for curve in engraving().glyphs["L"].curves for p in (curve.start, curve.end)]
     found = [p for curve in curves(document) for p in (curve.start, curve.end)]
     assert len(found) == len(expected)
@@ -128,9 +160,20 @@ def _turn(degrees: float, x: float, y: float) -> Affine:
     return Affine(c, -s, s, c, x, y)
 
 
-@pytest.mark.parametrize(("words", "letters"), [
-    ("%%u%%uH", "H"), ("%%c", "Ø"), ("%%P", "±"), ("%%216", "Ø"), ("%%129", "Ø"), ("\\U+00D8", "Ø"), ("%%uH%%u", "H"),
-    ("^IH", " H"), ("%%072", "H")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("words", "letters"),
+    [
+        ("%%u%%uH", "H"),
+        ("%%c", "Ø"),
+        ("%%P", "±"),
+        ("%%216", "Ø"),
+        ("%%129", "Ø"),
+        ("\\U+00D8", "Ø"),
+        ("%%uH%%u", "H"),
+        ("^IH", " H"),
+        ("%%072", "H"),
+    ],
+)
 def test_codes_are_the_letters_that_they_mean(fonts: Path, words: str, letters: str) -> None:
     plain, coded = boxes(curves(text(letters))), boxes(curves(text(words)))
     assert coded[: len(plain)] == plain and len(coded) == len(plain) + words.endswith("%%u")
@@ -172,8 +215,10 @@ def test_a_font_that_is_not_here_or_broken_is_the_engraving_face_in_strokes_and_
     assert all(entity.lettering for entity in drawing.part.entities)
     assert [entity.curve for entity in drawing.part.entities[-3:]] == list(engraving().glyphs["H"].curves)
     found = telling(drawing, "texts")
-    assert found.text == ("2 texts are read as curves to machine: 1 in the engraving face, for font romans.shx is not installed here, "
-                          "1 in the engraving face, for font broken.ttf is not installed here; leave them out with --skip-type TEXT.")
+    assert found.text == (
+        "2 texts are read as curves to machine: 1 in the engraving face, for font romans.shx is not installed here, "
+        "1 in the engraving face, for font broken.ttf is not installed here; leave them out with --skip-type TEXT."
+    )
     assert not found.counts
 
 
@@ -181,10 +226,14 @@ def test_a_letter_that_a_font_lacks_is_of_the_engraving_face_and_one_that_nobody
     drawing = read(text("HA日", insert=(3, 4), layer="words"))
     outlines, strokes = ([e.curve for e in drawing.part.entities if e.lettering is wanted] for wanted in (False, True))
     assert near(boxes(outlines), [(4, 4, 8, 11)])
-    assert min(curve.start[0] for curve in strokes) == pytest.approx(9) and len(strokes) == len(engraving().glyphs["A"].curves)
+    assert min(curve.start[0] for curve in strokes) == pytest.approx(9) and len(strokes) == len(
+        engraving().glyphs["A"].curves
+    )
     found = telling(drawing, "No font here")
-    assert found.text == ("No font here has 日, missing from the text at (3.000, 4.000) on layer words; "
-                          "install the drawing's font, or leave them out with --skip-type TEXT.")
+    assert found.text == (
+        "No font here has 日, missing from the text at (3.000, 4.000) on layer words; "
+        "install the drawing's font, or leave them out with --skip-type TEXT."
+    )
     assert found.counts and found.kind is FindingKind.LEFT_OUT
 
 
@@ -198,8 +247,10 @@ def test_texts_are_left_out_as_asked_and_say_nothing_where_nothing_is_machined(f
     assert len(read(document, ("notes",)).findings) == 2
 
 
-@pytest.mark.parametrize(("words", "style", "called"), [("H", "TALL", "TEXT (vertical)"),
-                                                        ("H" * 10_001, "BLOCK", "TEXT (of more than 10000 letters)")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("words", "style", "called"),
+    [("H", "TALL", "TEXT (vertical)"), ("H" * 10_001, "BLOCK", "TEXT (of more than 10000 letters)")],
+)
 def test_texts_that_cannot_be_read_are_left_out_by_name(fonts: Path, words: str, style: str, called: str) -> None:
     document = text(words, style)
     document.styles.add("TALL", font="txt").dxf.flags = 4
@@ -228,7 +279,9 @@ def lettered(drawing: Drawing) -> list[Entity]:
 
 def test_attributes_lie_where_they_say_on_the_layer_of_the_insert(fonts: Path) -> None:
     drawing = read(with_attributes())
-    assert near(boxes([e.curve for e in lettered(drawing)]), [(11, 20, 15, 27)]) and {e.layer for e in lettered(drawing)} == {"outer"}
+    assert near(boxes([e.curve for e in lettered(drawing)]), [(11, 20, 15, 27)]) and {
+        e.layer for e in lettered(drawing)
+    } == {"outer"}
     assert "--skip-type ATTRIB" in telling(drawing, "text").text
     assert dict(read(with_attributes(), without_types=("ATTRIB",)).left_out) == {"ATTRIB (as asked)": 1}
 

@@ -146,8 +146,16 @@ def test_names_that_a_version_forbids_are_changed_and_listed() -> None:
     layers = tuple(map(Layer, ("a<b", "a>b", "A_B", "x y", "加工", "", "0 ", "n" * 300, "\U0001f600")))
     part = Part(tuple(Entity(k, Line((0, k), (1, k)), layer.name) for k, layer in enumerate(layers, 1)), layers)
     modern, old = (dxf_bytes(part, version) for version in (DxfVersion.R2018, DxfVersion.R12))
-    assert dict(modern.renamed)["a>b"] == "a_b_2" and "x y" not in dict(modern.renamed) and "加工" not in dict(modern.renamed)
-    assert dict(old.renamed)["x y"] == "x_y" and "加工" not in dict(old.renamed) and len(dict(old.renamed)["n" * 300]) == 31
+    assert (
+        dict(modern.renamed)["a>b"] == "a_b_2"
+        and "x y" not in dict(modern.renamed)
+        and "加工" not in dict(modern.renamed)
+    )
+    assert (
+        dict(old.renamed)["x y"] == "x_y"
+        and "加工" not in dict(old.renamed)
+        and len(dict(old.renamed)["n" * 300]) == 31
+    )
     for written in (modern, old):
         again = read_dxf(written.data).part
         assert len({e.layer.casefold() for e in again.entities}) == len(layers)

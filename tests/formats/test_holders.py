@@ -32,8 +32,13 @@ def test_names_are_read_in_any_case_and_spacing(name):
 def test_a_library_a_spreadsheet_and_a_job_name_holders():
     assert read_library("t.toml", LIBRARY % b"ER16").tools[0].holder == outline_of("ER16")
     table = b"number,diameter,holder\n1,6,Shrink fit 6\n2,6,0 x 10; 9 x 10\n"
-    assert [tool.holder for tool in read_tool_csv("t.csv", table)[0].tools] == [outline_of("shrinkfit6"), ((0.0, 10.0), (9.0, 10.0))]
-    assert read_job("j.toml", b'[[tool]]\nnumber = 1\ndiameter = 6\nholder = "weldon 10"\n').job.tools[0].holder == outline_of("Weldon 10")
+    assert [tool.holder for tool in read_tool_csv("t.csv", table)[0].tools] == [
+        outline_of("shrinkfit6"),
+        ((0.0, 10.0), (9.0, 10.0)),
+    ]
+    assert read_job("j.toml", b'[[tool]]\nnumber = 1\ndiameter = 6\nholder = "weldon 10"\n').job.tools[
+        0
+    ].holder == outline_of("Weldon 10")
 
 
 def test_unknown_names_are_refused_with_those_that_are_known():

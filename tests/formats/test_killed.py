@@ -1,4 +1,6 @@
-"""A process that is killed at any moment leaves a whole file, a whole backup, and a recovery file with its last work."""
+"""A process that is killed at any moment leaves a whole file, a whole backup, and a recovery file with its last
+work.
+"""
 
 import os
 import random

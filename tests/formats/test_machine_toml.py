@@ -38,19 +38,30 @@ def test_a_machine_that_is_not_there_names_those_that_are() -> None:
         load_machine("lathe")
 
 
-@pytest.mark.parametrize(("old", "new", "words"), [
-    ("largest_feed = 4000.0", "largest_feed = 0", r"m\.toml:2: largest_feed is 0; expected is a number from 1 to"),
-    ("largest_feed = 4000.0", "largest_feed = true", r"m\.toml:2: largest_feed is True; expected is a number\."),
-    ("largest_feed = 4000.0", "", r"m\.toml:1: largest_feed is missing; add a number\."),
-    ("largest_feed", "fastest_feed", r"m\.toml:2: fastest_feed is not known; expected are title, x, y, z"),
-    ("corner = 0.01", "work_origin = [1, 2]", r"m\.toml:4: work_origin is \[1, 2\]; expected is a list of 3 numbers"),
-    ("corner = 0.01", "corner = nan", r"m\.toml:4: corner is nan; expected is a number from 0 to 10"),
-    ("low = -100.0", "low = 100.0", r"m\.toml:\d+: Travel goes from 100 to 0 mm; the low end must be less"),
-    ("acceleration = 150.0", "acceleration = 0.5", r"m\.toml:\d+: z\.acceleration is 0\.5; expected is a number from 1"),
-    ("low = 6000.0", "low = 60000.0", r"m\.toml:\d+: Spindle range is 60000 to 24000 rpm"),
-    ("[z]", "[w]", r"w is not known"),
-    ("[z]", "[z", r"m\.toml: this is no TOML file"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("largest_feed = 4000.0", "largest_feed = 0", r"m\.toml:2: largest_feed is 0; expected is a number from 1 to"),
+        ("largest_feed = 4000.0", "largest_feed = true", r"m\.toml:2: largest_feed is True; expected is a number\."),
+        ("largest_feed = 4000.0", "", r"m\.toml:1: largest_feed is missing; add a number\."),
+        ("largest_feed", "fastest_feed", r"m\.toml:2: fastest_feed is not known; expected are title, x, y, z"),
+        (
+            "corner = 0.01",
+            "work_origin = [1, 2]",
+            r"m\.toml:4: work_origin is \[1, 2\]; expected is a list of 3 numbers",
+        ),
+        ("corner = 0.01", "corner = nan", r"m\.toml:4: corner is nan; expected is a number from 0 to 10"),
+        ("low = -100.0", "low = 100.0", r"m\.toml:\d+: Travel goes from 100 to 0 mm; the low end must be less"),
+        (
+            "acceleration = 150.0",
+            "acceleration = 0.5",
+            r"m\.toml:\d+: z\.acceleration is 0\.5; expected is a number from 1",
+        ),
+        ("low = 6000.0", "low = 60000.0", r"m\.toml:\d+: Spindle range is 60000 to 24000 rpm"),
+        ("[z]", "[w]", r"w is not known"),
+        ("[z]", "[z", r"m\.toml: this is no TOML file"),
+    ],
+)
 def test_what_is_wrong_is_named_with_its_line(old: str, new: str, words: str) -> None:
     text = write_machine(ROUTER).decode()
     assert old in text
@@ -59,6 +70,8 @@ def test_what_is_wrong_is_named_with_its_line(old: str, new: str, words: str) ->
 
 
 def test_what_may_be_left_out_has_its_default() -> None:
-    text = "\n".join(line for line in write_machine(ROUTER).decode().splitlines() if not line.startswith(("tool_change", "corner")))
+    text = "\n".join(
+        line for line in write_machine(ROUTER).decode().splitlines() if not line.startswith(("tool_change", "corner"))
+    )
     machine = read_machine("m.toml", text.encode())
     assert (machine.tool_change, machine.corner, machine.work_origin) == (0.0, 0.01, None)

@@ -12,7 +12,9 @@ from app.model.part import Part
 from tests.conftest import ROOT
 from tests.formats.drawn_parts import apart
 
-SAMPLES = sorted(path for path in (ROOT / "tests" / "data").glob("*/*") if path.suffix in (".dxf", ".svg") and path.stem != "complex")
+SAMPLES = sorted(
+    path for path in (ROOT / "tests" / "data").glob("*/*") if path.suffix in (".dxf", ".svg") and path.stem != "complex"
+)
 SAME = 1e-9
 
 
@@ -32,8 +34,12 @@ def test_svg_keeps_all(part: Part) -> None:
 def test_dxf_keeps_all(part: Part) -> None:
     written = dxf_bytes(part, DxfVersion.R2018)
     drawing = read_dxf(written.data)
-    assert not written.converted and not written.renamed and drawing.part.layers[1:] == tuple(
-        layer for layer in part.layers if layer.name != drawing.part.layers[0].name)
+    assert (
+        not written.converted
+        and not written.renamed
+        and drawing.part.layers[1:]
+        == tuple(layer for layer in part.layers if layer.name != drawing.part.layers[0].name)
+    )
     assert max(apart(a.curve, b.curve) for a, b in zip(part.entities, drawing.part.entities, strict=True)) <= SAME
 
 

@@ -1,4 +1,6 @@
-"""Pictures: true arcs where they belong, y up, every kind of path in its own line style, and PNG pixels in their colours."""
+"""Pictures: true arcs where they belong, y up, every kind of path in its own line style, and PNG pixels in their
+colours.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,14 @@ from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour
 
 SVG = "{http://www.w3.org/2000/svg}"
-OUTLINE = Contour((Line((0.0, 0.0), (40.0, 0.0)), Arc((40.0, 0.0), (40.0, 20.0), (40.0, 10.0)), Line((40.0, 20.0), (0.0, 20.0)),
-                   Line((0.0, 20.0), (0.0, 0.0))))  # fmt: skip
+OUTLINE = Contour(
+    (
+        Line((0.0, 0.0), (40.0, 0.0)),
+        Arc((40.0, 0.0), (40.0, 20.0), (40.0, 10.0)),
+        Line((40.0, 20.0), (0.0, 20.0)),
+        Line((0.0, 20.0), (0.0, 0.0)),
+    )
+)
 
 
 def picture() -> Picture:
@@ -47,7 +55,9 @@ def test_the_svg_is_well_formed_and_each_kind_has_its_line() -> None:
     assert paths["contour"].get("stroke") == "#E69F00"
     assert [name for name, path in paths.items() if path.get("stroke-dasharray")] == ["rapid", "contour"]
     assert root.findtext(f"{SVG}title") == "plate <1>"
-    assert {"Part", "Pocket", "Contour", "Rapid", "Link", "Plunge", "Left, within reach"} <= {text.text for text in root.iter(f"{SVG}text")}
+    assert {"Part", "Pocket", "Contour", "Rapid", "Link", "Plunge", "Left, within reach"} <= {
+        text.text for text in root.iter(f"{SVG}text")
+    }
 
 
 def test_y_is_up_and_arcs_are_arcs() -> None:
@@ -60,7 +70,10 @@ def test_y_is_up_and_arcs_are_arcs() -> None:
 
 
 def test_path_data_keeps_full_circles_and_big_arcs_unambiguous() -> None:
-    for data in (path_data(contour_rows(Contour((Circle((0.0, 0.0), 2.0),)))), path_data(np.array([[2, 0, 2, 0, 0, 0, 2, 1.0]]))):
+    for data in (
+        path_data(contour_rows(Contour((Circle((0.0, 0.0), 2.0),)))),
+        path_data(np.array([[2, 0, 2, 0, 0, 0, 2, 1.0]])),
+    ):
         ends = [tuple(map(float, end)) for end in re.findall(r"A\S+ \S+ 0 0 1 (\S+) ([\d.-]+)", data)]
         steps = [math.dist(a, b) for a, b in zip([(2.0, 0.0), *ends], ends, strict=False)]
         assert len(ends) >= 2

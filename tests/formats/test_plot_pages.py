@@ -30,8 +30,12 @@ TRUE = PlotOptions(scale=1.0)
 
 def a_plate() -> Part:
     part = Part(name="plate", layers=(Layer("0"), Layer("holes", "#CC79A7"), Layer("hidden", visible=False)))
-    outline = (Line((0.0, 0.0), (60.0, 0.0)), Arc((60.0, 0.0), (60.0, 40.0), (60.0, 20.0)), Line((60.0, 40.0), (0.0, 40.0)),
-               Line((0.0, 40.0), (0.0, 0.0)))  # fmt: skip
+    outline = (
+        Line((0.0, 0.0), (60.0, 0.0)),
+        Arc((60.0, 0.0), (60.0, 40.0), (60.0, 20.0)),
+        Line((60.0, 40.0), (0.0, 40.0)),
+        Line((0.0, 40.0), (0.0, 0.0)),
+    )
     part = part.with_curves(outline, "0").with_curves((Circle((20.0, 20.0), 7.5),), "holes")
     part = part.with_curves((Line((-500.0, 0.0), (500.0, 0.0)),), "hidden")
     part = part.with_note(Dimension(Measure.ACROSS, ((0.0, 0.0), (60.0, 0.0)), (30.0, -10.0)), "0")
@@ -40,10 +44,14 @@ def a_plate() -> Part:
 
 def some_moves() -> Moves:
     ends = np.array([[0, 0, 5], [10, 0, -1], [20, 0, -1], [20, 10, -1], [20, 10, 5], [20, 10, -1]], float)
-    kind = np.array([MoveKind.RAPID, MoveKind.LINE, MoveKind.LINE, MoveKind.ARC_CCW, MoveKind.RAPID, MoveKind.LINE], np.uint8)
+    kind = np.array(
+        [MoveKind.RAPID, MoveKind.LINE, MoveKind.LINE, MoveKind.ARC_CCW, MoveKind.RAPID, MoveKind.LINE], np.uint8
+    )
     centre = np.full((6, 2), np.nan)
     centre[3] = (20, 5)
-    purpose = np.array([Purpose.RAPID, Purpose.LINK, Purpose.POCKET, Purpose.CONTOUR, Purpose.RAPID, Purpose.PLUNGE], np.uint8)
+    purpose = np.array(
+        [Purpose.RAPID, Purpose.LINK, Purpose.POCKET, Purpose.CONTOUR, Purpose.RAPID, Purpose.PLUNGE], np.uint8
+    )
     tool = np.array([1, 1, 1, 2, 2, 2], np.int16)
     zeros = np.zeros(6, np.int16)
     return Moves(ends, centre, kind, purpose, zeros, tool, zeros, np.zeros(6), np.zeros(6, np.int32))
@@ -51,25 +59,31 @@ def some_moves() -> Moves:
 
 @pytest.mark.parametrize(("scale", "length"), [(1.0, 100.0), (0.5, 50.0), (2.0, 200.0)])
 def test_a_line_of_100_mm_is_as_long_as_the_scale_says_in_svg_and_hpgl(scale: float, length: float) -> None:
-    page, = lay_out(Shown(LINE), PlotOptions(scale=scale)).pages
+    (page,) = lay_out(Shown(LINE), PlotOptions(scale=scale)).pages
     root = ElementTree.fromstring(page_svg(page, "rule"))
     assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("297mm", "210mm", "0 0 297 210")
     path = root.find(f"{SVG}g[@id='drawing']/{SVG}path")
     assert path is not None
     x0, y0, x1, y1 = map(float, re.findall(r"-?[\d.]+", path.get("d", "")))
     assert (x1 - x0, y1 - y0) == pytest.approx((length, 0.0), abs=1e-6)
-    sheet, = Plotter(hpgl_bytes((page,))).sheets
+    (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     assert sheet.size == (297.0, 210.0)
     assert sheet.strokes[0].length == pytest.approx(length, abs=0.005)
 
 
 def test_every_curve_is_followed_within_a_micrometre() -> None:
     circle, ellipse = Circle((3.0, 4.0), 400.0), Ellipse((0.0, 0.0), (300.0, 100.0), 0.3, 0.5, 4.0, ccw=False)
-    for curve, off in ((circle, lambda x, y: math.hypot(x - 3, y - 4) - 400), (ellipse, lambda x, y: off_ellipse(ellipse, x, y))):
+    for curve, off in (
+        (circle, lambda x, y: math.hypot(x - 3, y - 4) - 400),
+        (ellipse, lambda x, y: off_ellipse(ellipse, x, y)),
+    ):
         at, worst = curve.start, 0.0
         for a, b, c in segments(curve, 1e-3):
             for t in np.linspace(0, 1, 60):
-                x, y = (at[k] * (1 - t) ** 3 + 3 * a[k] * t * (1 - t) ** 2 + 3 * b[k] * t * t * (1 - t) + c[k] * t**3 for k in (0, 1))
+                x, y = (
+                    at[k] * (1 - t) ** 3 + 3 * a[k] * t * (1 - t) ** 2 + 3 * b[k] * t * t * (1 - t) + c[k] * t**3
+                    for k in (0, 1)
+                )
                 worst = max(worst, abs(off(x, y)))
             at = c
         assert math.dist(at, curve.end) < 1e-9
@@ -93,20 +107,20 @@ def test_splines_are_kept_as_they_are() -> None:
 
 
 def test_hpgl_plays_back_with_a_pen_a_layer_and_true_arcs() -> None:
-    page, = lay_out(Shown(a_plate(), notes=False), replace(TRUE, framed=False)).pages
-    sheet, = Plotter(hpgl_bytes((page,))).sheets
-    outline, = sheet.strokes
+    (page,) = lay_out(Shown(a_plate(), notes=False), replace(TRUE, framed=False)).pages
+    (sheet,) = Plotter(hpgl_bytes((page,))).sheets
+    (outline,) = sheet.strokes
     assert (outline.pen, outline.dashed, outline.width) == (1, 0.0, 0.35)
     assert outline.length == pytest.approx(160 + 20 * math.pi, abs=0.05)
     assert [angle for _, angle in outline.arcs] == [pytest.approx(math.pi, abs=1e-3)]
-    (pen, _, radius), = sheet.circles
+    ((pen, _, radius),) = sheet.circles
     assert (pen, radius) == (2, 7.5)
     assert sheet.windows == [(10.0, 10.0, 287.0, 200.0), ()]
 
 
 def test_what_is_hidden_or_construction_is_not_plotted_and_dimensions_keep_their_size_at_every_scale() -> None:
     for scale in (1.0, 0.2):
-        page, = lay_out(Shown(a_plate()), replace(TRUE, scale=scale)).pages
+        (page,) = lay_out(Shown(a_plate()), replace(TRUE, scale=scale)).pages
         assert [words.text for words in page.drawing.words] == ["60"]
         assert page.drawing.words[0].height == 3.5
         tip, corner, _ = page.drawing.patches[0].corners
@@ -115,8 +129,8 @@ def test_what_is_hidden_or_construction_is_not_plotted_and_dimensions_keep_their
 
 
 def test_paths_are_drawn_by_tool_with_contours_dashed_and_without_rapids() -> None:
-    page, = lay_out(Shown(LINE, some_moves()), replace(TRUE, framed=False)).pages
-    sheet, = Plotter(hpgl_bytes((page,))).sheets
+    (page,) = lay_out(Shown(LINE, some_moves()), replace(TRUE, framed=False)).pages
+    (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     kinds = [(stroke.pen, stroke.dashed, stroke.width) for stroke in sheet.strokes]
     assert kinds == [(2, 0.0, 0.13), (2, 0.0, 0.25), (3, 4.5, 0.25), (1, 0.0, 0.35)]
     assert [round(stroke.length, 1) for stroke in sheet.strokes[:2]] == [10.0, 10.0]
@@ -124,7 +138,7 @@ def test_paths_are_drawn_by_tool_with_contours_dashed_and_without_rapids() -> No
 
 
 def test_the_title_strip_says_name_scale_units_date_and_sheet() -> None:
-    page, = lay_out(Shown(a_plate()), PlotOptions(scale=0.5), "2026-11-22").pages
+    (page,) = lay_out(Shown(a_plate()), PlotOptions(scale=0.5), "2026-11-22").pages
     assert {"plate", "1 : 2", "mm", "2026-11-22", "1 of 1"} <= {words.text for words in page.frame.words}
     assert not lay_out(Shown(a_plate()), PlotOptions(scale=0.5, framed=False)).pages[0].frame.words
     long = replace(a_plate(), name="名" * 100)
@@ -157,7 +171,9 @@ def test_what_is_too_large_goes_on_sheets_that_overlap_and_meet() -> None:
         covered += len(shown)
         assert all(page.drawing.strokes for page in shown)
     assert covered > 400
-    crosses = [{(curve.start, curve.end) for stroke in page.frame.strokes for curve in stroke.curves} for page in plot.pages]
+    crosses = [
+        {(curve.start, curve.end) for stroke in page.frame.strokes for curve in stroke.curves} for page in plot.pages
+    ]
     assert any(start[1] == end[1] and start[0] == 279.0 for start, end in crosses[0])
     assert any(start[1] == end[1] and start[0] == 12.0 for start, end in crosses[1])
     assert len(Plotter(hpgl_bytes(plot.pages)).sheets) == 6

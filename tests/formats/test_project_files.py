@@ -79,7 +79,9 @@ def test_a_link_stays_one(tmp_path: Path) -> None:
     assert name_in(tmp_path / "real" / "a.hito") == "two" and name_in(tmp_path / "a.hito~") == "one"
 
 
-def test_where_two_names_for_a_file_are_not_possible_the_backup_is_a_copy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_two_names_for_a_file_are_not_possible_the_backup_is_a_copy(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "a.hito"
     save_project(path, named("one"))
 
@@ -139,7 +141,9 @@ def test_a_full_disk_leaves_file_and_backup(tmp_path: Path) -> None:
     assert {each.name: each.read_bytes() for each in tmp_path.iterdir()} == before
 
 
-@pytest.mark.parametrize("name", ["a b.hito", "図面 穴.hito", "q'\"uote.hito", "x" * 250 + ".hito", "\udcff.hito", ".hito", "%s{}.hito"])
+@pytest.mark.parametrize(
+    "name", ["a b.hito", "図面 穴.hito", "q'\"uote.hito", "x" * 250 + ".hito", "\udcff.hito", ".hito", "%s{}.hito"]
+)
 def test_any_name_will_do(tmp_path: Path, name: str) -> None:
     save_project(tmp_path / name, named("one"))
     assert load_project(tmp_path / name)[0].state.job == named("one").state.job
@@ -161,7 +165,10 @@ def test_stamps(tmp_path: Path) -> None:
 
 def test_the_drawing_it_was_read_from_is_told_from_its_folder_where_it_lies_in_that(tmp_path: Path) -> None:
     reading = Reading(Units.MM, (), ReadOptions(overrule=True, to_zero=True))
-    for drawing, told in ((tmp_path / "cad" / "a.dxf", 'path = "cad/a.dxf"'), (tmp_path.parent / "b.dxf", f'path = "{tmp_path.parent}')):
+    for drawing, told in (
+        (tmp_path / "cad" / "a.dxf", 'path = "cad/a.dxf"'),
+        (tmp_path.parent / "b.dxf", f'path = "{tmp_path.parent}'),
+    ):
         project = Project(replace(named("one").state, source=Source(str(drawing), reading)))
         save_project(tmp_path / "p.hito", project)
         assert told in (tmp_path / "p.hito").read_text()

@@ -77,7 +77,9 @@ def test_a_later_state_takes_the_place_of_the_one_before() -> None:
     mine.close()
 
 
-@pytest.mark.parametrize("data", [b"", b"\xff\x00", b"# recovery of [\n", b'# recovery of ["a", 3]\nformat = "hitofude"\n'])
+@pytest.mark.parametrize(
+    "data", [b"", b"\xff\x00", b"# recovery of [\n", b'# recovery of ["a", 3]\nformat = "hitofude"\n']
+)
 def test_a_damaged_file_is_told_and_set_aside(data: bytes) -> None:
     state_folder().mkdir(parents=True)
     (state_folder() / "x.hito").write_bytes(data)

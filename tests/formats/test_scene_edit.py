@@ -13,7 +13,9 @@ from tests.conftest import ROOT
 
 SAMPLES = ROOT / "resources" / "samples"
 COMPOUND = (SAMPLES / "compound.toml").read_text()
-INCHES = 'units = "in"\n\n[[surface]]\nname = "ball"\nshape = { kind = "sphere", centre = [0, 0, 0], radius = 1 }  # round\n'
+INCHES = (
+    'units = "in"\n\n[[surface]]\nname = "ball"\nshape = { kind = "sphere", centre = [0, 0, 0], radius = 1 }  # round\n'
+)
 
 
 def scene(text: str):
@@ -27,7 +29,7 @@ def changed_lines(before: str, after: str) -> list[str]:
 def test_one_value_changes_one_line_and_keeps_its_remark() -> None:
     text = with_value(COMPOUND, ("passes", 0, "pitch"), 2.5)
     assert scene(text).passes[0].pitch == 2.5
-    line, = changed_lines(COMPOUND, text)
+    (line,) = changed_lines(COMPOUND, text)
     assert line.startswith("pitch = 2.5 ")
     assert line.endswith("# from plane to plane; or scallop = 0.01, the height of the ridges between passes")
     assert len(text.splitlines()) == len(COMPOUND.splitlines())
@@ -47,7 +49,11 @@ def test_a_value_within_a_shape() -> None:
 
 
 def test_a_table_that_is_not_there_is_made() -> None:
-    text = with_value("[[surface]]\nname = 'a'\nshape = { kind = 'sphere', centre = [0, 0, 0], radius = 1 }\n", ("stock", "margin"), 2.0)
+    text = with_value(
+        "[[surface]]\nname = 'a'\nshape = { kind = 'sphere', centre = [0, 0, 0], radius = 1 }\n",
+        ("stock", "margin"),
+        2.0,
+    )
     assert scene(text).stock.margin == 2.0
 
 
@@ -61,7 +67,9 @@ def test_inches_stay_inches() -> None:
 
 
 def test_tables_are_added_and_taken_away() -> None:
-    more = with_table(COMPOUND, "surface", {"name": "hole", "shape": {"kind": "sphere", "centre": (1.0, 2.0, 3.5), "radius": 4.0}})
+    more = with_table(
+        COMPOUND, "surface", {"name": "hole", "shape": {"kind": "sphere", "centre": (1.0, 2.0, 3.5), "radius": 4.0}}
+    )
     assert [each.name for each in scene(more).surfaces] == ["12a left flank", "12b dome", "12c right flank", "hole"]
     assert scene(more).surfaces[3].shape.centre == (1.0, 2.0, 3.5)
     assert scene(without_table(more, "surface", 3)) == scene(COMPOUND)
@@ -82,13 +90,18 @@ def test_moving_tables_is_moving_surfaces(steps: list[tuple[int, int]]) -> None:
     found = scene(text)
     assert [each.name for each in found.surfaces] == names
     assert sorted(found.surfaces, key=lambda each: each.name) == list(scene(COMPOUND).surfaces)
-    assert (found.passes, found.tools, found.stock) == (scene(COMPOUND).passes, scene(COMPOUND).tools, scene(COMPOUND).stock)
+    assert (found.passes, found.tools, found.stock) == (
+        scene(COMPOUND).passes,
+        scene(COMPOUND).tools,
+        scene(COMPOUND).stock,
+    )
 
 
 def test_lines_of_tables() -> None:
     lines = COMPOUND.splitlines()
-    assert [lines[line_of(COMPOUND, "surface", k)] for k in range(3)] == [f'name = "{n}"' for n in
-                                                                         ("12a left flank", "12b dome", "12c right flank")]  # fmt: skip
+    assert [lines[line_of(COMPOUND, "surface", k)] for k in range(3)] == [
+        f'name = "{n}"' for n in ("12a left flank", "12b dome", "12c right flank")
+    ]
     assert line_of(COMPOUND, "surface", 9) == 1
 
 

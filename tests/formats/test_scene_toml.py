@@ -33,35 +33,97 @@ from app.model.tool import FeedRow, Tool, ToolKind
 from tests.examples import examples
 
 ZERO, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
-TABLE = SectionCurve(((0.0, 1.0), (2.5, -1.0), (4.0, 0.125)), spacing=Spacing.CHORD_LENGTH, origin=(0.0, 5.0, 0.0), y_axis=(0.0, 0.0, 1.0))
-SPACE = SectionCurve(((0.0, 1.0, 7.0), (2.0, -1.0, 1e-9), (4.0, 0.0, 0.1)), CurveForm.CONTROL, 2, weights=(1.0, 0.5, 1.0))
+TABLE = SectionCurve(
+    ((0.0, 1.0), (2.5, -1.0), (4.0, 0.125)),
+    spacing=Spacing.CHORD_LENGTH,
+    origin=(0.0, 5.0, 0.0),
+    y_axis=(0.0, 0.0, 1.0),
+)
+SPACE = SectionCurve(
+    ((0.0, 1.0, 7.0), (2.0, -1.0, 1e-9), (4.0, 0.0, 0.1)), CurveForm.CONTROL, 2, weights=(1.0, 0.5, 1.0)
+)
 PAIR = SectionCurve(((0.0, 1.0), (2.0, 3.0)), closed=False, degree=1)
 DRAWN = SectionCurve(drawing='a "b".dxf', layer="刃", number=3)
 GRID = tuple(tuple((float(i), float(j), i * j / 7) for j in range(4)) for i in range(4))
 SHAPES: tuple[Shape, ...] = (
-    PlaneShape(ZERO, X, (0.0, 1.0, 0.5)), SphereShape(ZERO, 2.0), CylinderShape(ZERO, X, 1.5, (-90.0, 90.0)), ConeShape(ZERO, X, 1.0, 0.0),
-    TorusShape(ZERO, 3.0, 1.0, X), BilinearShape((ZERO, X, (1.0, 1.0, 0.0), (0.0, 1.0, 3.0))), BicubicShape(GRID),
-    BsplineShape(GRID, 2, 3, knots_u=(0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 1.0), weights=((1.0,) * 4, (0.5,) * 4, (2.0,) * 4, (1.0,) * 4)),
-    LoftShape((TABLE, SPACE, DRAWN, PAIR), 2, True), RuledShape(TABLE, DRAWN), RevolvedShape(DRAWN, X, ZERO[:2] + (2.0,), (10.0, 20.0)),
-    SweptShape(PAIR, SPACE, Keep.FOLLOW), MeshShape("part.STL", 25.4),
-)  # fmt: skip
-TRIMS = (Trim(outline=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), keep=Side.OUTSIDE),
-         Trim(circle=(1.0, 2.0, 3.0)), Trim(drawing="a.dxf", layer="x"))  # fmt: skip
+    PlaneShape(ZERO, X, (0.0, 1.0, 0.5)),
+    SphereShape(ZERO, 2.0),
+    CylinderShape(ZERO, X, 1.5, (-90.0, 90.0)),
+    ConeShape(ZERO, X, 1.0, 0.0),
+    TorusShape(ZERO, 3.0, 1.0, X),
+    BilinearShape((ZERO, X, (1.0, 1.0, 0.0), (0.0, 1.0, 3.0))),
+    BicubicShape(GRID),
+    BsplineShape(
+        GRID,
+        2,
+        3,
+        knots_u=(0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 1.0),
+        weights=((1.0,) * 4, (0.5,) * 4, (2.0,) * 4, (1.0,) * 4),
+    ),
+    LoftShape((TABLE, SPACE, DRAWN, PAIR), 2, True),
+    RuledShape(TABLE, DRAWN),
+    RevolvedShape(DRAWN, X, ZERO[:2] + (2.0,), (10.0, 20.0)),
+    SweptShape(PAIR, SPACE, Keep.FOLLOW),
+    MeshShape("part.STL", 25.4),
+)
+TRIMS = (
+    Trim(outline=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), keep=Side.OUTSIDE),
+    Trim(circle=(1.0, 2.0, 3.0)),
+    Trim(drawing="a.dxf", layer="x"),
+)
 FULL = Scene(
     "everything",
-    tuple(Surface(f"no. {n}", shape, "#009E73", tuple(LineType)[n % 4], n % 2 == 0, n % 3 > 0, (1.0, 2.0, float(n)), X, TRIMS[: n % 4])
-          for n, shape in enumerate(SHAPES)),
+    tuple(
+        Surface(
+            f"no. {n}",
+            shape,
+            "#009E73",
+            tuple(LineType)[n % 4],
+            n % 2 == 0,
+            n % 3 > 0,
+            (1.0, 2.0, float(n)),
+            X,
+            TRIMS[: n % 4],
+        )
+        for n, shape in enumerate(SHAPES)
+    ),
     SceneStock((0.0, 0.0, -5.0, 100.0, 80.0, 20.0)),
-    (Tool(1, 6.0, ToolKind.BALL, feeds=(FeedRow("steel", 120.0, 0.05),)), Tool(7, 8.0, ToolKind.BULL, corner_radius=1.0)),
-    (Passes(1, "finish", False, 30.0, (1.0, 2.0), pitch=0.5, strategy=Strategy.ONE_WAY, stock_to_leave=0.25, floor=-3.0, link_gap=2.0,
-            feed_rate=500.0, plunge_rate=100.0, spindle_speed=9000.0,
-            boundary=(Boundary(rectangle=(0.0, 0.0, 9.0, 9.0), centre=Centre.INSIDE),)),
-     Passes(7, line=(0.0, 0.0, 100.0, 80.0), scallop=0.01, chord_tolerance=0.002)),
-    OriginXY.CENTRE, OriginZ.BOTTOM, 12.0, 2.0, "fanuc", Units.INCH, True,
-)  # fmt: skip
+    (
+        Tool(1, 6.0, ToolKind.BALL, feeds=(FeedRow("steel", 120.0, 0.05),)),
+        Tool(7, 8.0, ToolKind.BULL, corner_radius=1.0),
+    ),
+    (
+        Passes(
+            1,
+            "finish",
+            False,
+            30.0,
+            (1.0, 2.0),
+            pitch=0.5,
+            strategy=Strategy.ONE_WAY,
+            stock_to_leave=0.25,
+            floor=-3.0,
+            link_gap=2.0,
+            feed_rate=500.0,
+            plunge_rate=100.0,
+            spindle_speed=9000.0,
+            boundary=(Boundary(rectangle=(0.0, 0.0, 9.0, 9.0), centre=Centre.INSIDE),),
+        ),
+        Passes(7, line=(0.0, 0.0, 100.0, 80.0), scallop=0.01, chord_tolerance=0.002),
+    ),
+    OriginXY.CENTRE,
+    OriginZ.BOTTOM,
+    12.0,
+    2.0,
+    "fanuc",
+    Units.INCH,
+    True,
+)
 
 
-@pytest.mark.parametrize("scene", [FULL, Scene(), Scene("", tools=(), stock=SceneStock(margin=2.5))], ids=["full", "plain", "no tool"])
+@pytest.mark.parametrize(
+    "scene", [FULL, Scene(), Scene("", tools=(), stock=SceneStock(margin=2.5))], ids=["full", "plain", "no tool"]
+)
 def test_what_is_written_is_read_again_and_written_alike(scene: Scene) -> None:
     written = write_scene(scene)
     assert read_scene("a.toml", written) == scene
@@ -73,8 +135,15 @@ places = st.tuples(lengths, lengths, lengths)
 spheres = st.builds(SphereShape, places, st.floats(1e-6, 1e5))
 meshes = st.builds(MeshShape, st.text(max_size=20).map(lambda text: text + ".stl"), st.floats(1e-6, 1e3))
 names = st.text(min_size=1, max_size=20).filter(lambda text: text.strip() and max(text) < "\ud800")
-surfaces = st.builds(Surface, names, st.one_of(st.sampled_from(SHAPES), spheres, meshes), move=places, rotate_deg=places,
-                     line=st.sampled_from(LineType), visible=st.booleans())  # fmt: skip
+surfaces = st.builds(
+    Surface,
+    names,
+    st.one_of(st.sampled_from(SHAPES), spheres, meshes),
+    move=places,
+    rotate_deg=places,
+    line=st.sampled_from(LineType),
+    visible=st.booleans(),
+)
 
 
 @settings(deadline=None, max_examples=examples(60))
@@ -113,7 +182,9 @@ angle_deg = 45
     scene = read_scene("a.toml", text)
     assert scene.surfaces[0].shape == TorusShape((25.4, 0.0, 0.0), 50.8, 25.4, (1.0, 0.0, 0.0))
     assert scene.surfaces[0].rotate_deg == (0.0, 0.0, 30.0)
-    assert (scene.safe_z, scene.retract_z, scene.tools[0].diameter, scene.tools[0].feed_rate) == pytest.approx((25.4, 1.0, 6.35, 508))
+    assert (scene.safe_z, scene.retract_z, scene.tools[0].diameter, scene.tools[0].feed_rate) == pytest.approx(
+        (25.4, 1.0, 6.35, 508)
+    )
     assert scene.tools[0].spindle_speed == 9000
     passes = scene.passes[0]
     assert (passes.pitch, passes.angle_deg, passes.chord_tolerance) == (pytest.approx(2.54), 45.0, 0.01)
@@ -159,19 +230,43 @@ MISTAKES = (
     ("diameter = 6.0", "diameter = -6.0", r"4: T1: diameter is -6 mm"),
     ('name = "two"', 'name = "one"', r"19: name one is taken by another surface; give each its own$"),
     ('colour = "#009E73"', 'colour = "green"', r"9: The colour of one is 'green'; write it as \"#009E73\"\.$"),
-    ('kind = "sphere"', 'kind = "ball"', r"14: surface\[1\]\.shape\.kind is 'ball'; expected is \"plane\" or \"sphere\" or .*\.$"),
+    (
+        'kind = "sphere"',
+        'kind = "ball"',
+        r"14: surface\[1\]\.shape\.kind is 'ball'; expected is \"plane\" or \"sphere\" or .*\.$",
+    ),
     ('kind = "sphere"', "", r"13: surface\[1\]\.shape\.kind is missing; add kind = \"plane\" or .*\.$"),
     ("radius = 5", "", r"13: surface\[1\]\.shape\.radius is missing; add a number\.$"),
     ("radius = 5", "radius = 'big'", r"16: surface\[1\]\.shape\.radius is 'big'; expected is a number\.$"),
     ("radius = 5", "radius = -5", r"13: A sphere's radius is -5 mm; it must be greater than 0\.$"),
-    ("radius = 5", "radius = 5\nminor = 2", r"17: surface\[1\]\.shape\.minor is not known; expected are kind, centre, radius\.$"),
-    ("centre = [0, 0, 0]", "centre = [0, 0]", r"15: surface\[1\]\.shape\.centre is \[0, 0\]; expected is a list of 3 numbers\.$"),
+    (
+        "radius = 5",
+        "radius = 5\nminor = 2",
+        r"17: surface\[1\]\.shape\.minor is not known; expected are kind, centre, radius\.$",
+    ),
+    (
+        "centre = [0, 0, 0]",
+        "centre = [0, 0]",
+        r"15: surface\[1\]\.shape\.centre is \[0, 0\]; expected is a list of 3 numbers\.$",
+    ),
     ("[[0, 0], [1, 0]]", "[[0, 0]]", r"23: An open section curve has 1 points; it needs 2 or more\.$"),
-    ("y_axis = [0, 0, 1]", "y_axis = [1, 0, 1]", r"23: The axes 1, 0, 0 and 1, 0, 1 are not at right angles; correct one of them\.$"),
+    (
+        "y_axis = [0, 0, 1]",
+        "y_axis = [1, 0, 1]",
+        r"23: The axes 1, 0, 0 and 1, 0, 1 are not at right angles; correct one of them\.$",
+    ),
     ("tool = 1\n", "tool = 2\n", r"29: The scene has no tool T2; add it to the tools or choose another\.$"),
-    ("pitch = 1.0", "pitch = 1.0\nscallop = 1.0", r"28: Passes need either a pitch or a scallop height, and not both; .*\.$"),
-    ("pitch = 1.0", "pitch = 1.0\nstrategy = 'spiral'", r"31: passes\[1\]\.strategy is 'spiral'; expected is 'zigzag' or 'one-way'\.$"),
-)  # fmt: skip
+    (
+        "pitch = 1.0",
+        "pitch = 1.0\nscallop = 1.0",
+        r"28: Passes need either a pitch or a scallop height, and not both; .*\.$",
+    ),
+    (
+        "pitch = 1.0",
+        "pitch = 1.0\nstrategy = 'spiral'",
+        r"31: passes\[1\]\.strategy is 'spiral'; expected is 'zigzag' or 'one-way'\.$",
+    ),
+)
 
 
 @pytest.mark.parametrize(("good", "bad", "message"), MISTAKES, ids=[str(n) for n in range(len(MISTAKES))])

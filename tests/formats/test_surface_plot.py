@@ -1,4 +1,6 @@
-"""Paths told apart by surface: the same strokes in the same order in every format, dashes and pens that survive, labels that find room."""
+"""Paths told apart by surface: the same strokes in the same order in every format, dashes and pens that survive, labels
+that find room.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,7 @@ PLOT = BySurface("part", SURFACES, (Kind("T1"), Kind("T2")), PIECES, MARKS, ("CR
 
 
 def a_page(plot: BySurface) -> Page:
-    page, = lay_out(plot, PlotOptions()).pages
+    (page,) = lay_out(plot, PlotOptions()).pages
     return page
 
 
@@ -47,13 +49,19 @@ def on_paper(plot: BySurface, page: Page) -> list[np.ndarray]:
 def test_a_plotter_draws_each_part_in_one_stroke_with_its_pen_in_the_order_of_generation(look: Look) -> None:
     plot = replace(PLOT, look=look)
     page = a_page(plot)
-    sheet, = Plotter(hpgl_bytes((page,))).sheets
+    (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     strokes = sheet.strokes[: len(PIECES)]
-    pens = {Look.COLOURS: [2 + p.surface for p in PIECES], Look.TOOLS: [2 + p.tool for p in PIECES], Look.LINES: [1 for _ in PIECES]}
+    pens = {
+        Look.COLOURS: [2 + p.surface for p in PIECES],
+        Look.TOOLS: [2 + p.tool for p in PIECES],
+        Look.LINES: [1 for _ in PIECES],
+    }
     assert [stroke.pen for stroke in strokes] == pens[look]
     lines = [(0, 1, 4)[(0, 1, 2)[p.surface]] if look is Look.LINES else 0 for p in PIECES]
     assert [stroke.line for stroke in strokes] == lines
-    assert {stroke.line: stroke.dashed for stroke in strokes if stroke.line} == ({1: 1.0, 4: 7.95} if look is Look.LINES else {})
+    assert {stroke.line: stroke.dashed for stroke in strokes if stroke.line} == (
+        {1: 1.0, 4: 7.95} if look is Look.LINES else {}
+    )
     for stroke, points in zip(strokes, on_paper(plot, page), strict=True):
         assert np.abs(np.array(stroke.points) - points).max() <= 0.5 / 40 + 1e-9
     assert len(sheet.circles) == len(MARKS) + 1
@@ -63,7 +71,7 @@ def test_a_plotter_draws_each_part_in_one_stroke_with_its_pen_in_the_order_of_ge
 
 def test_a_part_as_small_as_a_plotter_unit_is_a_dot() -> None:
     plot = replace(PLOT, pieces=(*PIECES, Piece(0, 0, np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 3.000001]]))))
-    sheet, = Plotter(hpgl_bytes((a_page(plot),))).sheets
+    (sheet,) = Plotter(hpgl_bytes((a_page(plot),))).sheets
     dot = sheet.strokes[len(PIECES)]
     assert (dot.pen, dot.length, len(dot.points)) == (2, 0.0, 2)
 
@@ -175,7 +183,7 @@ def test_a_hundred_thousand_points_are_all_there_and_joined() -> None:
     plot = BySurface("many", PLOT.surfaces, PLOT.tools, pieces, np.zeros((0, 3)))
     page = a_page(plot)
     assert page_svg(page, "many").count(b"L") >= 100_000
-    sheet, = Plotter(hpgl_bytes((page,))).sheets
+    (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     assert [stroke.pen for stroke in sheet.strokes[:100]] == [2 + k % 3 for k in range(100)]
     for stroke, points in zip(sheet.strokes, on_paper(plot, page), strict=False):
         assert np.abs(np.array(stroke.points) - points).max() <= 0.5 / 40 + 1e-9

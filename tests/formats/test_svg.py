@@ -14,9 +14,11 @@ from app.model.part import Layer, Units
 from app.model.read_options import ReadOptions
 
 PIXEL = 25.4 / 96
-NAMESPACES = ('xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
-              'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
-              'xmlns:sodipodi="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"')
+NAMESPACES = (
+    'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+    'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
+    'xmlns:sodipodi="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"'
+)
 PAGE = 'width="100mm" height="100mm" viewBox="0 0 100 100"'
 
 
@@ -46,22 +48,41 @@ def test_the_lower_edge_of_the_page_is_zero_and_y_points_up() -> None:
     assert one('<line x1="10" y1="90" x2="30" y2="80" stroke="red"/>') == Line((10, 10), (30, 20))
 
 
-@pytest.mark.parametrize(("width", "mm", "shown"), [
-    ("254mm", 254, Units.MM), ("25.4cm", 254, Units.CM), ("10in", 254, Units.INCH), ("720pt", 254, Units.MM),
-    ("60pc", 254, Units.MM), ("1016Q", 254, Units.MM),
-])
+@pytest.mark.parametrize(
+    ("width", "mm", "shown"),
+    [
+        ("254mm", 254, Units.MM),
+        ("25.4cm", 254, Units.CM),
+        ("10in", 254, Units.INCH),
+        ("720pt", 254, Units.MM),
+        ("60pc", 254, Units.MM),
+        ("1016Q", 254, Units.MM),
+    ],
+)
 def test_a_page_with_units_has_its_real_size(width: str, mm: float, shown: Units) -> None:
-    drawing = read('<line x2="500" y1="1000" y2="1000" stroke="red"/>', f'width="{width}" height="{width}" viewBox="0 0 1000 1000"')
+    drawing = read(
+        '<line x2="500" y1="1000" y2="1000" stroke="red"/>', f'width="{width}" height="{width}" viewBox="0 0 1000 1000"'
+    )
     assert drawing.units_named and drawing.part.units is shown and not drawing.findings
     assert drawing.part.entities[0].curve.end == pytest.approx((mm / 2, 0))
 
 
-@pytest.mark.parametrize("page", ['width="96" height="96"', 'width="96px" height="96px" viewBox="0 0 48 48"', 'viewBox="0 0 96 96"',
-                                  'width="100%" height="100%" viewBox="0 0 96 96"', 'width="96" viewBox="0 0 48 48"'])
+@pytest.mark.parametrize(
+    "page",
+    [
+        'width="96" height="96"',
+        'width="96px" height="96px" viewBox="0 0 48 48"',
+        'viewBox="0 0 96 96"',
+        'width="100%" height="100%" viewBox="0 0 96 96"',
+        'width="96" viewBox="0 0 48 48"',
+    ],
+)
 def test_pixels_are_96_to_the_inch_and_that_is_said(page: str) -> None:
     drawing = read('<line x2="48" y1="48" y2="48" stroke="red"/>', page)
     scale = 2 if "48 48" in page else 1
-    assert not drawing.units_named and drawing.part.entities[0].curve.end == pytest.approx((12.7 * scale, 12.7 if scale == 1 else 0))
+    assert not drawing.units_named and drawing.part.entities[0].curve.end == pytest.approx(
+        (12.7 * scale, 12.7 if scale == 1 else 0)
+    )
     assert [f.kind for f in drawing.findings] == [FindingKind.UNITS_ASSUMED] and not drawing.findings[0].counts
 
 
@@ -80,16 +101,27 @@ def test_a_viewbox_is_moved_scaled_and_centred() -> None:
     body = '<line x1="10" y1="20" x2="20" y2="30" stroke="red"/>'
     assert one(body, 'width="10mm" height="10mm" viewBox="10 20 10 10"') == Line((0, 10), (10, 0))
     assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10"') == Line((15, 10), (25, 0))
-    assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10" preserveAspectRatio="xMaxYMid meet"') == Line((30, 10), (40, 0))
-    assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10" preserveAspectRatio="xMinYMin slice"') == Line((0, 10), (40, -30))
-    assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10" preserveAspectRatio="none"') == Line((0, 10), (40, 0))
+    assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10" preserveAspectRatio="xMaxYMid meet"') == Line(
+        (30, 10), (40, 0)
+    )
+    assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10" preserveAspectRatio="xMinYMin slice"') == Line(
+        (0, 10), (40, -30)
+    )
+    assert one(body, 'width="40mm" height="10mm" viewBox="10 20 10 10" preserveAspectRatio="none"') == Line(
+        (0, 10), (40, 0)
+    )
 
 
 def test_lines_of_every_command() -> None:
     a, b, c, d = (10.0, 10.0), (20.0, 10.0), (20.0, 15.0), (10.0, 15.0)
     ring = [Line(a, b), Line(b, c), Line(c, d), Line(d, a)]
-    for text in ("M10 10H20V15H10Z", "m10 10h10v5h-10z", "M10,10 20,10 20,15 10,15 10,10", "m10 10 10 0 0 5-10 0z",
-                 "M1e1+10L.2e2 10 20 15L10 15z"):
+    for text in (
+        "M10 10H20V15H10Z",
+        "m10 10h10v5h-10z",
+        "M10,10 20,10 20,15 10,15 10,10",
+        "m10 10 10 0 0 5-10 0z",
+        "M1e1+10L.2e2 10 20 15L10 15z",
+    ):
         assert path(text) == ring, text
 
 
@@ -108,10 +140,15 @@ def test_a_new_run_begins_where_the_last_was_closed() -> None:
 
 def test_beziers_are_exact_and_one_spline_a_run() -> None:
     (cubic,) = path("M0 0C0 10 10 10 10 0S20-10 20 0s10 10 10 0")
-    assert cubic == Spline(3, ((0, 0), (0, 10), (10, 10), (10, 0), (10, -10), (20, -10), (20, 0), (20, 10), (30, 10), (30, 0)),
-                           (0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3))
+    assert cubic == Spline(
+        3,
+        ((0, 0), (0, 10), (10, 10), (10, 0), (10, -10), (20, -10), (20, 0), (20, 10), (30, 10), (30, 0)),
+        (0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3),
+    )
     (quadratic,) = path("M0 0Q5 10 10 0T20 0t10 0")
-    assert quadratic == Spline(2, ((0, 0), (5, 10), (10, 0), (15, -10), (20, 0), (25, 10), (30, 0)), (0, 0, 0, 1, 1, 2, 2, 3, 3, 3))
+    assert quadratic == Spline(
+        2, ((0, 0), (5, 10), (10, 0), (15, -10), (20, 0), (25, 10), (30, 0)), (0, 0, 0, 1, 1, 2, 2, 3, 3, 3)
+    )
     assert [type(c) for c in path("M0 0Q5 10 10 0L20 0C0 0 1 1 5 5")] == [Spline, Line, Spline]
 
 
@@ -124,7 +161,9 @@ def test_a_smooth_command_after_another_kind_has_no_handle() -> None:
 
 @pytest.mark.parametrize(("flags", "height"), [("0 1", 4), ("1 0", 4), ("0 0", -4), ("1 1", -4)])
 def test_arcs_by_their_flags(flags: str, height: float) -> None:
-    """Ends 6 apart on a radius of 5: the centre lies 4 off the chord. The first flag asks for the larger part; y is downwards."""
+    """Ends 6 apart on a radius of 5: the centre lies 4 off the chord. The first flag asks for the larger part; y is
+    downwards.
+    """
     (arc,) = path(f"M 0 0 A 5 5 0 {flags} 6 0")
     assert isinstance(arc, Arc) and (arc.start, arc.end) == ((0, 0), (6, 0)) and arc.centre == near((3, height))
     assert arc.ccw is (flags[-1] == "1") and (abs(arc.sweep) > math.pi) is (flags[0] == "1")
@@ -146,7 +185,12 @@ def test_an_arc_without_radius_is_a_line_and_one_without_length_is_nothing() -> 
 def test_a_circle_of_arcs_is_a_circle() -> None:
     for d in ("M10 5A5 5 0 0 1 0 5A5 5 0 0 1 10 5Z", "M10 5a5 5 0 0 1-5 5a5 5 0 0 1-5-5a5 5 0 0 1 5-5a5 5 0 0 1 5 5z"):
         (circle,) = path(d)
-        assert isinstance(circle, Circle) and circle.ccw and circle.centre == near((5, 5)) and circle.radius == pytest.approx(5)
+        assert (
+            isinstance(circle, Circle)
+            and circle.ccw
+            and circle.centre == near((5, 5))
+            and circle.radius == pytest.approx(5)
+        )
     (ellipse,) = path("M10 5A5 3 0 0 0 0 5A5 3 0 0 0 10 5Z")
     assert isinstance(ellipse, Ellipse) and ellipse.end_parameter - ellipse.start_parameter == pytest.approx(math.tau)
 
@@ -157,9 +201,16 @@ def test_basic_shapes() -> None:
     assert isinstance(ellipse, Ellipse) and ellipse.centre == (50, 60) and ellipse.ratio == pytest.approx(0.5)
     assert abs(ellipse.major[1]) == pytest.approx(14)
     assert one('<ellipse cx="50" cy="40" rx="7"/>') == Circle((50, 60), 7)
-    assert len(curves('<polygon points="0,0 10,0 10,10"/>')) == 3 and len(curves('<polyline points="0,0 10,0 10,10" stroke="red"/>')) == 2
+    assert (
+        len(curves('<polygon points="0,0 10,0 10,10"/>')) == 3
+        and len(curves('<polyline points="0,0 10,0 10,10" stroke="red"/>')) == 2
+    )
     assert curves('<rect x="10" y="20" width="30" height="40"/>') == [
-        Line((10, 80), (40, 80)), Line((40, 80), (40, 40)), Line((40, 40), (10, 40)), Line((10, 40), (10, 80))]
+        Line((10, 80), (40, 80)),
+        Line((40, 80), (40, 40)),
+        Line((40, 40), (10, 40)),
+        Line((10, 40), (10, 80)),
+    ]
 
 
 def test_rounded_rectangles() -> None:
@@ -187,9 +238,19 @@ def test_lengths_with_units_are_in_pixels_of_the_page() -> None:
 
 
 TRANSFORMS = {
-    "translate(10)": (11, 2), "translate(10 20)": (11, 22), "scale(2)": (2, 4), "scale(2,-3)": (2, -6), "rotate(90)": (-2, 1),
-    "rotate(90,1,0)": (-1, 0), "skewX(45)": (3, 2), "skewY(45)": (1, 3), "matrix(1,2,3,4,5,6)": (1 + 6 + 5, 2 + 8 + 6),
-    "translate(10) , scale(2)": (12, 4), " scale(2)translate(10)": (22, 4), "none": (1, 2), "": (1, 2),
+    "translate(10)": (11, 2),
+    "translate(10 20)": (11, 22),
+    "scale(2)": (2, 4),
+    "scale(2,-3)": (2, -6),
+    "rotate(90)": (-2, 1),
+    "rotate(90,1,0)": (-1, 0),
+    "skewX(45)": (3, 2),
+    "skewY(45)": (1, 3),
+    "matrix(1,2,3,4,5,6)": (1 + 6 + 5, 2 + 8 + 6),
+    "translate(10) , scale(2)": (12, 4),
+    " scale(2)translate(10)": (22, 4),
+    "none": (1, 2),
+    "": (1, 2),
 }
 
 
@@ -200,8 +261,9 @@ def test_transforms(text: str) -> None:
     assert line.end == near((x, 100 - y))
 
 
-@pytest.mark.parametrize("style", ["transform: translate(10px, 20px) rotate(90deg)",
-                                   "transform:matrix(0,1,-1,0,10,20);transform-origin:0 0"])
+@pytest.mark.parametrize(
+    "style", ["transform: translate(10px, 20px) rotate(90deg)", "transform:matrix(0,1,-1,0,10,20);transform-origin:0 0"]
+)
 def test_transforms_in_a_style(style: str) -> None:
     assert one(f'<line x2="1" stroke="red" transform="scale(9)" style="{style}"/>') == Line((10, 80), (10, 79))
     assert one(f'<g style="{style}"><line x2="1" stroke="red"/></g>') == Line((10, 80), (10, 79))
@@ -235,14 +297,25 @@ def test_use_copies_with_its_place_and_its_style() -> None:
 
 
 def test_use_of_a_symbol_fits_its_viewbox() -> None:
-    body = ('<symbol id="s" viewBox="0 0 10 10"><line x2="10" y2="10" stroke="red"/></symbol>'
-            '<use href="#s" x="5" y="5" width="20" height="20"/>')
+    body = (
+        '<symbol id="s" viewBox="0 0 10 10"><line x2="10" y2="10" stroke="red"/></symbol>'
+        '<use href="#s" x="5" y="5" width="20" height="20"/>'
+    )
     assert one(body) == Line((5, 95), (25, 75))
 
 
 def test_use_of_groups_in_groups() -> None:
-    body = '<g id="a"><circle r="1"/></g><g id="b"><use href="#a" x="10"/><use href="#a" x="20"/></g><use href="#b" y="50"/>'
-    assert [c.centre for c in curves(body) if isinstance(c, Circle)] == [(0, 100), (10, 100), (20, 100), (10, 50), (20, 50)]
+    body = (
+        '<g id="a"><circle r="1"/></g><g id="b"><use href="#a" x="10"/><use href="#a" x="20"/></g><use href="#b" '
+        'y="50"/>'
+    )
+    assert [c.centre for c in curves(body) if isinstance(c, Circle)] == [
+        (0, 100),
+        (10, 100),
+        (20, 100),
+        (10, 50),
+        (20, 50),
+    ]
 
 
 def test_nested_viewports() -> None:
@@ -259,33 +332,56 @@ def test_what_is_not_drawn_is_not_read() -> None:
 
 
 def test_what_is_left_out_is_counted() -> None:
-    body = ('<text>a</text><text>b<tspan>c</tspan></text><image/><g display="none"><rect width="1" height="1"/><circle r="1"/></g>'
-            '<g visibility="hidden"><circle r="1"/><circle r="3" visibility="visible"/></g><circle r="1" fill="none"/>'
-            '<use href="#nowhere"/><use href="other.svg#a"/><circle r="x"/><path d="M0 0L1e9 0"/>')
+    body = (
+        '<text>a</text><text>b<tspan>c</tspan></text><image/><g display="none"><rect width="1" height="1"/><circle '
+        'r="1"/></g>'
+        '<g visibility="hidden"><circle r="1"/><circle r="3" visibility="visible"/></g><circle r="1" fill="none"/>'
+        '<use href="#nowhere"/><use href="other.svg#a"/><circle r="x"/><path d="M0 0L1e9 0"/>'
+    )
     drawing = read(body)
     assert [e.curve for e in drawing.part.entities] == [Circle((0, 100), 3)]
     assert dict(drawing.left_out) == {
-        "text": 2, "image": 1, "rect (invisible)": 1, "circle (invisible)": 2, "circle (without stroke and fill)": 1,
-        "use of what is not in the file": 2, "circle (damaged)": 1, "curve beyond 1 km or without a place": 1}
+        "text": 2,
+        "image": 1,
+        "rect (invisible)": 1,
+        "circle (invisible)": 2,
+        "circle (without stroke and fill)": 1,
+        "use of what is not in the file": 2,
+        "circle (damaged)": 1,
+        "curve beyond 1 km or without a place": 1,
+    }
     assert "2 text" in drawing.findings[-1].text and not drawing.findings[-1].counts
 
 
 def test_style_sheets_decide_what_is_seen() -> None:
-    style = ("<style>/* c */ *{stroke:none} .cut, line.b { fill:none; stroke:#00F !important } #no{display:none} "
-             "@media print{.cut{fill:red}}</style>")
-    drawing = read(style + '<g fill="none"><circle class="a cut" r="1"/><circle r="2"/><line class="b" x2="1"/>'
-                   '<circle id="no" r="4" class="cut"/><circle r="5" style="stroke: rgb(0,0,255)"/></g>')
+    style = (
+        "<style>/* c */ *{stroke:none} .cut, line.b { fill:none; stroke:#00F !important } #no{display:none} "
+        "@media print{.cut{fill:red}}</style>"
+    )
+    drawing = read(
+        style + '<g fill="none"><circle class="a cut" r="1"/><circle r="2"/><line class="b" x2="1"/>'
+        '<circle id="no" r="4" class="cut"/><circle r="5" style="stroke: rgb(0,0,255)"/></g>'
+    )
     assert len(drawing.part.entities) == 3 and drawing.part.layers == (Layer("0", "#0000ff"),)
 
 
 def test_what_has_no_length_is_told() -> None:
-    drawing = read('<circle r="2"/><circle cx="7" cy="8" r="0"/><path d="M1 1"/><rect width="0" height="5"/><path d=""/>')
+    drawing = read(
+        '<circle r="2"/><circle cx="7" cy="8" r="0"/><path d="M1 1"/><rect width="0" height="5"/><path d=""/>'
+    )
     (finding,) = drawing.findings
     assert finding.kind is FindingKind.TINY_ENTITY and finding.amount == 4 and (finding.x, finding.y) == (7, 92)
 
 
 def test_a_path_is_drawn_up_to_its_fault() -> None:
-    for d in ("M0 0L10 0L20", "M0 0L10 0 foo 5 5", "M0 0L10 0zz5 5", "M0 0L10 0A5 5 0 2 1 3 3", "M0 0L10 0L20 0,", "M0 0L10 0;"):
+    for d in (
+        "M0 0L10 0L20",
+        "M0 0L10 0 foo 5 5",
+        "M0 0L10 0zz5 5",
+        "M0 0L10 0A5 5 0 2 1 3 3",
+        "M0 0L10 0L20 0,",
+        "M0 0L10 0;",
+    ):
         drawing = read(f'<circle r="1"/>\n<path d="{d}"/>')
         assert drawing.part.entities[1].curve == Line((0, 100), (10, 100)), d
         faults = [f for f in drawing.findings if f.counts]
@@ -296,7 +392,10 @@ def test_a_path_is_drawn_up_to_its_fault() -> None:
 
 def test_what_is_only_filled_is_a_closed_outline() -> None:
     """A fill closes what it paints; an outline stays as open as it is drawn."""
-    assert len(curves('<polyline points="0,0 10,0 10,10"/>')) == 3 and len(curves('<path d="M0 0C0 9 9 9 9 0M20 0h5v5z"/>')) == 5
+    assert (
+        len(curves('<polyline points="0,0 10,0 10,10"/>')) == 3
+        and len(curves('<path d="M0 0C0 9 9 9 9 0M20 0h5v5z"/>')) == 5
+    )
     assert curves('<path d="M0 0h5"/>') == [Line((0, 100), (5, 100))]
 
 
@@ -312,12 +411,19 @@ def test_a_clip_is_told() -> None:
 
 
 def test_inkscapes_layers() -> None:
-    body = ('<g inkscape:groupmode="layer" inkscape:label="Outline" id="g1" stroke="#ff0000"><circle r="1"/>'
-            '<g inkscape:groupmode="layer" inkscape:label="Holes" style="display:none" sodipodi:insensitive="true">'
-            '<circle r="2" stroke="blue"/></g></g>'
-            '<g id="plain"><circle r="3"/></g><g inkscape:groupmode="layer" id="L"/>')
+    body = (
+        '<g inkscape:groupmode="layer" inkscape:label="Outline" id="g1" stroke="#ff0000"><circle r="1"/>'
+        '<g inkscape:groupmode="layer" inkscape:label="Holes" style="display:none" sodipodi:insensitive="true">'
+        '<circle r="2" stroke="blue"/></g></g>'
+        '<g id="plain"><circle r="3"/></g><g inkscape:groupmode="layer" id="L"/>'
+    )
     drawing = read(body)
-    assert drawing.part.layers == (Layer("Outline", "#ff0000"), Layer("Holes", "#0000ff", False, True), Layer("0"), Layer("L"))
+    assert drawing.part.layers == (
+        Layer("Outline", "#ff0000"),
+        Layer("Holes", "#0000ff", False, True),
+        Layer("0"),
+        Layer("L"),
+    )
     assert [e.layer for e in drawing.part.entities] == ["Outline", "Holes", "0"]
     assert "Layer Holes is switched off" in drawing.findings[-1].text
     assert [e.curve for e in read(body, layers=("holes",)).part.entities] == [Circle((0, 100), 2)]
@@ -355,22 +461,36 @@ def test_a_file_without_namespaces_is_read() -> None:
     assert len(read_svg(b'<svg width="1mm" height="1mm"><circle r="1"/></svg>').part.entities) == 1
 
 
-@pytest.mark.parametrize(("before", "root", "per_inch", "who"), [
-    ("", 'inkscape:version="0.48.4 r9939"', 90, "Inkscape 0.48"),
-    ("", 'inkscape:version="0.91 r13725"', 90, "Inkscape 0.91"),
-    ("", 'sodipodi:version="0.32"', 90, "Sodipodi"),
-    ("<!-- Generator: Adobe Illustrator 24.0.1, SVG Export Plug-In . SVG Version: 6.00 Build 0)  -->", "", 72, "Adobe Illustrator"),
-    ("", 'inkscape:version="0.92.3 (2405546, 2018-03-11)"', 96, ""),
-    ("", 'inkscape:version="1.0.2" sodipodi:version="0.32"', 96, ""),
-    ("<!-- Adobe is a name -->", "", 96, ""),
-])  # fmt: skip
-def test_a_file_without_units_is_as_the_editor_had_it_that_wrote_it(before: str, root: str, per_inch: float, who: str) -> None:
+@pytest.mark.parametrize(
+    ("before", "root", "per_inch", "who"),
+    [
+        ("", 'inkscape:version="0.48.4 r9939"', 90, "Inkscape 0.48"),
+        ("", 'inkscape:version="0.91 r13725"', 90, "Inkscape 0.91"),
+        ("", 'sodipodi:version="0.32"', 90, "Sodipodi"),
+        (
+            "<!-- Generator: Adobe Illustrator 24.0.1, SVG Export Plug-In . SVG Version: 6.00 Build 0)  -->",
+            "",
+            72,
+            "Adobe Illustrator",
+        ),
+        ("", 'inkscape:version="0.92.3 (2405546, 2018-03-11)"', 96, ""),
+        ("", 'inkscape:version="1.0.2" sodipodi:version="0.32"', 96, ""),
+        ("<!-- Adobe is a name -->", "", 96, ""),
+    ],
+)
+def test_a_file_without_units_is_as_the_editor_had_it_that_wrote_it(
+    before: str, root: str, per_inch: float, who: str
+) -> None:
     text = f'{before}<svg {NAMESPACES} {root} width="360" height="360"><line x2="360"/></svg>'
     drawing = read_svg(text.encode(), "x.svg")
     assert drawing.part.entities[0].curve.end[0] == pytest.approx(360 * 25.4 / per_inch)
     (found,) = drawing.findings
     assert f"{per_inch} units to the inch" in found.text and not found.counts
-    assert (f"written by {who}, so" in found.text and "--px-per-inch 96" in found.text) if who else "written by" not in found.text
+    assert (
+        (f"written by {who}, so" in found.text and "--px-per-inch 96" in found.text)
+        if who
+        else "written by" not in found.text
+    )
     asked = read_svg(text.encode(), "x.svg", None, (), ReadOptions(pixels_per_inch=100.0))
     assert asked.part.entities[0].curve.end[0] == pytest.approx(91.44) and not asked.findings
 
@@ -378,22 +498,33 @@ def test_a_file_without_units_is_as_the_editor_had_it_that_wrote_it(before: str,
 def test_pixels_to_the_inch_change_nothing_of_a_real_size_and_exclude_units() -> None:
     text = f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 100 100"><line x2="100"/></svg>'.encode()
     drawing = read_svg(text, "x.svg", None, (), ReadOptions(pixels_per_inch=72.0))
-    assert drawing.part.entities[0].curve.end[0] == pytest.approx(50) and "tells its real size" in drawing.findings[0].text
+    assert (
+        drawing.part.entities[0].curve.end[0] == pytest.approx(50) and "tells its real size" in drawing.findings[0].text
+    )
     with pytest.raises(InputError, match="in two ways"):
         read_svg(text, "x.svg", Units.MM, (), ReadOptions(pixels_per_inch=72.0))
 
 
-@pytest.mark.parametrize(("flags", "kind", "flag", "place"), [("2 1", "large-arc", "2", 13), ("0 -1", "sweep", "-1", 15),
-                                                              ("0 1.5", "", "", 0)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("flags", "kind", "flag", "place"),
+    [("2 1", "large-arc", "2", 13), ("0 -1", "sweep", "-1", 15), ("0 1.5", "", "", 0)],
+)
 def test_arc_flags_other_than_0_and_1_are_named_with_their_place(flags: str, kind: str, flag: str, place: int) -> None:
     text = f'<svg {NAMESPACES} width="50mm" height="50mm">\n<path d="M0,0 A5 5 0 {flags} 9 9"/><circle r="3"/></svg>'
     (found,) = [each for each in read_svg(text.encode(), "x.svg").findings if "read to the end" in each.text]
     assert found.counts and "line 2" in found.text
-    assert f"the {kind} flag {flag} at character {place} of its data is neither 0 nor 1" in found.text if kind else "flag" not in found.text
+    assert (
+        f"the {kind} flag {flag} at character {place} of its data is neither 0 nor 1" in found.text
+        if kind
+        else "flag" not in found.text
+    )
 
 
 def test_an_svg_is_moved_to_zero() -> None:
-    text = f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 50 50"><rect x="3e6" y="7e6" width="4" height="2"/></svg>'
+    text = (
+        f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 50 50"><rect x="3e6" y="7e6" width="4" '
+        'height="2"/></svg>'
+    )
     with pytest.raises(InputError, match=r"beyond 1 km; move the drawing to zero .* --to-zero"):
         read_svg(text.encode(), "x.svg")
     part = read_svg(text.encode(), "x.svg", None, (), ReadOptions(to_zero=True)).part

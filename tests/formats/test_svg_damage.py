@@ -15,28 +15,34 @@ from app.geometry.chaining.chain import chain
 NS = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="100mm" height="100mm"'
 
 
-@pytest.mark.parametrize(("data", "what"), [
-    (b"", "the file is empty"),
-    (b" \n ", "the file is empty"),
-    (b"\x1f\x8b\x08\x00", "compressed SVG"),
-    (bytes(range(1, 60)) * 40, "not an SVG file"),
-    (b"<html><body/></html>", "x.svg:1: this is not an SVG file, it begins with html"),
-    (b"<svg>\n<g>", "x.svg:2: the XML is damaged, column 4"),
-    (b"<svg>\n<a:b/></svg>", "x.svg:2: the XML is damaged"),
-    (b'<?xml version="1.0" encoding="nonsense"?><svg/>', "x.svg"),
-    (b"<svg></svg>", "no lines, arcs or curves to machine"),
-    (b"<svg><text>a</text></svg>", "to machine; left out: 1 text"),
-    (b'<svg viewBox="0 0 0 5"/>', "'0 0 0 5', cannot be read"),
-    (b'<svg viewBox="a"/>', "'a', cannot be read"),
-    (b'<svg width="-5mm"/>', "'-5mm', cannot be read"),
-    (b'<svg width="5em"/>', "'5em', cannot be read"),
-    (b'<svg>\n\n<g transform="spin(3)"/></svg>', "x.svg:3: the transform 'spin(3)' cannot be read"),
-    (b'<svg>\n<circle r="1" style="transform-origin: 50% 50%; transform: rotate(3deg)"/></svg>', "x.svg:2: a transform about '50% 50%'"),
-    (b'<svg>\n<svg viewBox="1 2"><circle r="1"/></svg></svg>', "x.svg:2: the viewBox '1 2'"),
-    (b'<svg>\n<use id="a" href="#a"/></svg>', "x.svg:2: #a is used in itself"),
-    (b'<svg><g id="a">\n<use href="#a" x="1"/><circle r="1"/></g></svg>', "x.svg:2: #a is used in itself"),
-    (b'<svg><circle id="a" r="1"/>\n<use href="#a" x="far"/></svg>', "x.svg:2: the length 'far' cannot be read"),
-])
+@pytest.mark.parametrize(
+    ("data", "what"),
+    [
+        (b"", "the file is empty"),
+        (b" \n ", "the file is empty"),
+        (b"\x1f\x8b\x08\x00", "compressed SVG"),
+        (bytes(range(1, 60)) * 40, "not an SVG file"),
+        (b"<html><body/></html>", "x.svg:1: this is not an SVG file, it begins with html"),
+        (b"<svg>\n<g>", "x.svg:2: the XML is damaged, column 4"),
+        (b"<svg>\n<a:b/></svg>", "x.svg:2: the XML is damaged"),
+        (b'<?xml version="1.0" encoding="nonsense"?><svg/>', "x.svg"),
+        (b"<svg></svg>", "no lines, arcs or curves to machine"),
+        (b"<svg><text>a</text></svg>", "to machine; left out: 1 text"),
+        (b'<svg viewBox="0 0 0 5"/>', "'0 0 0 5', cannot be read"),
+        (b'<svg viewBox="a"/>', "'a', cannot be read"),
+        (b'<svg width="-5mm"/>', "'-5mm', cannot be read"),
+        (b'<svg width="5em"/>', "'5em', cannot be read"),
+        (b'<svg>\n\n<g transform="spin(3)"/></svg>', "x.svg:3: the transform 'spin(3)' cannot be read"),
+        (
+            b'<svg>\n<circle r="1" style="transform-origin: 50% 50%; transform: rotate(3deg)"/></svg>',
+            "x.svg:2: a transform about '50% 50%'",
+        ),
+        (b'<svg>\n<svg viewBox="1 2"><circle r="1"/></svg></svg>', "x.svg:2: the viewBox '1 2'"),
+        (b'<svg>\n<use id="a" href="#a"/></svg>', "x.svg:2: #a is used in itself"),
+        (b'<svg><g id="a">\n<use href="#a" x="1"/><circle r="1"/></g></svg>', "x.svg:2: #a is used in itself"),
+        (b'<svg><circle id="a" r="1"/>\n<use href="#a" x="far"/></svg>', "x.svg:2: the length 'far' cannot be read"),
+    ],
+)
 def test_refused_in_one_line(data: bytes, what: str) -> None:
     with pytest.raises(InputError) as caught:
         read_svg(data, "x.svg")
@@ -62,7 +68,10 @@ def chain_of_copies(step: int) -> str:
 
 BOMBS = {
     "entities": (bomb_of_entities(), "entity e1 holds others"),
-    "an entity from elsewhere": ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///x">]><svg><text>&a;</text></svg>', "comes from elsewhere"),
+    "an entity from elsewhere": (
+        '<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///x">]><svg><text>&a;</text></svg>',
+        "comes from elsewhere",
+    ),
     "a long entity": (f'<!DOCTYPE svg [<!ENTITY a "{"0" * 1000}">]><svg/>', "too long"),
     "many entities": ("<!DOCTYPE svg [" + "".join(f'<!ENTITY a{k} "">' for k in range(200)) + "]><svg/>", "too long"),
     "copies": (bomb_of_copies(), "unfolds to more than 500000 curves"),
@@ -82,12 +91,21 @@ def test_bombs_are_refused(name: str) -> None:
 
 
 def test_entities_of_old_drawing_programs_are_read() -> None:
-    text = ('<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "svg11.dtd" [<!ENTITY ns_svg "http://www.w3.org/2000/svg">]>'
-            '<svg xmlns="&ns_svg;" width="1mm" height="1mm"><circle r="1"/></svg>')
+    text = (
+        '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "svg11.dtd" [<!ENTITY ns_svg "http://www.w3.org/2000/svg">]>'
+        '<svg xmlns="&ns_svg;" width="1mm" height="1mm"><circle r="1"/></svg>'
+    )
     assert len(read_svg(text.encode()).part.entities) == 1
 
 
-NONSENSE = ("1" * 200_000 + "x", "1e" * 100_000, "-" * 200_000, ". " * 100_000, " " * 200_000 + "x", "1," * 100_000 + "x")
+NONSENSE = (
+    "1" * 200_000 + "x",
+    "1e" * 100_000,
+    "-" * 200_000,
+    ". " * 100_000,
+    " " * 200_000 + "x",
+    "1," * 100_000 + "x",
+)
 
 
 @pytest.mark.parametrize("text", NONSENSE, ids=range(len(NONSENSE)))
@@ -97,20 +115,34 @@ def test_long_nonsense_takes_no_longer_than_it_is(text: str) -> None:
     for reader in (length, numbers, transform):
         with suppress(UnreadableError):
             reader(text)
-    body = f'<style>{text}{{</style><style>/*{"/*" * 50_000}</style><path d="{text}"/><path d="M{text}" style="{text}" stroke="{text}"/>'
+    body = (
+        f'<style>{text}{{</style><style>/*{"/*" * 50_000}</style><path d="{text}"/><path d="M{text}" style="{text}" '
+        f'stroke="{text}"/>'
+    )
     read_svg(f'<svg {NS}>{body}<circle r="1"/></svg>'.encode())
     assert time.process_time() - started < 10
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "1e400", "-1e308", "1e-400", "1e15"])
-@pytest.mark.parametrize("body", [
-    '<circle r="{}"/>', '<rect width="{0}" height="{0}" rx="2"/>', '<path d="M0 0L{0} {0}"/>', '<path d="M0 0A{0} 5 {0} 0 1 5 5"/>',
-    '<path d="M0 0C{0} 5 {0} 0 5 5"/>', '<path d="M0 0A 3 5 0 0 1 {0} {0}z"/>', '<ellipse rx="{0}" ry="5"/>',
-    '<polygon points="0,0 {0},{0} 1,1"/>',
-    '<g transform="scale({0})"><circle r="3"/></g>', '<g transform="rotate({0})"><path d="M0 0A3 4 5 0 1 7 7"/></g>',
-    '<g transform="skewX({0})"><circle r="3"/></g>', '<svg viewBox="0 0 {0} {0}"><circle r="3"/></svg>', '<use href="#c" x="{0}"/>',
-    '<svg width="{0}" viewBox="0 0 1 1"><path d="M0 0A3 4 5 0 1 7 7"/></svg>',
-])
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<circle r="{}"/>',
+        '<rect width="{0}" height="{0}" rx="2"/>',
+        '<path d="M0 0L{0} {0}"/>',
+        '<path d="M0 0A{0} 5 {0} 0 1 5 5"/>',
+        '<path d="M0 0C{0} 5 {0} 0 5 5"/>',
+        '<path d="M0 0A 3 5 0 0 1 {0} {0}z"/>',
+        '<ellipse rx="{0}" ry="5"/>',
+        '<polygon points="0,0 {0},{0} 1,1"/>',
+        '<g transform="scale({0})"><circle r="3"/></g>',
+        '<g transform="rotate({0})"><path d="M0 0A3 4 5 0 1 7 7"/></g>',
+        '<g transform="skewX({0})"><circle r="3"/></g>',
+        '<svg viewBox="0 0 {0} {0}"><circle r="3"/></svg>',
+        '<use href="#c" x="{0}"/>',
+        '<svg width="{0}" viewBox="0 0 1 1"><path d="M0 0A3 4 5 0 1 7 7"/></svg>',
+    ],
+)
 def test_numbers_beyond_all_measure(number: str, body: str) -> None:
     try:
         drawing = read_svg(f'<svg {NS}><circle id="c" r="1"/>{body.format(number)}</svg>'.encode())
@@ -135,9 +167,28 @@ RICH = f"""<?xml version="1.0"?>
 
 
 def damaged(content: bytes, rng: random.Random) -> bytes:
-    """Bytes lost, doubled, swapped, overwritten; numbers and words replaced by others of the file, and by extreme ones."""
+    """Bytes lost, doubled, swapped, overwritten; numbers and words replaced by others of the file, and by extreme
+    ones.
+    """
     pieces = bytearray(content)
-    words = [b"0", b"-1", b"1e999", b"nan", b"%", b"1e-300", b"none", b"<g>", b"</g>", b'"', b"&amp;", b"\xff", b"\x00", b"#s", b"A", b"e"]
+    words = [
+        b"0",
+        b"-1",
+        b"1e999",
+        b"nan",
+        b"%",
+        b"1e-300",
+        b"none",
+        b"<g>",
+        b"</g>",
+        b'"',
+        b"&amp;",
+        b"\xff",
+        b"\x00",
+        b"#s",
+        b"A",
+        b"e",
+    ]
     for _ in range(rng.randint(1, 12)):
         k, size = rng.randrange(len(pieces)), rng.randint(1, 8)
         action = rng.randrange(5)
@@ -167,7 +218,10 @@ def inside_quotes(content: bytes, rng: random.Random) -> bytes:
 @pytest.mark.parametrize("seed", range(200))
 def test_random_damage_never_escapes(data: Path, seed: int) -> None:
     rng = random.Random(seed)
-    samples = [RICH.encode(), *((data / "svg" / f"{name}.svg").read_bytes() for name in ("arc_with_rotate", "gear", "e_line"))]
+    samples = [
+        RICH.encode(),
+        *((data / "svg" / f"{name}.svg").read_bytes() for name in ("arc_with_rotate", "gear", "e_line")),
+    ]
     content = samples[0] if seed % 2 else rng.choice(samples)
     content = (damaged if seed % 4 < 2 else inside_quotes)(content, rng)
     started = time.process_time()
@@ -183,6 +237,8 @@ def test_random_damage_never_escapes(data: Path, seed: int) -> None:
 
 
 def test_the_rich_sample_is_whole() -> None:
-    """What the damage starts from, counted by hand: 4 + 3 of the path, 8 of the symbol, 1, 3, 1, 1; the hidden one and the text not."""
+    """What the damage starts from, counted by hand: 4 + 3 of the path, 8 of the symbol, 1, 3, 1, 1; the hidden one and
+    the text not.
+    """
     drawing = read_svg(RICH.encode())
     assert len(drawing.part.entities) == 21 and dict(drawing.left_out) == {"polygon (invisible)": 1, "text": 1}

@@ -7,11 +7,22 @@ from app.formats.svg.path import read_path
 from app.geometry.affine import Affine, transformed
 
 
-@pytest.mark.parametrize(("data", "ends"), [
-    ("M0 0l1 23", [(1, 23)]), ("M0 0l123", []), ("M0 0L12.5.5", [(12.5, 0.5)]), ("M0 0l1-2-3 4", [(1, -2), (-2, 2)]),
-    ("M0 0h5v12", [(5, 0), (5, 12)]), ("M0 0h", []), ("M0 0L1e1,2e0 3", [(10, 2)]), ("M0 0q1 1 2 2 3", [(2, 2)]),
-])  # fmt: skip
-def test_numbers_without_blanks_are_parted_as_svg_says_and_never_otherwise(data: str, ends: list[tuple[float, float]]) -> None:
+@pytest.mark.parametrize(
+    ("data", "ends"),
+    [
+        ("M0 0l1 23", [(1, 23)]),
+        ("M0 0l123", []),
+        ("M0 0L12.5.5", [(12.5, 0.5)]),
+        ("M0 0l1-2-3 4", [(1, -2), (-2, 2)]),
+        ("M0 0h5v12", [(5, 0), (5, 12)]),
+        ("M0 0h", []),
+        ("M0 0L1e1,2e0 3", [(10, 2)]),
+        ("M0 0q1 1 2 2 3", [(2, 2)]),
+    ],
+)
+def test_numbers_without_blanks_are_parted_as_svg_says_and_never_otherwise(
+    data: str, ends: list[tuple[float, float]]
+) -> None:
     """123 is no 1 and 23 although two numbers are expected."""
     path = read_path(data, 1000)
     assert [curve.end for run in path.runs for curve in run] == ends

@@ -52,7 +52,9 @@ def test_every_shared_drawing_is_here(shared: Path, data: Path) -> None:
 
 
 def test_sizes(data: Path) -> None:
-    """The gear's page is 345.6 points, 121.92 mm; the outline of the other is 80 and, with its half circle, 110 units of 0.96311 mm."""
+    """The gear's page is 345.6 points, 121.92 mm; the outline of the other is 80 and, with its half circle, 110 units
+    of 0.96311 mm.
+    """
     lines = [e.curve for e in read(data, "gear.svg").part.entities[:2]]
     assert lines == [Line((0, 0), (121.92, 0)), Line((121.92, 0), (121.92, 121.92))]
     outline = [e.curve for e in read(data, "e_line.svg").part.entities[:4]]
@@ -79,7 +81,9 @@ def points_along(curve: Curve) -> NDArray[np.float64]:
     primitives = lines_and_arcs(curve).primitives if isinstance(curve, Ellipse | Spline) else (curve,)
     rows = np.array([row for primitive in primitives for row in curve_rows(primitive)])
     counts = (lengths(rows) * DOTS * 2).astype(int) + 2
-    return np.concatenate([points_at(np.repeat(row[None], n, axis=0), np.linspace(0, 1, n)) for row, n in zip(rows, counts, strict=True)])
+    return np.concatenate(
+        [points_at(np.repeat(row[None], n, axis=0), np.linspace(0, 1, n)) for row, n in zip(rows, counts, strict=True)]
+    )
 
 
 def edges_by_qt(content: bytes, size: tuple[float, float]) -> NDArray[np.bool_]:
@@ -96,10 +100,15 @@ def edges_by_qt(content: bytes, size: tuple[float, float]) -> NDArray[np.bool_]:
     return change
 
 
-@pytest.mark.parametrize(("name", "size"), [
-    ("arc_with_rotate.svg", (200 * 25.4 / 96, 200 * 25.4 / 96)), ("e_line.svg", (100.09, 95.919717)), ("gear.svg", (121.92, 121.92)),
-    ("", (100, 80)),
-])
+@pytest.mark.parametrize(
+    ("name", "size"),
+    [
+        ("arc_with_rotate.svg", (200 * 25.4 / 96, 200 * 25.4 / 96)),
+        ("e_line.svg", (100.09, 95.919717)),
+        ("gear.svg", (121.92, 121.92)),
+        ("", (100, 80)),
+    ],
+)
 def test_what_is_read_is_what_qt_draws(data: Path, qapp: object, name: str, size: tuple[float, float]) -> None:
     """Every edge in the picture lies on a curve, and every curve on an edge, within 3 dots."""
     content = (data / "svg" / name).read_bytes() if name else RICH.encode()
@@ -134,6 +143,9 @@ def test_a_drawing_makes_the_same_program_from_svg_as_from_dxf(data: Path) -> No
 
 
 def test_open_arcs_alone_are_refused(data: Path) -> None:
-    why = r"arc_with_rotate\.svg: there is no closed contour, so nothing can be cut\. Layer 0 has 6 lines that bound nothing"
+    why = (
+        r"arc_with_rotate\.svg: there is no closed contour, so nothing can be cut\. Layer 0 has 6 lines that bound "
+        r"nothing"
+    )
     with pytest.raises(GeometryError, match=why):
         nc_of("arc_with_rotate.svg", (data / "svg" / "arc_with_rotate.svg").read_bytes())

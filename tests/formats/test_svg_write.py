@@ -1,4 +1,6 @@
-"""SVG out and in again: the same coordinates, layers, colours; what SVG cannot hold is within the tolerance and counted."""
+"""SVG out and in again: the same coordinates, layers, colours; what SVG cannot hold is within the tolerance and
+counted.
+"""
 
 import math
 
@@ -42,7 +44,6 @@ def test_out_and_in_again(part: Part) -> None:
         assert max((apart(a, b) for a, b in zip(before, after, strict=True)), default=0.0) <= SAME
 
 
-
 @given(splines((2, 3), rational=True) | splines((4, 5)))
 @settings(max_examples=examples(30), deadline=None)
 def test_what_svg_cannot_hold_is_within_the_tolerance_and_counted(spline: Spline) -> None:
@@ -51,7 +52,9 @@ def test_what_svg_cannot_hold_is_within_the_tolerance_and_counted(spline: Spline
     assert (converted.kind, converted.count) == ("spline", 2) and 0 < converted.deviation <= 0.005
     after = [e.curve for e in read_svg(written.data).part.entities]
     assert all(isinstance(curve, Line | Arc) for curve in after) and len(after) % 2 == 0
-    assert after[0].start == pytest.approx(spline.start, abs=SAME) and after[-1].end == pytest.approx(spline.end, abs=SAME)
+    assert after[0].start == pytest.approx(spline.start, abs=SAME) and after[-1].end == pytest.approx(
+        spline.end, abs=SAME
+    )
     assert max(distances_of(spline, after)) <= 0.005
 
 
@@ -68,7 +71,11 @@ def test_degree_one_is_lines() -> None:
 
 
 def test_coordinates_come_back_to_the_last_digit() -> None:
-    curves = [Line((-1 / 3, 2 / 3), (-100.1, -7e-5)), Circle((-50.3, -1 / 7), 0.1), Line((1e5, 2e-9), (0.1 + 0.2, 1e-7 / 3))]
+    curves = [
+        Line((-1 / 3, 2 / 3), (-100.1, -7e-5)),
+        Circle((-50.3, -1 / 7), 0.1),
+        Line((1e5, 2e-9), (0.1 + 0.2, 1e-7 / 3)),
+    ]
     assert [e.curve for e in back(drawn(*curves)).entities] == curves
 
 
@@ -82,7 +89,9 @@ def test_curves_that_follow_one_another_are_one_closed_path() -> None:
     slot = [Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2)), Line((10, 4), (0, 4)), Arc((0, 4), (0, 0), (0, 2))]
     written = svg_bytes(drawn(*slot)).data
     assert written.count(b"<path") == 1 and written.count(b"Z") == 1
-    assert all(apart(e.curve, drawn_one) < SAME for e, drawn_one in zip(read_svg(written).part.entities, slot, strict=True))
+    assert all(
+        apart(e.curve, drawn_one) < SAME for e, drawn_one in zip(read_svg(written).part.entities, slot, strict=True)
+    )
 
 
 def test_neighbours_that_would_become_one_stay_two() -> None:
@@ -133,7 +142,9 @@ def test_an_arc_that_is_nearly_a_circle_keeps_its_centre(radius: float) -> None:
 
 
 def test_a_half_turn_keeps_its_centre() -> None:
-    """From a radius and two ends the centre of a half circle comes back to 8 digits only; so it is drawn in two parts."""
+    """From a radius and two ends the centre of a half circle comes back to 8 digits only; so it is drawn in two
+    parts.
+    """
     half = Arc((-7.1, 3.3), (12.7, 3.3), (2.8, 3.3))
     (again,) = (e.curve for e in back(drawn(half)).entities)
     assert isinstance(again, Arc) and math.dist(again.centre, half.centre) < 1e-12

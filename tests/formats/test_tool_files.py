@@ -32,10 +32,13 @@ def test_every_kind_gives_the_rows_of_a_control():
         assert [(row.number, row.offset[2], row.diameter) for row in rows] == [(1, 50.5, 6.0), (7, 0.0, 3.0)]
 
 
-@pytest.mark.parametrize(("name", "data", "told"), [
-    ("tools.xls", b"", r"tools\.xls: tools are read and written as \.toml, \.csv, \.tbl"),
-    ("t.tbl", b"T1 P1\n", r"t\.tbl:1: T1: diameter is 0 mm"),
-])
+@pytest.mark.parametrize(
+    ("name", "data", "told"),
+    [
+        ("tools.xls", b"", r"tools\.xls: tools are read and written as \.toml, \.csv, \.tbl"),
+        ("t.tbl", b"T1 P1\n", r"t\.tbl:1: T1: diameter is 0 mm"),
+    ],
+)
 def test_what_is_no_file_of_tools_is_told(name, data, told):
     with pytest.raises(InputError, match=told):
         read_tools(name, data)

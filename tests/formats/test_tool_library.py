@@ -10,38 +10,82 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.formats.tools.csv import read_tool_csv, write_tool_csv
-from app.formats.tools.library import HEADER, ToolLibrary, library_files, load_libraries, own_folder, read_library, write_library
+from app.formats.tools.library import (
+    HEADER,
+    ToolLibrary,
+    library_files,
+    load_libraries,
+    own_folder,
+    read_library,
+    write_library,
+)
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
 from tests.examples import examples
 
-TEXT = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"], exclude_characters="\ufeff"), max_size=20).map(str.strip)
+TEXT = st.text(
+    st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"], exclude_characters="\ufeff"), max_size=20
+).map(str.strip)
 LENGTH = st.floats(0, 500)
 ANGLE = st.floats(0, 179).map(lambda degrees: math.radians(round(degrees, 6)))
 FEEDS = st.lists(
-    st.builds(FeedRow, TEXT.filter(lambda text: text and ":" not in text), st.floats(0.1, 2000), st.floats(1e-4, 5), st.floats(0.01, 1)),
-    max_size=3, unique_by=lambda row: row.material.casefold(),
-)  # fmt: skip
+    st.builds(
+        FeedRow,
+        TEXT.filter(lambda text: text and ":" not in text),
+        st.floats(0.1, 2000),
+        st.floats(1e-4, 5),
+        st.floats(0.01, 1),
+    ),
+    max_size=3,
+    unique_by=lambda row: row.material.casefold(),
+)
 
 
 @st.composite
 def tools(draw: st.DrawFn) -> Tool:
     diameter, kind = draw(st.floats(0.05, 300)), draw(st.sampled_from(ToolKind))
-    shape = {"corner_radius": st.floats(0, diameter * 0.49), "tip_diameter": st.floats(0, diameter * 0.99), "tip_angle": ANGLE}
+    shape = {
+        "corner_radius": st.floats(0, diameter * 0.49),
+        "tip_diameter": st.floats(0, diameter * 0.99),
+        "tip_angle": ANGLE,
+    }
     heights = sorted(draw(st.lists(LENGTH, max_size=4)))
     values: dict[str, Any] = {key: draw(shape[key]) for key in sorted(shape_keys(kind))}
     values |= {key: draw(st.floats(1, 9999)) for key in ("spindle_speed", "feed_rate", "plunge_rate")}
-    values |= {key: draw(LENGTH) for key in ("flute_length", "stick_out", "shank_diameter")} | {"length_offset": draw(st.floats(-500, 500))}
-    values |= {"overall_length": draw(st.sampled_from([0.0, 500.0])), "flutes": draw(st.integers(1, 20)), "feeds": tuple(draw(FEEDS))}
+    values |= {key: draw(LENGTH) for key in ("flute_length", "stick_out", "shank_diameter")} | {
+        "length_offset": draw(st.floats(-500, 500))
+    }
+    values |= {
+        "overall_length": draw(st.sampled_from([0.0, 500.0])),
+        "flutes": draw(st.integers(1, 20)),
+        "feeds": tuple(draw(FEEDS)),
+    }
     holder = tuple((height, draw(LENGTH)) for height in [0.0, *heights]) if heights else ()
     return Tool(draw(st.integers(1, 9999)), diameter, kind, draw(TEXT), holder=holder, remark=draw(TEXT), **values)
 
 
-LIBRARIES = st.builds(ToolLibrary, TEXT, st.lists(tools(), max_size=4, unique_by=lambda tool: tool.number).map(tuple), TEXT)
+LIBRARIES = st.builds(
+    ToolLibrary, TEXT, st.lists(tools(), max_size=4, unique_by=lambda tool: tool.number).map(tuple), TEXT
+)
 SHARP = Tool(
-    3, 6.0, ToolKind.V, 'the "sharp" one \\ 刃', 1, 18000.0, 640.0, 190.0, tip_angle=math.radians(60), tip_diameter=0.1, flute_length=5.2,
-    overall_length=57.0, stick_out=21.0, shank_diameter=6.0, holder=((0.0, 10.0), (20.0, 10.0), (20.0, 21.5)), length_offset=-12.5,
-    feeds=(FeedRow("aluminium", 250.0, 0.024), FeedRow("hard, dry wood; oak", 500.0, 0.06, 0.4)), remark="resharpened\ttwice",
-)  # fmt: skip
+    3,
+    6.0,
+    ToolKind.V,
+    'the "sharp" one \\ 刃',
+    1,
+    18000.0,
+    640.0,
+    190.0,
+    tip_angle=math.radians(60),
+    tip_diameter=0.1,
+    flute_length=5.2,
+    overall_length=57.0,
+    stick_out=21.0,
+    shank_diameter=6.0,
+    holder=((0.0, 10.0), (20.0, 10.0), (20.0, 21.5)),
+    length_offset=-12.5,
+    feeds=(FeedRow("aluminium", 250.0, 0.024), FeedRow("hard, dry wood; oak", 500.0, 0.06, 0.4)),
+    remark="resharpened\ttwice",
+)
 FULL = ToolLibrary("Mine", (SHARP, Tool(7, 1 / 3)), "for the router")
 
 
@@ -81,25 +125,36 @@ feed_per_tooth = 0.01
 """
 
 
-@pytest.mark.parametrize(("old", "new", "told"), [
-    (b"format = 1", b"", "my.toml:1: format is missing; add a whole number"),
-    (b"format = 1", b"format = 2", "my.toml:1: format is 2"),
-    (b"diameter = 3", b"", "my.toml:6: tool[2].diameter is missing"),
-    (b"diameter = 3", b'diameter = "3"', "my.toml:8: tool[2].diameter is '3'; expected is a number"),
-    (b"diameter = 3", b"diameter = 0", "my.toml:6: T2: diameter is 0 mm"),
-    (b"diameter = 3", b"diameter = nan", "my.toml:8: tool[2].diameter is nan"),
-    (b'"v"', b'"cone"', "my.toml:9: tool[2].kind is 'cone'; expected is 'flat' or 'ball'"),
-    (b"tip_angle = 60", b"angle = 60", "my.toml:10: tool[2].angle is not known"),
-    (b"tip_angle = 60", b"corner_radius = 1", "kind v has no corner radius"),
-    (b"tip_angle = 60", b"holder = [[0, 10], [5]]", "my.toml:10: tool[2].holder is [5]; expected is a list of 2 numbers"),
-    (b"tip_angle = 60", b"holder = 5", "my.toml:10: tool[2].holder is 5; expected is a list, and in it a list of 2 numbers each time"),
-    (b"surface_speed = 90", b"surface_speed = 'fast'", "my.toml:17: tool[2].feeds[2].surface_speed is 'fast'"),
-    (b"surface_speed = 90", b"surface_speed = 0", "my.toml:15: Surface speed for steel is 0 m/min"),
-    (b'"steel"', b'"Wood"', "my.toml:6: T2: feeds for wood are given twice"),
-    (b"number = 2", b"number = 1", "my.toml: T1 is there 2 times"),
-    (b"[[tool]]\nnumber = 1\ndiameter = 6", b"tool = 5\n[[x]]", "is no TOML file|not known"),
-    (b"[[tool]]", b"[[tool", "my.toml: this is no TOML file"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (b"format = 1", b"", "my.toml:1: format is missing; add a whole number"),
+        (b"format = 1", b"format = 2", "my.toml:1: format is 2"),
+        (b"diameter = 3", b"", "my.toml:6: tool[2].diameter is missing"),
+        (b"diameter = 3", b'diameter = "3"', "my.toml:8: tool[2].diameter is '3'; expected is a number"),
+        (b"diameter = 3", b"diameter = 0", "my.toml:6: T2: diameter is 0 mm"),
+        (b"diameter = 3", b"diameter = nan", "my.toml:8: tool[2].diameter is nan"),
+        (b'"v"', b'"cone"', "my.toml:9: tool[2].kind is 'cone'; expected is 'flat' or 'ball'"),
+        (b"tip_angle = 60", b"angle = 60", "my.toml:10: tool[2].angle is not known"),
+        (b"tip_angle = 60", b"corner_radius = 1", "kind v has no corner radius"),
+        (
+            b"tip_angle = 60",
+            b"holder = [[0, 10], [5]]",
+            "my.toml:10: tool[2].holder is [5]; expected is a list of 2 numbers",
+        ),
+        (
+            b"tip_angle = 60",
+            b"holder = 5",
+            "my.toml:10: tool[2].holder is 5; expected is a list, and in it a list of 2 numbers each time",
+        ),
+        (b"surface_speed = 90", b"surface_speed = 'fast'", "my.toml:17: tool[2].feeds[2].surface_speed is 'fast'"),
+        (b"surface_speed = 90", b"surface_speed = 0", "my.toml:15: Surface speed for steel is 0 m/min"),
+        (b'"steel"', b'"Wood"', "my.toml:6: T2: feeds for wood are given twice"),
+        (b"number = 2", b"number = 1", "my.toml: T1 is there 2 times"),
+        (b"[[tool]]\nnumber = 1\ndiameter = 6", b"tool = 5\n[[x]]", "is no TOML file|not known"),
+        (b"[[tool]]", b"[[tool", "my.toml: this is no TOML file"),
+    ],
+)
 def test_what_is_wrong_is_told_with_file_line_and_key(old, new, told):
     assert len(read_library("my.toml", GOOD).tools) == 2
     with pytest.raises(InputError) as error:

@@ -19,16 +19,40 @@ from tests.gcode.rs274_oracle import RS274, needs_rs274, own_home
 OFFSET = re.compile(r"USE_TOOL_LENGTH_OFFSET\(([-\d. ]+), ([-\d. ]+), ([-\d. ]+)\)")
 PLACE = re.compile(r"STRAIGHT_TRAVERSE\(([-\d.]+), ")
 CLEAN = [
-    "T1 P1 Z0.5 D0.25 ;a", "t1 p1 z0.5 d0.25", "T1 Z0.5 D0.25", "Z0.5 D0.25 P1 T1", "T1 P1 Z+0.5 D+.25", "T1 P1 Z5e-1", "T1.0 P1.0 Z0.5",
-    "T1 P1 X1 Y2 Z3 A4 B5 C6 U7 V8 W9 D.5 I10 J20 Q3 ;r;x", "T1 P1 Z-0.5 D-0.25", "T1 P0 Z.5", "T1 P1 Z.5 Z.7", "  T1  P1 Z.5;x",
-    "T1 P1 Z0.5\r", "T1 P1 Z0.5\nT1 P2 Z0.7", "; all\n\nT1 P1 Z0.5\nT2 P2", "T1 P1 Z-.5 D1.",
+    "T1 P1 Z0.5 D0.25 ;a",
+    "t1 p1 z0.5 d0.25",
+    "T1 Z0.5 D0.25",
+    "Z0.5 D0.25 P1 T1",
+    "T1 P1 Z+0.5 D+.25",
+    "T1 P1 Z5e-1",
+    "T1.0 P1.0 Z0.5",
+    "T1 P1 X1 Y2 Z3 A4 B5 C6 U7 V8 W9 D.5 I10 J20 Q3 ;r;x",
+    "T1 P1 Z-0.5 D-0.25",
+    "T1 P0 Z.5",
+    "T1 P1 Z.5 Z.7",
+    "  T1  P1 Z.5;x",
+    "T1 P1 Z0.5\r",
+    "T1 P1 Z0.5\nT1 P2 Z0.7",
+    "; all\n\nT1 P1 Z0.5\nT2 P2",
+    "T1 P1 Z-.5 D1.",
 ]
-FAULTY = ["T1 P1 Z. D1", "T 1 P 1 Z 0.5", "T1 P1 Z0.5 K3", "T1 P1 Z0.5 hello", "T1 P1 Z0.5 (note)", "T1 P1 Zabc", "P1 Z0.5", ";T1 P1 Z0.5"]
+FAULTY = [
+    "T1 P1 Z. D1",
+    "T 1 P 1 Z 0.5",
+    "T1 P1 Z0.5 K3",
+    "T1 P1 Z0.5 hello",
+    "T1 P1 Z0.5 (note)",
+    "T1 P1 Zabc",
+    "P1 Z0.5",
+    ";T1 P1 Z0.5",
+]
 HALF_READ = ["T1P1Z0.5D0.25", "T1\tP1\tZ0.5"]
 
 
 def control(folder: Path, table: bytes, number: int) -> tuple[tuple[float, ...], float] | None:
-    """Return offsets (mm, degrees) and diameter (inch) that LinuxCNC takes for a tool; None where it knows no such tool."""
+    """Return offsets (mm, degrees) and diameter (inch) that LinuxCNC takes for a tool; None where it knows no such
+    tool.
+    """
     needs_rs274()
     (folder / "tool.tbl").write_bytes(table)
     (folder / "in.ngc").write_text(f"G21\nT{number} M6\nG43 H{number}\nG49\nG0 X[#5410 * 1000]\nM2\n")
@@ -77,9 +101,18 @@ def test_every_table_that_comes_with_linuxcnc_is_read():
 LENGTH = st.floats(-900, 900, allow_nan=False).map(lambda value: round(value, 4) + 0.0)
 REMARK = st.text(st.characters(codec="utf-8", exclude_categories=["Cs", "Cc"]), max_size=300)
 ROW = st.builds(
-    TableRow, st.integers(1, 9999), st.integers(1, 900), st.tuples(LENGTH, LENGTH, LENGTH), st.tuples(LENGTH, LENGTH, LENGTH),
-    st.tuples(LENGTH, LENGTH, LENGTH), st.floats(0, 300).map(lambda value: round(value, 4)), LENGTH, LENGTH, st.integers(0, 9), REMARK,
-)  # fmt: skip
+    TableRow,
+    st.integers(1, 9999),
+    st.integers(1, 900),
+    st.tuples(LENGTH, LENGTH, LENGTH),
+    st.tuples(LENGTH, LENGTH, LENGTH),
+    st.tuples(LENGTH, LENGTH, LENGTH),
+    st.floats(0, 300).map(lambda value: round(value, 4)),
+    LENGTH,
+    LENGTH,
+    st.integers(0, 9),
+    REMARK,
+)
 
 
 @settings(deadline=None, max_examples=examples(60))

@@ -19,7 +19,9 @@ from app.core.errors import HitofudeError, shortened
 from tests.fuzz.mutations import mutated
 
 SECONDS, ENDLESS, MEGABYTES, LETTERS = 5.0, 60.0, 1000, 300
-"""Processor seconds that a reader may take; seconds after which it is killed; how far it may grow; letters of a sentence."""
+"""Processor seconds that a reader may take; seconds after which it is killed; how far it may grow; letters of a
+sentence.
+"""
 
 Read = Callable[[bytes], object]
 
@@ -51,7 +53,9 @@ def case(reader: Reader, number: int) -> bytes:
 
 
 def faults(reader: Reader, numbers: Sequence[int]) -> list[Fault]:
-    """Return what goes wrong for the inputs of some numbers; a process that dies or hangs is begun anew behind the input that did it."""
+    """Return what goes wrong for the inputs of some numbers; a process that dies or hangs is begun anew behind the
+    input that did it.
+    """
     found: list[Fault] = []
     left = list(numbers)
     with suppress(HitofudeError):
@@ -77,7 +81,9 @@ def _run(reader: Reader, numbers: Sequence[int], found: list[Fault]) -> tuple[in
             if not ours.poll(ENDLESS):
                 what = f"no answer within {ENDLESS:g} s"
             elif said := ours.recv():
-                found.append(Fault(said, case(reader, numbers[done])) if done >= 0 else Fault(f"of a seed: {said}", b""))
+                found.append(
+                    Fault(said, case(reader, numbers[done])) if done >= 0 else Fault(f"of a seed: {said}", b"")
+                )
                 done += 1
             else:
                 done += 1

@@ -29,7 +29,25 @@ from tests.fuzz.mutations import mutated
 REFUSED_S, ENDLESS_S, LETTERS = 5.0, 60.0, 400
 """Processor seconds for refusing, and for anything; letters of a sentence."""
 
-VALUES = ("0", "-0", "-1", "1", "nan", "inf", "-inf", "1e300", "-1e300", "1e-300", "", " ", "1e999", "0x10", "1,5", "9" * 5000, "a" * 5000)
+VALUES = (
+    "0",
+    "-0",
+    "-1",
+    "1",
+    "nan",
+    "inf",
+    "-inf",
+    "1e300",
+    "-1e300",
+    "1e-300",
+    "",
+    " ",
+    "1e999",
+    "0x10",
+    "1,5",
+    "9" * 5000,
+    "a" * 5000,
+)
 """What a numeric option may be given."""
 
 PROGRAM = b"G21 G90\nT1 M6\nS1000 M3\nG0 X2 Y2 Z5\nG1 Z-1 F100\nG1 X8 F300\nG3 X10 Y4 I0 J2\nG1 Y8\nG0 Z5\nM5\nM30\n"
@@ -86,9 +104,14 @@ def commands() -> dict[str, Command]:
 
 
 def numeric_options(command: Command) -> list[str]:
-    """Return the options of a command that read a value with a function of their own: numbers, lengths, angles, boxes, tools."""
-    return [action.option_strings[-1] for action in command.parser()._actions
-            if action.option_strings and action.type is not None and action.type is not Path]  # fmt: skip
+    """Return the options of a command that read a value with a function of their own: numbers, lengths, angles, boxes,
+    tools.
+    """
+    return [
+        action.option_strings[-1]
+        for action in command.parser()._actions
+        if action.option_strings and action.type is not None and action.type is not Path
+    ]
 
 
 def spoilt(command: Command, number: int) -> bytes:
@@ -119,7 +142,9 @@ def fault(command: Command, folder: Path, data: bytes, options: Sequence[str] = 
     out.mkdir(parents=True)
     path = folder / command.name
     path.write_bytes(data)
-    argv = [each.replace("IN", str(path), 1) if each == "IN" else each.replace("OUT", str(out)) for each in command.argv]
+    argv = [
+        each.replace("IN", str(path), 1) if each == "IN" else each.replace("OUT", str(out)) for each in command.argv
+    ]
     said, begun = io.StringIO(), time.process_time()
     with redirect_stderr(said), redirect_stdout(io.StringIO()), _limited():
         status = main([*argv, *options])
@@ -146,4 +171,8 @@ def _wrong(status: int, said: str, out: Path, spent: float) -> str:
     if not own or len(own[-1]) > LETTERS:
         return f"says {said[:600]!r}"
     signs = "".join(lines)
-    return f"signs that cannot be printed: {said[:200]!r}" if any(unicodedata.category(sign) in ("Cc", "Cs") for sign in signs) else ""
+    return (
+        f"signs that cannot be printed: {said[:200]!r}"
+        if any(unicodedata.category(sign) in ("Cc", "Cs") for sign in signs)
+        else ""
+    )

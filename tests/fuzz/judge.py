@@ -1,6 +1,8 @@
-"""An independent judge of a cut floor: points, the even-odd rule over the drawn curves themselves, and the motions of the NC text.
+"""An independent judge of a cut floor: points, the even-odd rule over the drawn curves themselves, and the motions of
+the NC text.
 
-It shares nothing with what makes and judges paths but the curves and the reader of NC: no chains, no overlay, no regions, no polygons.
+It shares nothing with what makes and judges paths but the curves and the reader of NC: no chains, no overlay, no
+regions, no polygons.
 """
 
 from __future__ import annotations
@@ -90,8 +92,11 @@ def _swept(program: NcProgram, radii: dict[int, float], depth: float, points: Fl
         else:
             whole = bool((start == end).all())
             ccw = kind is MotionKind.ARC_CCW
-            way = sampled(Circle(tuple(centre), float(np.hypot(*(start - centre))))) if whole else \
-                sampled(Arc(tuple(start), tuple(end), tuple(centre), ccw))
+            way = (
+                sampled(Circle(tuple(centre), float(np.hypot(*(start - centre)))))
+                if whole
+                else sampled(Arc(tuple(start), tuple(end), tuple(centre), ccw))
+            )
         radius = radii[program.states[motions.state[row]].tool]
         near = np.all((points >= way.min(axis=0) - 2 * radius) & (points <= way.max(axis=0) + 2 * radius), axis=1)
         line = shapely.linestrings(way) if np.any(way[0] != way[-1]) or len(way) > 2 else shapely.points(way[0])
@@ -100,7 +105,8 @@ def _swept(program: NcProgram, radii: dict[int, float], depth: float, points: Fl
 
 
 def wrong_floor(curves: Sequence[Curve], program: NcProgram, radii: dict[int, float], depth: float) -> str:
-    """Return what is wrong with a floor that is said to be whole: where metal is cut outside, or left although a tool fits; "" = nothing.
+    """Return what is wrong with a floor that is said to be whole: where metal is cut outside, or left although a tool
+    fits; "" = nothing.
 
     Args:
         curves: that bound it by the even-odd rule, mm. radii: of the tools by T number. depth: of the floor below Z 0.
@@ -110,7 +116,9 @@ def wrong_floor(curves: Sequence[Curve], program: NcProgram, radii: dict[int, fl
     low, high = segments.min(axis=(0, 1)), segments.max(axis=(0, 1))
     chance = np.random.default_rng(1)
     spread = chance.uniform(low - 1, high + 1, (COUNT // 2, 2))
-    beside = segments[chance.integers(0, len(segments), COUNT // 2)].mean(axis=1) + chance.normal(0, max(radii.values()), (COUNT // 2, 2))
+    beside = segments[chance.integers(0, len(segments), COUNT // 2)].mean(axis=1) + chance.normal(
+        0, max(radii.values()), (COUNT // 2, 2)
+    )
     points = np.concatenate([spread, beside])
     odd, sure = is_odd(points, segments)
     tree = shapely.STRtree(shapely.linestrings(segments))

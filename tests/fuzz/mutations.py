@@ -7,17 +7,87 @@ import re
 from collections.abc import Callable, Sequence
 
 NUMBERS = (
-    b"0", b"-0", b"1", b"-1", b"2", b"0.001", b"1e-9", b"1e-300", b"-1e15", b"1e15", b"1e308", b"1e999", b"-1e400", b"nan", b"inf", b"-inf",
-    b"3,25", b"-0,5", b"1.2.3", b"--5", b"+7", b"0x10", b"1_000", b"1e", b".", b"1000000", b"-2147483649", b"2147483647", b"4294967296",
-    b"9223372036854775808", b"9" * 40, b"9" * 400, b"9" * 4400, b"0." + b"3" * 300, b"1" + b"0" * 320, "\u0663".encode(), "\uff11".encode(),
-)  # fmt: skip
+    b"0",
+    b"-0",
+    b"1",
+    b"-1",
+    b"2",
+    b"0.001",
+    b"1e-9",
+    b"1e-300",
+    b"-1e15",
+    b"1e15",
+    b"1e308",
+    b"1e999",
+    b"-1e400",
+    b"nan",
+    b"inf",
+    b"-inf",
+    b"3,25",
+    b"-0,5",
+    b"1.2.3",
+    b"--5",
+    b"+7",
+    b"0x10",
+    b"1_000",
+    b"1e",
+    b".",
+    b"1000000",
+    b"-2147483649",
+    b"2147483647",
+    b"4294967296",
+    b"9223372036854775808",
+    b"9" * 40,
+    b"9" * 400,
+    b"9" * 4400,
+    b"0." + b"3" * 300,
+    b"1" + b"0" * 320,
+    "\u0663".encode(),
+    "\uff11".encode(),
+)
 """What may stand where a number stood."""
 
 TOKENS = (
-    b"\0", b"\0" * 40, b"\xff\xfe", b"\xef\xbb\xbf", b"\x80", "é".encode("latin-1"), "\u2028".encode(), "\u202e".encode(), b"\x1b[2J",
-    b"\r", b"\n\n", b"'", b'"', b"'''", b'"""', b"[", b"]", b"[" * 60, b"(" * 60, b"{" * 60, b"<", b">", b"&", b"&lt;", b"<!--",
-    b"%", b"#", b";", b"\\", b"=", b",", b":", b" ", b"\t", b"x" * 400, b"../../../etc/passwd", b"true", b"None", b"null",
-)  # fmt: skip
+    b"\0",
+    b"\0" * 40,
+    b"\xff\xfe",
+    b"\xef\xbb\xbf",
+    b"\x80",
+    "é".encode("latin-1"),
+    "\u2028".encode(),
+    "\u202e".encode(),
+    b"\x1b[2J",
+    b"\r",
+    b"\n\n",
+    b"'",
+    b'"',
+    b"'''",
+    b'"""',
+    b"[",
+    b"]",
+    b"[" * 60,
+    b"(" * 60,
+    b"{" * 60,
+    b"<",
+    b">",
+    b"&",
+    b"&lt;",
+    b"<!--",
+    b"%",
+    b"#",
+    b";",
+    b"\\",
+    b"=",
+    b",",
+    b":",
+    b" ",
+    b"\t",
+    b"x" * 400,
+    b"../../../etc/passwd",
+    b"true",
+    b"None",
+    b"null",
+)
 """What may turn up anywhere."""
 
 _NUMBER = re.compile(rb"(?<![A-Za-z_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|(?<=[A-Za-z])[-+]?(?:\d+\.?\d*|\.\d+)")
@@ -93,7 +163,9 @@ def _scaled(old: bytes, rng: random.Random) -> bytes:
 
 
 def values_of_pairs_changed(data: bytes, other: bytes, rng: random.Random) -> bytes:
-    """Of a text of pairs of lines, a code and a value, values alone; some pairs go, come twice, or come from another text."""
+    """Of a text of pairs of lines, a code and a value, values alone; some pairs go, come twice, or come from another
+    text.
+    """
     lines = data.split(b"\n")
     theirs = other.split(b"\n")
     for _ in range(rng.choice((1, 1, 3, 8))):
@@ -111,7 +183,12 @@ def values_of_pairs_changed(data: bytes, other: bytes, rng: random.Random) -> by
 
 def words_changed(data: bytes, other: bytes, rng: random.Random) -> bytes:
     words = _WORD.findall(other) or [b""]
-    return _replaced(data, _WORD, rng, lambda old: rng.choice((b"", old * 2, rng.choice(words), rng.choice(words), rng.choice(TOKENS))))
+    return _replaced(
+        data,
+        _WORD,
+        rng,
+        lambda old: rng.choice((b"", old * 2, rng.choice(words), rng.choice(words), rng.choice(TOKENS))),
+    )
 
 
 def _replaced(data: bytes, pattern: re.Pattern[bytes], rng: random.Random, new: Callable[[bytes], bytes]) -> bytes:
@@ -128,17 +205,41 @@ def inserted(data: bytes, _: bytes, rng: random.Random) -> bytes:
 
 def recoded(data: bytes, _: bytes, rng: random.Random) -> bytes:
     text = data.decode("latin-1")
-    return rng.choice((
-        lambda: text.encode("utf-16"), lambda: text.encode("utf-16-be"), lambda: text.encode("utf-8"), lambda: b"\xef\xbb\xbf" + data,
-        lambda: data.replace(b"\n", b"\r\n"), lambda: data.replace(b"\n", b"\r"), lambda: data.replace(b".", b","), lambda: data.upper(),
-        lambda: data.lower(), lambda: data.replace(b"\n", b""), lambda: data.replace(b" ", b"\t"), lambda: text.encode("utf-32"),
-    ))()  # fmt: skip
+    return rng.choice(
+        (
+            lambda: text.encode("utf-16"),
+            lambda: text.encode("utf-16-be"),
+            lambda: text.encode("utf-8"),
+            lambda: b"\xef\xbb\xbf" + data,
+            lambda: data.replace(b"\n", b"\r\n"),
+            lambda: data.replace(b"\n", b"\r"),
+            lambda: data.replace(b".", b","),
+            lambda: data.upper(),
+            lambda: data.lower(),
+            lambda: data.replace(b"\n", b""),
+            lambda: data.replace(b" ", b"\t"),
+            lambda: text.encode("utf-32"),
+        )
+    )()
 
 
 MUTATIONS: tuple[Mutation, ...] = (
-    flipped, overwritten, cut, doubled, moved, spliced, lines_changed, numbers_changed, numbers_changed, numbers_changed,
-    values_of_pairs_changed, words_changed, words_changed, inserted, recoded,
-)  # fmt: skip
+    flipped,
+    overwritten,
+    cut,
+    doubled,
+    moved,
+    spliced,
+    lines_changed,
+    numbers_changed,
+    numbers_changed,
+    numbers_changed,
+    values_of_pairs_changed,
+    words_changed,
+    words_changed,
+    inserted,
+    recoded,
+)
 
 
 def mutated(seeds: Sequence[bytes], rng: random.Random) -> bytes:

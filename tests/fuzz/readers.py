@@ -48,7 +48,9 @@ def folder() -> Path:
 def _drawing(name: str) -> Read:
     def read(data: bytes) -> object:
         drawing = read_drawing(name, data)
-        assert all(np.isfinite([*each.curve.start, *each.curve.end]).all() for each in drawing.part.entities), "places that are none"
+        assert all(np.isfinite([*each.curve.start, *each.curve.end]).all() for each in drawing.part.entities), (
+            "places that are none"
+        )
         return [finding.text for finding in drawing.findings]
 
     return read
@@ -118,20 +120,32 @@ def _picture(data: bytes) -> object:
 
 
 READERS: dict[str, tuple[Read, Callable[[], tuple[bytes, ...]]]] = {
-    "dxf": (_drawing("d.dxf"), seeds.dxf), "binary dxf": (_drawing("d.dxf"), seeds.binary_dxf), "svg": (_drawing("d.svg"), seeds.svg),
-    "draw": (_drawing("d.draw"), seeds.draw), "script": (lambda data: drawn(data.decode("utf-8", "replace")), seeds.draw),
-    "project": (lambda data: read_project("p.hito", data), seeds.project), "recovery": (_recovered, seeds.recovery),
-    "picture": (_picture, seeds.pictures), "font": (_font, seeds.fonts),
+    "dxf": (_drawing("d.dxf"), seeds.dxf),
+    "binary dxf": (_drawing("d.dxf"), seeds.binary_dxf),
+    "svg": (_drawing("d.svg"), seeds.svg),
+    "draw": (_drawing("d.draw"), seeds.draw),
+    "script": (lambda data: drawn(data.decode("utf-8", "replace")), seeds.draw),
+    "project": (lambda data: read_project("p.hito", data), seeds.project),
+    "recovery": (_recovered, seeds.recovery),
+    "picture": (_picture, seeds.pictures),
+    "font": (_font, seeds.fonts),
     "heights": (lambda data: read_heights("s.npy", data, seeds.WHERE), seeds.heights),
     "place of heights": (lambda data: read_heights("s.npy", seeds.heights()[0], data), lambda: (seeds.WHERE,)),
-    "solid": (lambda data: read_solid("s.stl", data), seeds.stl), "stl": (_mesh("s.stl"), seeds.stl), "obj": (_mesh("s.obj"), seeds.obj),
+    "solid": (lambda data: read_solid("s.stl", data), seeds.stl),
+    "stl": (_mesh("s.stl"), seeds.stl),
+    "obj": (_mesh("s.obj"), seeds.obj),
     "ply": (_mesh("s.ply"), seeds.ply),
-    "job": (lambda data: read_job("j.toml", data), seeds.jobs), "scene": (_scene, seeds.scenes),
-    "machine": (lambda data: read_machine("m.toml", data), seeds.machines), "post": (_post, seeds.posts),
-    "tools toml": (_tools("t.toml"), seeds.libraries), "tools csv": (_tools("t.csv"), seeds.spreadsheets),
-    "tools tbl": (_tools("t.tbl"), seeds.tables), "settings": (_settings, seeds.settings), "examined": (_examined, seeds.programs),
+    "job": (lambda data: read_job("j.toml", data), seeds.jobs),
+    "scene": (_scene, seeds.scenes),
+    "machine": (lambda data: read_machine("m.toml", data), seeds.machines),
+    "post": (_post, seeds.posts),
+    "tools toml": (_tools("t.toml"), seeds.libraries),
+    "tools csv": (_tools("t.csv"), seeds.spreadsheets),
+    "tools tbl": (_tools("t.tbl"), seeds.tables),
+    "settings": (_settings, seeds.settings),
+    "examined": (_examined, seeds.programs),
     **{f"nc {each.value}": (_program(each), seeds.programs) for each in Dialect},
-}  # fmt: skip
+}
 """By name: the reader, and what makes its seeds."""
 
 

@@ -35,7 +35,9 @@ WHERE = b'{"x0": -1.5, "y0": 2, "pitch": 0.5, "floor": -3.0}\n'
 
 
 def _files(folder: Path, pattern: str, most: int = 40_000) -> tuple[bytes, ...]:
-    return tuple(path.read_bytes() for path in sorted(folder.glob(pattern)) if path.is_file() and path.stat().st_size <= most)
+    return tuple(
+        path.read_bytes() for path in sorted(folder.glob(pattern)) if path.is_file() and path.stat().st_size <= most
+    )
 
 
 def _dxf_document(version: str) -> Any:
@@ -53,7 +55,9 @@ def _dxf_document(version: str) -> Any:
     space.add_open_spline([(0, 50), (5, 60), (10, 50), (15, 55), (20, 50)], 3)
     space.add_rational_spline([(0, 70), (5, 80), (10, 70), (15, 75)], [1, 2, 0.5, 1], 4)
     space.add_polyline2d([(50, 0, 0.3), (60, 0, 0), (60, 10, 1)], format="xyb", close=True)
-    space.add_blockref("B", (30, 60), dxfattribs={"xscale": 2, "yscale": -1, "rotation": 30, "column_count": 2, "column_spacing": 9})
+    space.add_blockref(
+        "B", (30, 60), dxfattribs={"xscale": 2, "yscale": -1, "rotation": 30, "column_count": 2, "column_spacing": 9}
+    )
     space.add_text("R5", height=3).set_placement((5, 90))
     space.add_mtext("two\\Plines", dxfattribs={"char_height": 2, "insert": (5, 100)})
     hatch = space.add_hatch()
@@ -123,7 +127,9 @@ measure 1-3
 
 @cache
 def project() -> tuple[bytes, ...]:
-    part = drawn('layer "CUT"\nrect 0,0 20,10 round 2\ncircle 5,5 2\nellipse 9,5 12,5 1\nspline 0,0 5,9 9,2 12,4\ntext 3,3 2 "A"')
+    part = drawn(
+        'layer "CUT"\nrect 0,0 20,10 round 2\ncircle 5,5 2\nellipse 9,5 12,5 1\nspline 0,0 5,9 9,2 12,4\ntext 3,3 2 "A"'
+    )
     state = State(Job(part), "CUT", (1.0, 2.0), {"w": 3.0, "p": (1.0, 2.0)}, {}, Recorded(part))
     return (*_files(DATA, "*.hito"), write_project(Project(state)))
 
@@ -138,8 +144,11 @@ def recovery() -> tuple[bytes, ...]:
 def pictures() -> tuple[bytes, ...]:
     gray = np.zeros((24, 30), np.uint8)
     gray[4:20, 6:20] = 255
-    made = [cv2.imencode(suffix, image)[1].tobytes() for suffix in (".png", ".jpg", ".bmp")
-            for image in (gray, cv2.cvtColor(gray, cv2.COLOR_GRAY2BGR))]
+    made = [
+        cv2.imencode(suffix, image)[1].tobytes()
+        for suffix in (".png", ".jpg", ".bmp")
+        for image in (gray, cv2.cvtColor(gray, cv2.COLOR_GRAY2BGR))
+    ]
     deep = cv2.imencode(".png", gray.astype(np.uint16) * 257)[1].tobytes()
     return (*made, deep, *_files(DATA / "figures", "fig*.png", 7000))
 
@@ -187,8 +196,11 @@ def stl() -> tuple[bytes, ...]:
 
 @cache
 def obj() -> tuple[bytes, ...]:
-    return (trimesh.exchange.obj.export_obj(_solid()).encode(), b"mtllib a.mtl\no one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-            b"vt 0 0\nvn 0 0 1\nusemtl m\nf 1/1/1 3/1/1 2/1/1\nf 1 2 4\nf 2 3 4\nf -4 -1 -2\n")
+    return (
+        trimesh.exchange.obj.export_obj(_solid()).encode(),
+        b"mtllib a.mtl\no one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+        b"vt 0 0\nvn 0 0 1\nusemtl m\nf 1/1/1 3/1/1 2/1/1\nf 1 2 4\nf 2 3 4\nf -4 -1 -2\n",
+    )
 
 
 @cache
@@ -203,7 +215,9 @@ def jobs() -> tuple[bytes, ...]:
 
 @cache
 def scenes() -> tuple[bytes, ...]:
-    return tuple((RESOURCES / "samples" / f"{name}.toml").read_bytes() for name in ("compound", "spheres", "torus", "die"))
+    return tuple(
+        (RESOURCES / "samples" / f"{name}.toml").read_bytes() for name in ("compound", "spheres", "torus", "die")
+    )
 
 
 @cache
@@ -233,7 +247,10 @@ def spreadsheets() -> tuple[bytes, ...]:
 
 @cache
 def tables() -> tuple[bytes, ...]:
-    return (write_tools("t.tbl", _short_library()), b"T1 P1 D0.125 Z+0.511 ;1/8 end mill\nT2 P2 D6 X1 Y2 Z3 A0 I10 J20 Q1\n")
+    return (
+        write_tools("t.tbl", _short_library()),
+        b"T1 P1 D0.125 Z+0.511 ;1/8 end mill\nT2 P2 D6 X1 Y2 Z3 A0 I10 J20 Q1\n",
+    )
 
 
 @cache

@@ -1,6 +1,7 @@
 """Whole commands on spoilt inputs and absurd options: an end, a clear sentence, no partial file.
 
-`HITOFUDE_FUZZ=1000 pytest tests/fuzz/test_commands.py` tries that many inputs of each command, from `HITOFUDE_FUZZ_FROM` on.
+`HITOFUDE_FUZZ=1000 pytest tests/fuzz/test_commands.py` tries that many inputs of each command, from
+`HITOFUDE_FUZZ_FROM` on.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Drawings that meet in nasty ways, and mutated ones, through all of `make`: no crash, no clean verdict that the judge finds wrong."""
+"""Drawings that meet in nasty ways, and mutated ones, through all of `make`: no crash, no clean verdict that the judge
+finds wrong.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,8 @@ def part_of(curves: list[Curve]) -> Part:
 def fault_of(made: Made, curves: list[Curve]) -> str:
     """Return what the judge finds wrong with a clean verdict.
 
-    Curves on one another are two contours by the even-odd rule and one for `make`, which tells it: no judge is asked then.
+    Curves on one another are two contours by the even-odd rule and one for `make`, which tells it: no judge is asked
+    then.
     """
     if not (made.clean and made.files) or any(finding.kind is FindingKind.OVERLAP for finding in made.findings):
         return ""
@@ -42,7 +45,9 @@ def meeting(seed: tuple[int, int], few: bool = True) -> list[Curve]:
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
-@pytest.mark.parametrize("seeds", [(0, 2), *(pytest.param((first, 40), marks=pytest.mark.exhaustive) for first in range(1, 9))])
+@pytest.mark.parametrize(
+    "seeds", [(0, 2), *(pytest.param((first, 40), marks=pytest.mark.exhaustive) for first in range(1, 9))]
+)
 def test_drawings_that_meet_in_any_way(seeds: tuple[int, int]) -> None:
     for k in range(seeds[1]):
         curves = meeting((seeds[0], k))

@@ -1,4 +1,6 @@
-"""What grbl 1.1 takes, from its documentation alone: doc/markdown/commands.md and the error codes of the project gnea/grbl."""
+"""What grbl 1.1 takes, from its documentation alone: doc/markdown/commands.md and the error codes of the project
+gnea/grbl.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +8,25 @@ import math
 import re
 
 MODAL_GROUPS = {
-    "motion": "G0 G1 G2 G3 G38.2 G38.3 G38.4 G38.5 G80", "offset": "G54 G55 G56 G57 G58 G59", "plane": "G17 G18 G19", "distance": "G90 G91",
-    "arc distance": "G91.1", "feed": "G93 G94", "units": "G20 G21", "radius": "G40", "length": "G43.1 G49", "program": "M0 M1 M2 M30",
-    "spindle": "M3 M4 M5", "path": "G61", "once": "G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1",
-}  # fmt: skip
-GROUP_OF = {code: group for group, codes in MODAL_GROUPS.items() for code in codes.split()} | {"M7": "M7", "M8": "coolant", "M9": "coolant"}
+    "motion": "G0 G1 G2 G3 G38.2 G38.3 G38.4 G38.5 G80",
+    "offset": "G54 G55 G56 G57 G58 G59",
+    "plane": "G17 G18 G19",
+    "distance": "G90 G91",
+    "arc distance": "G91.1",
+    "feed": "G93 G94",
+    "units": "G20 G21",
+    "radius": "G40",
+    "length": "G43.1 G49",
+    "program": "M0 M1 M2 M30",
+    "spindle": "M3 M4 M5",
+    "path": "G61",
+    "once": "G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1",
+}
+GROUP_OF = {code: group for group, codes in MODAL_GROUPS.items() for code in codes.split()} | {
+    "M7": "M7",
+    "M8": "coolant",
+    "M9": "coolant",
+}
 VALUES = set("FIJKLNPRSTXYZ")
 LINE = 70
 """Characters of a line with its comments; the buffer holds 80, that of some senders less."""
@@ -19,7 +35,11 @@ LINE = 70
 def grbl_errors(text: str) -> list[str]:
     """Return everything in a program that grbl would refuse, with its error number where it has one."""
     state = _State()
-    return [f"{number}: {line}: {error}" for number, line in enumerate(text.splitlines(), start=1) for error in state.errors(line)]
+    return [
+        f"{number}: {line}: {error}"
+        for number, line in enumerate(text.splitlines(), start=1)
+        for error in state.errors(line)
+    ]
 
 
 class _State:

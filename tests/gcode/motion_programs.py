@@ -16,7 +16,9 @@ NO_CENTRE = (math.nan, math.nan, math.nan)
 
 
 def machine(acceleration: float = 100.0, rapid: float = 6000.0, **changes: object) -> Machine:
-    """A machine whose three axes are alike: 100 mm/s rapids, 100 mm/s2; stops at every corner but for a servo period."""
+    """A machine whose three axes are alike: 100 mm/s rapids, 100 mm/s2; stops at every corner but for a servo
+    period.
+    """
     axis = Axis(-500.0, 500.0, rapid, acceleration)
     values: dict[str, object] = {"largest_feed": 60000.0, "corner": 0.0} | changes
     return Machine("Test mill", axis, axis, axis, SpindleRange(100.0, 10000.0), **values)  # type: ignore[arg-type]
@@ -32,7 +34,9 @@ class Course:
     rows: list[tuple[object, ...]] = field(default_factory=list)
     splines: dict[int, Nurbs] = field(default_factory=dict)
 
-    def _add(self, kind: MotionKind, end: Point, centre: Point = NO_CENTRE, arc: tuple[Plane, int] = (Plane.XY, 0)) -> Course:
+    def _add(
+        self, kind: MotionKind, end: Point, centre: Point = NO_CENTRE, arc: tuple[Plane, int] = (Plane.XY, 0)
+    ) -> Course:
         feed = 0.0 if kind is MotionKind.RAPID else self.feed
         self.rows.append((self.at, end, centre, kind, arc[0], arc[1], feed, len(self.rows) + 1, self.state))
         self.at = end
@@ -53,11 +57,21 @@ class Course:
         return self._add(MotionKind.SPLINE, (x, y, z))
 
     def motions(self) -> Motions:
-        start, end, centre, kind, plane, turns, feed, line, state = (list(column) for column in zip(*self.rows, strict=True))
+        start, end, centre, kind, plane, turns, feed, line, state = (
+            list(column) for column in zip(*self.rows, strict=True)
+        )
         return Motions(
-            np.array(start, float), np.array(end, float), np.array(centre, float), np.array(kind, np.uint8), np.array(plane, np.uint8),
-            np.array(turns, np.int32), np.array(feed, float), np.array(line, np.int32), np.array(state, np.int32), self.splines,
-        )  # fmt: skip
+            np.array(start, float),
+            np.array(end, float),
+            np.array(centre, float),
+            np.array(kind, np.uint8),
+            np.array(plane, np.uint8),
+            np.array(turns, np.int32),
+            np.array(feed, float),
+            np.array(line, np.int32),
+            np.array(state, np.int32),
+            self.splines,
+        )
 
     def program(self, *states: ModalState, events: tuple[Event, ...] = ()) -> NcProgram:
         return NcProgram(self.motions(), states or (ModalState(path="G64"),), events)

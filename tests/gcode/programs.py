@@ -53,12 +53,20 @@ class Path:
         return self.rapid(x, y, 5.0)
 
     def moves(self) -> Moves:
-        end, centre, kind, purpose, operation, tool, region, feed = (list(column) for column in zip(*self.rows, strict=True))
+        end, centre, kind, purpose, operation, tool, region, feed = (
+            list(column) for column in zip(*self.rows, strict=True)
+        )
         return Moves(
-            np.array(end, float), np.array(centre, float), np.array(kind, np.uint8), np.array(purpose, np.uint8),
-            np.array(operation, np.int16), np.array(tool, np.int16), np.array(region, np.int32), np.array(feed, float),
+            np.array(end, float),
+            np.array(centre, float),
+            np.array(kind, np.uint8),
+            np.array(purpose, np.uint8),
+            np.array(operation, np.int16),
+            np.array(tool, np.int16),
+            np.array(region, np.int32),
+            np.array(feed, float),
             np.zeros(len(kind), np.int32),
-        )  # fmt: skip
+        )
 
     def program(self, *regions: Region) -> Program:
         return Program(self.moves(), regions or (square(),))
@@ -74,13 +82,25 @@ def job(**changes: object) -> Job:
     """A job with T1 for the pocket and T2 for the contour."""
     tools = (Tool(1, 6.0), Tool(2, 3.0, spindle_speed=18000.0))
     operations = (PocketOperation(Cut(tool=1)), ContourOperation(Cut(tool=2)))
-    values: dict[str, object] = {"part": Part(name="plate"), "tools": tools, "operations": operations, "stock": Stock(2.0, 8.0)}
+    values: dict[str, object] = {
+        "part": Part(name="plate"),
+        "tools": tools,
+        "operations": operations,
+        "stock": Stock(2.0, 8.0),
+    }
     return Job(**(values | changes))  # type: ignore[arg-type]
 
 
 def two_tools() -> Path:
     """A pocket ring with T1 and a contour with arcs, a full circle and a helix with T2."""
-    path = Path().into_work(10.0, 10.0).line(30.0, 10.0, -1.0).line(30.0, 20.0, -1.0).line(10.0, 20.0, -1.0).line(10.0, 10.0, -1.0)
+    path = (
+        Path()
+        .into_work(10.0, 10.0)
+        .line(30.0, 10.0, -1.0)
+        .line(30.0, 20.0, -1.0)
+        .line(10.0, 20.0, -1.0)
+        .line(10.0, 10.0, -1.0)
+    )
     path.out_of_work()
     path.tool, path.operation, path.feed = 2, 1, 450.0
     path.into_work(8.0, 5.0).line(32.0, 5.0, -1.0).arc((35.0, 8.0, -1.0), (32.0, 8.0)).line(35.0, 22.0, -1.0)

@@ -42,7 +42,8 @@ class Canon:
     def next_line(self, state): self.line = state.sequence_number
     def straight_traverse(self, *a): self.motions.append([self.line, 0, *a[:3]])
     def straight_feed(self, *a): self.motions.append([self.line, 1, *a[:3]])
-    def arc_feed(self, x, y, cx, cy, turn, z, *rest): self.motions.append([self.line, 3 if turn > 0 else 2, x, y, z, cx, cy, turn])
+    def arc_feed(self, x, y, cx, cy, turn, z, *rest):
+        self.motions.append([self.line, 3 if turn > 0 else 2, x, y, z, cx, cy, turn])
     def set_feed_rate(self, f): self.motions.append([self.line, -1, f])
     def get_external_angular_units(self): return 1.0
     def get_external_length_units(self): return 1.0
@@ -112,7 +113,9 @@ def canonical_calls(text: str, lengths: Mapping[int, float] = MappingProxyType({
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "in.ngc").write_text(text, "ascii")
         tools = sorted({int(number) for number in re.findall(r"\bT(\d+) M6", text, re.M)})
-        (Path(folder) / "tool.tbl").write_text("".join(f"T{n} P{n} Z{lengths.get(n, 0.0) / 25.4:.8f} D0.1\n" for n in tools))
+        (Path(folder) / "tool.tbl").write_text(
+            "".join(f"T{n} P{n} Z{lengths.get(n, 0.0) / 25.4:.8f} D0.1\n" for n in tools)
+        )
         command = [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=own_home(folder))
     assert run.returncode == 0, run.stderr
@@ -125,8 +128,12 @@ def exact_motions(text: str) -> list[Motion]:
     needs_rs274()
     with tempfile.TemporaryDirectory() as folder:
         names = [str(Path(folder) / name) for name in ("in.ngc", "scratch.var", "out.json")]
-        Path(names[0]).write_text(re.sub(r"(?<=G43) H\d+$", "", re.sub(r"\bT\d+ M6$", "M1", text, flags=re.M), flags=re.M), "ascii")
-        run = subprocess.run([SYSTEM_PYTHON, "-c", READER, *names], capture_output=True, text=True, env=own_home(folder))
+        Path(names[0]).write_text(
+            re.sub(r"(?<=G43) H\d+$", "", re.sub(r"\bT\d+ M6$", "M1", text, flags=re.M), flags=re.M), "ascii"
+        )
+        run = subprocess.run(
+            [SYSTEM_PYTHON, "-c", READER, *names], capture_output=True, text=True, env=own_home(folder)
+        )
         if "No module named 'gcode'" in run.stderr:
             pytest.skip("the system's Python has no gcode module (Debian package linuxcnc-uspace)")
         assert run.returncode == 0, run.stderr
@@ -149,7 +156,9 @@ def _motions(rows: list[list[float]]) -> list[Motion]:
     return motions
 
 
-def assert_same_motion(moves: Moves, nc: NcText, job: Job, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+def assert_same_motion(
+    moves: Moves, nc: NcText, job: Job, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> None:
     """Assert that the control's motion is the moves' own to 1 um, with their sense, feed, tool and line."""
     calls, motions = canonical_calls(nc.text), exact_motions(nc.text)
     _assert_both_doors_agree(calls, motions, job.out_units)
@@ -164,7 +173,14 @@ def assert_same_motion(moves: Moves, nc: NcText, job: Job, origin: tuple[float, 
     for i in range(len(moves)):
         mine = [motion for line in range(before + 1, nc.lines[i] + 1) for motion in by_line.get(line, [])]
         mine = mine if i and moves.tool[i] == moves.tool[i - 1] else [m for m in mine if m.line == nc.lines[i]]
-        meant = Meant(start[i], end[i], complex(*centre[i]), MoveKind(moves.kind[i]), float(moves.sweeps()[i]), float(moves.feed[i]))
+        meant = Meant(
+            start[i],
+            end[i],
+            complex(*centre[i]),
+            MoveKind(moves.kind[i]),
+            float(moves.sweeps()[i]),
+            float(moves.feed[i]),
+        )
         meant.assert_moved(mine, position, job.out_units)
         position = mine[-1].end if mine else position
         before = nc.lines[i]
@@ -215,12 +231,18 @@ class Meant:
             done = np.concatenate([[0.0], np.cumsum(angles)]) / self.sweep
             assert np.max(np.abs(points[:, 2] - self.start[2] - done * rise)) <= 3 * UM, (self, motions)
         if abs(self.sweep) > math.pi / 2 and radius > 0.01:
-            assert all(abs(m.centre - self.centre) <= UM for m in motions if m.centre is not None and abs(m.sweep()) > math.pi / 2)
+            assert all(
+                abs(m.centre - self.centre) <= UM
+                for m in motions
+                if m.centre is not None and abs(m.sweep()) > math.pi / 2
+            )
 
 
 def _assert_both_doors_agree(calls: list[tuple[str, list[str]]], motions: list[Motion], units: Units) -> None:
     """rs274's own motion is that of the exact reading, to its 4 decimals."""
-    printed = [(name, [float(a) for a in arguments]) for name, arguments in calls if name in KINDS or name == "ARC_FEED"]
+    printed = [
+        (name, [float(a) for a in arguments]) for name, arguments in calls if name in KINDS or name == "ARC_FEED"
+    ]
     assert len(printed) == len(motions)
     for (name, numbers), motion in zip(printed, motions, strict=True):
         if name == "ARC_FEED":

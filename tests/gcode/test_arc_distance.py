@@ -1,4 +1,6 @@
-"""The bound on the distance of a written motion from its stretch of an arc: never less than what is there, and hardly more."""
+"""The bound on the distance of a written motion from its stretch of an arc: never less than what is there, and hardly
+more.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +20,25 @@ def points(arc: np.ndarray, t: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("seed", range(300))
 def test_it_is_an_upper_bound_and_near(seed: int) -> None:
     chance = np.random.default_rng(seed)
-    radius, sweep = 10.0 ** chance.uniform(-2, 3), chance.choice([-1, 1]) * 10.0 ** chance.uniform(-3, math.log10(2 * math.pi))
-    meant = np.array([*chance.normal(0, 10, 2), radius, radius * (1 + 1e-6 * chance.normal()), chance.uniform(-4, 4), sweep])
+    radius, sweep = (
+        10.0 ** chance.uniform(-2, 3),
+        chance.choice([-1, 1]) * 10.0 ** chance.uniform(-3, math.log10(2 * math.pi)),
+    )
+    meant = np.array(
+        [*chance.normal(0, 10, 2), radius, radius * (1 + 1e-6 * chance.normal()), chance.uniform(-4, 4), sweep]
+    )
     first, last = sorted(chance.uniform(0, 1, 2))
     error = 10.0 ** chance.uniform(-6, -2)
     size = last - first
-    written = np.array([*(meant[:2] + error * chance.normal(0, 1, 2)), radius + error * chance.normal(), radius + error * chance.normal(),
-                        meant[4] + sweep * first, sweep * size + error / radius * chance.normal()])  # fmt: skip
+    written = np.array(
+        [
+            *(meant[:2] + error * chance.normal(0, 1, 2)),
+            radius + error * chance.normal(),
+            radius + error * chance.normal(),
+            meant[4] + sweep * first,
+            sweep * size + error / radius * chance.normal(),
+        ]
+    )
     t = np.linspace(0, 1, 20_001)
     straight = bool(chance.integers(2))
     there = points(written, t)

@@ -20,7 +20,9 @@ MM3 = ArcRules(3, 3, 1e-3, math.radians(355), 0.002, 1e5, 0.02)
 INCH5 = ArcRules(5, 5, 2e-5, math.radians(355), 0.002 / 25.4, 4000.0, 0.001)
 INCH4 = ArcRules(4, 4, 0.866e-4, math.radians(355), 0.005 / 25.4, 400.0, 0.01 / 25.4)
 TIGHT = replace(MM3, radius_mismatch=0.0006)
-RULES = pytest.mark.parametrize("rules", [MM4, MM3, INCH5, INCH4, TIGHT], ids=["mm 4", "mm 3", "inch 5", "inch 4", "tight"])
+RULES = pytest.mark.parametrize(
+    "rules", [MM4, MM3, INCH5, INCH4, TIGHT], ids=["mm 4", "mm 3", "inch 5", "inch 4", "tight"]
+)
 
 
 def grid(point: complex, rules: ArcRules) -> tuple[int, int]:
@@ -70,9 +72,13 @@ signed = st.one_of(st.floats(1e-4, math.tau), st.just(math.tau), st.floats(1e-9,
 @RULES
 @settings(max_examples=examples(400), deadline=None)
 @given(
-    x=st.floats(-500, 500), y=st.floats(-500, 500), radius=st.one_of(st.floats(1e-4, 0.1), st.floats(0.1, 100), st.floats(100, 1e7)),
-    angle=st.floats(-math.pi, math.pi), sweep=signed, ccw=st.booleans(),
-)  # fmt: skip
+    x=st.floats(-500, 500),
+    y=st.floats(-500, 500),
+    radius=st.one_of(st.floats(1e-4, 0.1), st.floats(0.1, 100), st.floats(100, 1e7)),
+    angle=st.floats(-math.pi, math.pi),
+    sweep=signed,
+    ccw=st.booleans(),
+)
 def test_the_written_arc_is_the_meant_one(
     rules: ArcRules, x: float, y: float, radius: float, angle: float, sweep: float, ccw: bool
 ) -> None:
@@ -93,7 +99,9 @@ def radii_gap(start: tuple[int, int], end: tuple[int, int], offset: tuple[int, i
 
 
 def test_centres_are_solved_again_and_not_just_rounded() -> None:
-    """At 3 decimals plain rounding parts the radii by 2 um; solved, they part by 1.4 um at most, and by a quarter less as a rule."""
+    """At 3 decimals plain rounding parts the radii by 2 um; solved, they part by 1.4 um at most, and by a quarter less
+    as a rule.
+    """
     shapes = np.random.default_rng(1).uniform([-100, -100, 0.1, -3, 0.2], [100, 100, 50, 3, 3], (2000, 5)).tolist()
     plain, solved = [], []
     for x, y, radius, angle, sweep in shapes:
@@ -136,7 +144,9 @@ def test_flat_and_huge_arcs_become_lines() -> None:
 
 
 def test_flat_arcs_are_lines_only_where_rounding_leaves_room() -> None:
-    """Where a step of the last decimal is more than a tolerance of 1 um, a chord's bulge and its rounded ends share that step."""
+    """Where a step of the last decimal is more than a tolerance of 1 um, a chord's bulge and its rounded ends share
+    that step.
+    """
     step, rng = 10.0**-INCH4.decimals, np.random.default_rng(3)
     for bulge, radius, x, y, angle in rng.uniform([0.15, 0.05, -1, -1, -3], [0.5, 2, 1, 1, 3], (3000, 5)).tolist():
         arc = round_arc(complex(x, y), radius, angle, 2 * math.acos(1 - bulge * step / radius))
@@ -160,14 +170,21 @@ def test_many_arcs_at_once_are_each_by_itself(rules: ArcRules) -> None:
     shapes = np.random.default_rng(5).uniform([-100, -100, -4, -3, -6], [100, 100, 3, 3, 6], (300, 5))
     shapes[::60, 2], shapes[::60, 4], shapes[1::60, 4] = 5.5, 0.02, 1e-9
     arcs = [round_arc(complex(x, y), 10.0**size, angle, sweep) for x, y, size, angle, sweep in shapes.tolist()]
-    rows = np.array([(arc.centre.real, arc.centre.imag, arc.start_radius, arc.end_radius, arc.start_angle, arc.sweep) for arc in arcs])
+    rows = np.array(
+        [
+            (arc.centre.real, arc.centre.imag, arc.start_radius, arc.end_radius, arc.start_angle, arc.sweep)
+            for arc in arcs
+        ]
+    )
     ends = np.array([(*grid(arc.at(0), rules), *grid(arc.at(1), rules)) for arc in arcs])
     found, begin = all_pieces(rows, ends, rules), 0
     for arc, (x0, y0, x1, y1), stop in zip(arcs, ends.tolist(), found.stops.tolist(), strict=True):
         alone = written_pieces(arc, (x0, y0), (x1, y1), rules)
         assert [piece.end for piece in alone] == [tuple(end) for end in found.end[begin:stop].tolist()]
         assert [piece.fraction for piece in alone] == found.fraction[begin:stop].tolist()
-        assert [piece.centre or (0, 0) for piece in alone] == [tuple(centre) for centre in found.centre[begin:stop].tolist()]
+        assert [piece.centre or (0, 0) for piece in alone] == [
+            tuple(centre) for centre in found.centre[begin:stop].tolist()
+        ]
         assert [piece.centre is not None for piece in alone] == found.round[begin:stop].tolist()
         begin = stop
     assert begin == len(found.end) > 2 * len(arcs) + 16
@@ -178,5 +195,7 @@ def test_no_arcs_have_no_pieces() -> None:
 
 
 def test_an_arc_of_no_numbers_is_refused() -> None:
-    with pytest.raises(GeometryError, match=r"The arc round X1 Y2 of radius nan cannot be written within 0\.0002; write more decimals"):
+    with pytest.raises(
+        GeometryError, match=r"The arc round X1 Y2 of radius nan cannot be written within 0\.0002; write more decimals"
+    ):
         written_pieces(MeantArc(1 + 2j, math.nan, math.nan, 0.0, 1.0), (0, 0), (1, 1), MM4)

@@ -1,4 +1,6 @@
-"""Whole stretches of motions as text, against a plain writer that does one after the other, for every post and both units."""
+"""Whole stretches of motions as text, against a plain writer that does one after the other, for every post and both
+units.
+"""
 
 from __future__ import annotations
 
@@ -62,11 +64,18 @@ class OneByOne:
         words, digits, said = self.post.words, self.post.digits(self.units), {}
         for axis, letter in enumerate("XYZ"):
             if end[axis] != UNKNOWN and (end[axis] != self.place[axis] or (kind > 1 and axis < 2)):
-                said[letter] = letter + self.spelled(end[axis], (digits.X, digits.Y, digits.Z)[axis], words.trailing_zeros)
+                said[letter] = letter + self.spelled(
+                    end[axis], (digits.X, digits.Y, digits.Z)[axis], words.trailing_zeros
+                )
         if kind > 1:
             absolute = self.post.arcs.centre is ArcCentre.ABSOLUTE
-            x, y = ((0 if place == UNKNOWN else place) * absolute * 10 ** (digits.I - digits.X) for place in self.place[:2])
-            said |= {letter: letter + self.spelled(count, digits.I, words.trailing_zeros) for letter, count in (("I", i + x), ("J", j + y))}
+            x, y = (
+                (0 if place == UNKNOWN else place) * absolute * 10 ** (digits.I - digits.X) for place in self.place[:2]
+            )
+            said |= {
+                letter: letter + self.spelled(count, digits.I, words.trailing_zeros)
+                for letter, count in (("I", i + x), ("J", j + y))
+            }
         if not said:
             return
         self.end_cycle()
@@ -87,27 +96,46 @@ moves = st.one_of(
     st.tuples(st.just(1), small, small, small, st.just(0), st.just(0), feeds),
     st.tuples(st.sampled_from([2, 3]), small, far, small, far, small, feeds),
 )
-stretches = st.lists(st.tuples(st.sampled_from(["", "", "M5", "forget", "up", "hole"]), st.lists(moves, max_size=8)), max_size=6)
+stretches = st.lists(
+    st.tuples(st.sampled_from(["", "", "M5", "forget", "up", "hole"]), st.lists(moves, max_size=8)), max_size=6
+)
 
 
 def with_variants(post: Post) -> tuple[Post, ...]:
     """The post itself, and one that does everything the other way."""
     words, centre = post.words, post.arcs.centre
-    turned = replace(words, order=words.order[::-1], motion=("G00", "G01", "G02", "G03"), modal_motion=not words.modal_motion,
-                     trailing_zeros=not words.trailing_zeros, feed_point=not words.feed_point)  # fmt: skip
+    turned = replace(
+        words,
+        order=words.order[::-1],
+        motion=("G00", "G01", "G02", "G03"),
+        modal_motion=not words.modal_motion,
+        trailing_zeros=not words.trailing_zeros,
+        feed_point=not words.feed_point,
+    )
     finer = replace(post.decimals.mm, X=2, Y=2, Z=3, I=6, J=6, F=0)
     other = ArcCentre.INCREMENTAL if centre is ArcCentre.ABSOLUTE else ArcCentre.ABSOLUTE
-    return post, replace(post, words=turned, decimals=replace(post.decimals, mm=finer), numbers=Numbers(not post.numbers.use, 99950, 7),
-                         arcs=replace(post.arcs, centre=other))  # fmt: skip
+    return post, replace(
+        post,
+        words=turned,
+        decimals=replace(post.decimals, mm=finer),
+        numbers=Numbers(not post.numbers.use, 99950, 7),
+        arcs=replace(post.arcs, centre=other),
+    )
 
 
-POSTS = [(name + kind, post) for name in post_names() for kind, post in zip(("", " turned"), with_variants(load_post(name)), strict=True)]
+POSTS = [
+    (name + kind, post)
+    for name in post_names()
+    for kind, post in zip(("", " turned"), with_variants(load_post(name)), strict=True)
+]
 
 
 @pytest.mark.parametrize("post", [post for _, post in POSTS], ids=[name for name, _ in POSTS])
 @settings(max_examples=examples(60), deadline=None)
 @given(stretches=stretches, units=st.sampled_from([Units.MM, Units.INCH]))
-def test_stretches_are_written_as_one_motion_after_the_other(post: Post, stretches: list[tuple[str, list[Row]]], units: Units) -> None:
+def test_stretches_are_written_as_one_motion_after_the_other(
+    post: Post, stretches: list[tuple[str, list[Row]]], units: Units
+) -> None:
     sheet, plain = Blocks(post, units), OneByOne(post, units)
     for before, rows in stretches:
         if before == "forget":
@@ -117,11 +145,19 @@ def test_stretches_are_written_as_one_motion_after_the_other(post: Post, stretch
             sheet.rapid_z(7)
             plain.move((0, plain.place[0], plain.place[1], 7, 0, 0, NO_FEED))
         elif before == "hole":
-            sheet.hole(Hole("G98 G81", 4, 5, -6, 2, 0, 300, 2), [(MoveKind.RAPID, (4, 5, 2)), (MoveKind.LINE, (4, 5, -6))])
+            sheet.hole(
+                Hole("G98 G81", 4, 5, -6, 2, 0, 300, 2), [(MoveKind.RAPID, (4, 5, 2)), (MoveKind.LINE, (4, 5, -6))]
+            )
             plain.lines.append(sheet.lines[-1])
             if len(sheet.lines) > len(plain.lines):  # a cycle that was in force ended before
                 plain.lines.insert(-1, sheet.lines[-2])
-            plain.place, plain.motion, plain.feed, plain.cycle, plain.number = [4, 5, -6], "", 300, "G98 G81", int(sheet._state[5])
+            plain.place, plain.motion, plain.feed, plain.cycle, plain.number = (
+                [4, 5, -6],
+                "",
+                300,
+                "G98 G81",
+                int(sheet._state[5]),
+            )
             plain.motion_line = sheet.motion_line
         elif before:
             sheet.block(before)

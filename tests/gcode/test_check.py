@@ -104,38 +104,41 @@ def line_of(text: str) -> int:
     return next(k for k, line in enumerate(TEXT.splitlines(), 1) if text in line)
 
 
-@pytest.mark.parametrize(("old", "new", "words"), [
-    ("X30.0000 F600", "X30.0010 F600", "the written path is 0.0010 mm from the move to X30.0000 Y10.0000"),
-    ("X30.0000", "X-30.0000", "from the move to X30.0000"),
-    ("X30.0000", "X3.0000", "from the move to X30.0000"),
-    ("Z-1.0000", "Z1.0000", "the written path is 2.0000 mm"),
-    ("G3 X35.0000", "G2 X35.0000", "this is G2 where G3 was meant"),
-    ("F450", "F4500", "the feed is 4500 mm/min where 450 was meant"),
-    ("S18000 M3", "S18000", "the spindle does not turn clockwise"),
-    ("S18000 M3", "S18000 M4", "the spindle does not turn clockwise"),
-    ("S18000", "S1800", "the spindle speed is S1800 where S18000 was meant"),
-    ("T2 M6", "T1 M6", "T1 is in the spindle where T2 was meant"),
-    ("T2 M6", "T3 M6", "tool 3 is not in the tool table"),
-    ("T2 M6\n", "", "T1 is in the spindle where T2 was meant"),
-    ("G43\n", "", "the tool length is H0 where H1 was meant"),
-    ("G54\n", "G55\n", "the work offset is G55"),
-    ("G91.1\n", "G90.1\n", "the arc does not end on its circle"),
-    ("G17 G21", "G17 G20", "from the move to"),
-    ("G90 G94", "G91 G94", "the arc does not end on its circle"),
-    ("G90 G94", "G90 G93", "needs a feed rate"),
-    ("G64 P0.0100 Q0", "G64 P0.1 Q0", "the control may leave the path by 0.1 mm"),
-    ("G64 P0.0100 Q0", "G64 P0.0100 Q0.2", "the control may leave the path by 0.2 mm"),
-    ("G64 P0.0100 Q0", "G64", "the control may leave the path by inf mm"),
-    ("G4 P2\n", "", "the spindle has 0 s to reach its speed, not 2"),
-    ("M2\n", "", "the program has no end"),
-    ("M2\n", "M2\nG0 X0\n", ""),
-    ("M5\nM2", "M5\nG0 Z-3\nM2", "belongs to no move of the path and is no lift"),
-    ("M5\nM2", "M5\nM1\nM2", "there is a optional stop here"),
-    ("G54\n", "G54\nG10 L2 P1 X1\n", "the work offset is G54, shifted by (1.0, 0.0, 0.0)"),
-    ("G54\n", "G54\nG52 Y-2\n", "the work offset is G54, shifted by (0.0, -2.0, 0.0)"),
-    ("G54\n", "G54\nG41 D1\n", "G41 needs the diameter"),
-    ("G54\n", "G54\n?\n", ""),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("X30.0000 F600", "X30.0010 F600", "the written path is 0.0010 mm from the move to X30.0000 Y10.0000"),
+        ("X30.0000", "X-30.0000", "from the move to X30.0000"),
+        ("X30.0000", "X3.0000", "from the move to X30.0000"),
+        ("Z-1.0000", "Z1.0000", "the written path is 2.0000 mm"),
+        ("G3 X35.0000", "G2 X35.0000", "this is G2 where G3 was meant"),
+        ("F450", "F4500", "the feed is 4500 mm/min where 450 was meant"),
+        ("S18000 M3", "S18000", "the spindle does not turn clockwise"),
+        ("S18000 M3", "S18000 M4", "the spindle does not turn clockwise"),
+        ("S18000", "S1800", "the spindle speed is S1800 where S18000 was meant"),
+        ("T2 M6", "T1 M6", "T1 is in the spindle where T2 was meant"),
+        ("T2 M6", "T3 M6", "tool 3 is not in the tool table"),
+        ("T2 M6\n", "", "T1 is in the spindle where T2 was meant"),
+        ("G43\n", "", "the tool length is H0 where H1 was meant"),
+        ("G54\n", "G55\n", "the work offset is G55"),
+        ("G91.1\n", "G90.1\n", "the arc does not end on its circle"),
+        ("G17 G21", "G17 G20", "from the move to"),
+        ("G90 G94", "G91 G94", "the arc does not end on its circle"),
+        ("G90 G94", "G90 G93", "needs a feed rate"),
+        ("G64 P0.0100 Q0", "G64 P0.1 Q0", "the control may leave the path by 0.1 mm"),
+        ("G64 P0.0100 Q0", "G64 P0.0100 Q0.2", "the control may leave the path by 0.2 mm"),
+        ("G64 P0.0100 Q0", "G64", "the control may leave the path by inf mm"),
+        ("G4 P2\n", "", "the spindle has 0 s to reach its speed, not 2"),
+        ("M2\n", "", "the program has no end"),
+        ("M2\n", "M2\nG0 X0\n", ""),
+        ("M5\nM2", "M5\nG0 Z-3\nM2", "belongs to no move of the path and is no lift"),
+        ("M5\nM2", "M5\nM1\nM2", "there is a optional stop here"),
+        ("G54\n", "G54\nG10 L2 P1 X1\n", "the work offset is G54, shifted by (1.0, 0.0, 0.0)"),
+        ("G54\n", "G54\nG52 Y-2\n", "the work offset is G54, shifted by (0.0, -2.0, 0.0)"),
+        ("G54\n", "G54\nG41 D1\n", "G41 needs the diameter"),
+        ("G54\n", "G54\n?\n", ""),
+    ],
+)
 def test_a_change_is_told_with_its_line(old: str, new: str, words: str) -> None:
     assert old in TEXT
     found = problems(TEXT.replace(old, new, 1))
@@ -149,7 +152,9 @@ def test_a_change_is_told_with_its_line(old: str, new: str, words: str) -> None:
 def test_the_first_difference_is_refused_with_its_line() -> None:
     (file,) = LINUXCNC.files
     changed = LINUXCNC.check(file, TEXT.replace("X30.0000", "X30.1000", 1))
-    with pytest.raises(HitofudeError, match=rf"^part\.ngc:{line_of('X30.0000')}: the written path is 0\.1000 mm .* it is not kept"):
+    with pytest.raises(
+        HitofudeError, match=rf"^part\.ngc:{line_of('X30.0000')}: the written path is 0\.1000 mm .* it is not kept"
+    ):
         changed.require("part.ngc")
     LINUXCNC.check(file).require("part.ngc")
 
@@ -163,8 +168,11 @@ def test_a_missing_point_on_a_fanuc_is_a_thousandth() -> None:
 
 
 def test_home_goes_up_and_nowhere_else() -> None:
-    for name, old, new in (("fanuc", "G91 G28 Z0.", "G91 G28 Z-9."), ("fanuc", "G91 G28 Z0.\nG90\n(T2", "G91 G28 X0. Z0.\nG90\n(T2"),
-                           ("haas", "G53 G0 Z0.", "G53 G0 Z-1.")):
+    for name, old, new in (
+        ("fanuc", "G91 G28 Z0.", "G91 G28 Z-9."),
+        ("fanuc", "G91 G28 Z0.\nG90\n(T2", "G91 G28 X0. Z0.\nG90\n(T2"),
+        ("haas", "G53 G0 Z0.", "G53 G0 Z-1."),
+    ):
         written = Written(load_post(name))
         (file,) = written.files
         assert old in file.nc.text
@@ -183,7 +191,10 @@ def test_a_tool_whose_length_is_taken_and_not_gone_to_is_told() -> None:
     written = Written(load_post("fanuc"))
     (file,) = written.files
     assert "G43 H2 Z5." in file.nc.text
-    assert any("does not go to clearance" in text for _, text in problems(file.nc.text.replace("G43 H2 Z5.", "G43 H2"), written))
+    assert any(
+        "does not go to clearance" in text
+        for _, text in problems(file.nc.text.replace("G43 H2 Z5.", "G43 H2"), written)
+    )
     second = TEXT.index("T2 M6")
     bare = TEXT[:second] + TEXT[second:].replace("G0 Z5.0000", "G0", 1)  # stays where the other tool was lifted to
     assert any("does not go to clearance" in text for _, text in problems(bare))
@@ -200,14 +211,28 @@ def points(read: NcProgram) -> list[tuple[object, ...]]:
     told = []
     for row in np.flatnonzero(moving).tolist():
         state = read.states[motions.state[row]]
-        told.append((motions.end[row].round(9).tolist(), int(motions.kind[row]), arcs.get(row), float(motions.feed[row]), state.tool,
-                     state.length_offset, state.spindle, state.speed, state.flood, state.mist))  # fmt: skip
+        told.append(
+            (
+                motions.end[row].round(9).tolist(),
+                int(motions.kind[row]),
+                arcs.get(row),
+                float(motions.feed[row]),
+                state.tool,
+                state.length_offset,
+                state.spindle,
+                state.speed,
+                state.flood,
+                state.mist,
+            )
+        )
     return told
 
 
 def same_motion(text: str, changed: str, post: Post) -> bool:
     """Whether a changed text does what the text does; one that is refused does not."""
-    first, second = (read_program(each.encode("latin-1"), ReadOptions(dialect=post.dialect)) for each in (text, changed))
+    first, second = (
+        read_program(each.encode("latin-1"), ReadOptions(dialect=post.dialect)) for each in (text, changed)
+    )
     return not second.problems and points(first) == points(second)
 
 
@@ -215,9 +240,15 @@ def nearly_same_motion(text: str, changed: str, written: Written) -> bool:
     """Whether a changed text differs by less than the rounding that the check allows, and in nothing else."""
     options = ReadOptions(dialect=written.post.dialect)
     first, second = (read_program(each.encode("latin-1"), options) for each in (text, changed))
-    if second.problems or len(first.motions) != len(second.motions) or not np.array_equal(first.motions.kind, second.motions.kind):
+    if (
+        second.problems
+        or len(first.motions) != len(second.motions)
+        or not np.array_equal(first.motions.kind, second.motions.kind)
+    ):
         return False
-    gap = max(float(np.max(np.abs(getattr(first.motions, end) - getattr(second.motions, end)))) for end in ("start", "end"))
+    gap = max(
+        float(np.max(np.abs(getattr(first.motions, end) - getattr(second.motions, end)))) for end in ("start", "end")
+    )
     middle = [arc_paths(read.motions).points(np.linspace(0, 1, 9)) for read in (first, second)]
     step = 2.1 * writing_tolerance(written.job, written.post)
     inside = float(np.max(np.abs(middle[0] - middle[1]), initial=0.0))
@@ -226,7 +257,9 @@ def nearly_same_motion(text: str, changed: str, written: Written) -> bool:
 
 
 ALPHABET = "0123456789.-XYZGMFSTIJNAHP/#( \n"
-CASES = {name: Written(load_post(name), **({"out_units": Units.INCH} if name == "haas" else {})) for name in post_names()}  # type: ignore[arg-type]
+CASES = {
+    name: Written(load_post(name), **({"out_units": Units.INCH} if name == "haas" else {})) for name in post_names()
+}  # type: ignore[arg-type]
 
 
 @st.composite
@@ -239,7 +272,9 @@ def mutations(draw: st.DrawFn) -> tuple[str, int, str]:
     at = draw(st.sampled_from(code))
     line = lines[at]
     place = draw(st.integers(0, len(line) - 1))
-    kind = draw(st.sampled_from(["digit", "digit", "digit", "replace", "insert", "delete", "drop", "double", "swap", "sign"]))
+    kind = draw(
+        st.sampled_from(["digit", "digit", "digit", "replace", "insert", "delete", "drop", "double", "swap", "sign"])
+    )
     if kind == "drop":
         lines[at] = ""
     elif kind == "double":
@@ -297,9 +332,17 @@ def test_checking_fifty_thousand_moves_takes_well_under_a_second() -> None:
 
 
 HOPELESS = (
-    "", "%\n", "M2\n", "G0 X1 Y1 Z5\nM2\n", "\x00\xff", "(" * 500, "G81 X1\n" * 50, "o1 call\n", TEXT[: len(TEXT) // 2],
+    "",
+    "%\n",
+    "M2\n",
+    "G0 X1 Y1 Z5\nM2\n",
+    "\x00\xff",
+    "(" * 500,
+    "G81 X1\n" * 50,
+    "o1 call\n",
+    TEXT[: len(TEXT) // 2],
     TEXT[9:] + TEXT,
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize("text", HOPELESS, ids=range(len(HOPELESS)))

@@ -1,4 +1,6 @@
-"""The check of blocks that are no moves: what the reader passes over or obeys without a motion is the post's, in its order."""
+"""The check of blocks that are no moves: what the reader passes over or obeys without a motion is the post's, in its
+order.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,11 @@ def test_a_block_that_is_left_out_put_in_or_slashed_is_told_wherever_it_is(name:
     written = Written(replace(post, coolant=replace(post.coolant, use=Coolant.FLOOD)))
     for number, file in enumerate(written.files):
         lines = file.nc.text.splitlines()
-        blocks = [k for k, line in enumerate(lines) if re.match(r"[GMTSO%]", line) and not re.fullmatch(r"G[0-3]( [XYZIJF][-.\d]+)+", line)]
+        blocks = [
+            k
+            for k, line in enumerate(lines)
+            if re.match(r"[GMTSO%]", line) and not re.fullmatch(r"G[0-3]( [XYZIJF][-.\d]+)+", line)
+        ]
         assert sum("M9" in lines[k] for k in blocks) == sum("M5" in lines[k] for k in blocks) >= 1
         for k in blocks:
             for new in ("", f"({lines[k]})", f"/{lines[k]}", f"{lines[k]} A90"):
@@ -41,11 +47,48 @@ def test_a_block_that_is_left_out_put_in_or_slashed_is_told_wherever_it_is(name:
                 assert problems(changed, written, number), (lines[k], new)
 
 
-@pytest.mark.parametrize("line", [
-    "G10 L2 P2 X1", "G10 L1 P1 Z1", "G28.1", "G30.1", "#5221=1", "#1=1", "M64 P0", "M66 P0 L0", "M50 P0", "M49", "M48", "G92.1", "G92 X1",
-    "G52 X1", "M4", "M8", "M7", "N5", "T5", "A90", "G0 A90", "G0 B1 C1", "G1 U1", "/G0 X1", "/M0", "G61.1", "G64", "G187 E9", "M19", "M3",
-    "M98 P1", "M60", "M6", "G4 P1", "S9", "F9", "H1",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "line",
+    [
+        "G10 L2 P2 X1",
+        "G10 L1 P1 Z1",
+        "G28.1",
+        "G30.1",
+        "#5221=1",
+        "#1=1",
+        "M64 P0",
+        "M66 P0 L0",
+        "M50 P0",
+        "M49",
+        "M48",
+        "G92.1",
+        "G92 X1",
+        "G52 X1",
+        "M4",
+        "M8",
+        "M7",
+        "N5",
+        "T5",
+        "A90",
+        "G0 A90",
+        "G0 B1 C1",
+        "G1 U1",
+        "/G0 X1",
+        "/M0",
+        "G61.1",
+        "G64",
+        "G187 E9",
+        "M19",
+        "M3",
+        "M98 P1",
+        "M60",
+        "M6",
+        "G4 P1",
+        "S9",
+        "F9",
+        "H1",
+    ],
+)
 @pytest.mark.parametrize("name", ["linuxcnc", "haas", "grbl"])
 def test_a_block_that_the_post_does_not_say_is_told(line: str, name: str) -> None:
     written = Written(load_post(name))
@@ -77,28 +120,38 @@ def test_a_spindle_that_starts_before_the_change_is_told() -> None:
     assert "the spindle turns while the tool is changed; write M5 before." in texts(found.files[0].nc.text, found)
 
 
-@pytest.mark.parametrize(("blocks", "words"), [
-    ({"leave": ()}, "the spindle turns while the tool is changed; write M5 before."),
-    ({"leave": ("M9",), "end": ("M30",)}, "the spindle turns at the end of the program; write M5 before."),
-    ({"end": ("M8", "M2")}, "the coolant flows at the end of the program; write M9 before."),
-    ({"end": ("G10 L2 P1 X5", "M2")}, "G10 sets something that the path does not know or that stays in the machine"),
-    ({"end": ("G28.1", "M2")}, "G28.1 sets something"),
-    ({"end": ("M64 P0", "M2")}, "M64 sets something"),
-    ({"end": ("M50 P0", "M2")}, "M50 sets something"),
-    ({"end": ("M49", "M2")}, "M49 sets something"),
-    ({"end": ("G92.1", "M2")}, "G92.1 sets something"),
-    ({"end": ("#5221=0", "M2")}, "plain blocks of letters and numbers alone"),
-    ({"end": ("/M8", "M9", "M2")}, "plain blocks of letters and numbers alone"),
-    ({"end": ("G0 A0", "M2")}, "A0 moves an axis that no path is checked for"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("blocks", "words"),
+    [
+        ({"leave": ()}, "the spindle turns while the tool is changed; write M5 before."),
+        ({"leave": ("M9",), "end": ("M30",)}, "the spindle turns at the end of the program; write M5 before."),
+        ({"end": ("M8", "M2")}, "the coolant flows at the end of the program; write M9 before."),
+        (
+            {"end": ("G10 L2 P1 X5", "M2")},
+            "G10 sets something that the path does not know or that stays in the machine",
+        ),
+        ({"end": ("G28.1", "M2")}, "G28.1 sets something"),
+        ({"end": ("M64 P0", "M2")}, "M64 sets something"),
+        ({"end": ("M50 P0", "M2")}, "M50 sets something"),
+        ({"end": ("M49", "M2")}, "M49 sets something"),
+        ({"end": ("G92.1", "M2")}, "G92.1 sets something"),
+        ({"end": ("#5221=0", "M2")}, "plain blocks of letters and numbers alone"),
+        ({"end": ("/M8", "M9", "M2")}, "plain blocks of letters and numbers alone"),
+        ({"end": ("G0 A0", "M2")}, "A0 moves an axis that no path is checked for"),
+    ],
+)
 def test_what_a_post_must_not_write_is_told(blocks: dict[str, tuple[str, ...]], words: str) -> None:
     written = of("linuxcnc", **blocks)
     assert words in texts(written.files[0].nc.text, written)
 
 
 def test_blocks_of_ones_own_are_taken_as_they_are_spelled() -> None:
-    written = of("fanuc", tool=("T{tool} M06", "G00 G43 Z{clearance} H{tool}", "S{speed} M03", "G04 P{dwell_ms}", "{preselect}"),
-                 start=("(SHOP RULES)", "G17 {units} G90 G94 G40 G49 G80 G69 G15", "G54", "G64"), end=("M01", "M30", "%"))  # fmt: skip
+    written = of(
+        "fanuc",
+        tool=("T{tool} M06", "G00 G43 Z{clearance} H{tool}", "S{speed} M03", "G04 P{dwell_ms}", "{preselect}"),
+        start=("(SHOP RULES)", "G17 {units} G90 G94 G40 G49 G80 G69 G15", "G54", "G64"),
+        end=("M01", "M30", "%"),
+    )
     (file,) = written.files
     assert written.check(file).problems == ()
     assert written.check(file, file.nc.text.replace("M06", "M6").replace("(SHOP RULES)", "(OTHERS)")).problems == ()
@@ -144,15 +197,40 @@ def test_a_tool_that_is_changed_in_the_work_is_told() -> None:
     assert "is not lifted to clearance" in texts(file.nc.text.replace("G0 Z5.0000\nM5\n", "\nM5\n", 1), written)
 
 
-pieces = st.sampled_from([
-    "G", "g", "X", "y", "N10", "0", "00", "1", "81", "98", "2.", ".5", "-", "+", ".", " ", "\t", "\r", "M5", "(", "é", "\n",
-])  # fmt: skip
+pieces = st.sampled_from(
+    [
+        "G",
+        "g",
+        "X",
+        "y",
+        "N10",
+        "0",
+        "00",
+        "1",
+        "81",
+        "98",
+        "2.",
+        ".5",
+        "-",
+        "+",
+        ".",
+        " ",
+        "\t",
+        "\r",
+        "M5",
+        "(",
+        "é",
+        "\n",
+    ]
+)
 
 
 @settings(max_examples=examples(300), deadline=None)
 @given(text=st.lists(pieces, max_size=30).map("".join), name=st.sampled_from(post_names()))
 def test_lines_that_are_passed_over_at_once_only_move(text: str, name: str) -> None:
-    """By the pattern that looks at one line after the other; of spaces beyond ASCII the other way round is not promised."""
+    """By the pattern that looks at one line after the other; of spaces beyond ASCII the other way round is not
+    promised.
+    """
     post = load_post(name)
     plain = check_blocks._moves_alone(post)
     slow = [number for number, line in enumerate(text.split("\n"), start=1) if plain.fullmatch(line) is None]
@@ -165,11 +243,33 @@ def test_a_post_without_g_words_of_motion_has_lines_that_only_move() -> None:
     assert check_blocks._lines_with_more("X1 Y2\nG1 X1\n", bare).tolist() == [2]
 
 
-@pytest.mark.parametrize(("line", "moves"), [
-    ("", True), ("N10 G1 X1.5 Y-.5 Z+2. F100", True), ("g00x1i0j2r3q4", True), ("G0", True), ("G83 X1", True), ("G098", True),
-    ("X1.2.3", False), ("X", False), ("X-", False), ("X.", False), ("X 1", False), ("X--1", False), ("G1.", False), ("G10", False),
-    ("G", False), ("G 1", False), ("G01.5", False), ("G8", False), ("M5", False), ("X1 (far)", False), ("A1", False), ("1", False),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "moves"),
+    [
+        ("", True),
+        ("N10 G1 X1.5 Y-.5 Z+2. F100", True),
+        ("g00x1i0j2r3q4", True),
+        ("G0", True),
+        ("G83 X1", True),
+        ("G098", True),
+        ("X1.2.3", False),
+        ("X", False),
+        ("X-", False),
+        ("X.", False),
+        ("X 1", False),
+        ("X--1", False),
+        ("G1.", False),
+        ("G10", False),
+        ("G", False),
+        ("G 1", False),
+        ("G01.5", False),
+        ("G8", False),
+        ("M5", False),
+        ("X1 (far)", False),
+        ("A1", False),
+        ("1", False),
+    ],
+)
 def test_which_lines_only_move(line: str, moves: bool) -> None:
     """The one line among others that move, and it alone."""
     post = load_post("linuxcnc")

@@ -59,7 +59,10 @@ def test_an_empty_program_lacks_everything():
 
 
 def test_a_line_in_two_halves_is_the_same_path():
-    whole, halves = Course().line(10, 0).line(10, 10).line(0, 10), Course().line(10, 0).line(10, 4).line(10, 10).line(0, 10)
+    whole, halves = (
+        Course().line(10, 0).line(10, 10).line(0, 10),
+        Course().line(10, 0).line(10, 4).line(10, 10).line(0, 10),
+    )
     found = compare(whole.program(), halves.program(), TOLERANCE)
     (item,) = found.items
     assert (item.kind, item.a.first, item.a.stop, item.b.first, item.b.stop) == (DifferenceKind.SAME_PATH, 1, 2, 1, 3)
@@ -97,7 +100,9 @@ def test_an_arc_the_other_way_round_is_another_path():
 
 
 def test_two_turns_are_not_one():
-    once, twice = (Course().line(10, 0).arc((10, 0, 0), (0, 0, 0), True, (Plane.XY, turns)).program() for turns in (1, 2))
+    once, twice = (
+        Course().line(10, 0).arc((10, 0, 0), (0, 0, 0), True, (Plane.XY, turns)).program() for turns in (1, 2)
+    )
     (item,) = compare(once, twice, TOLERANCE).items
     assert item.kind is DifferenceKind.PATH
     assert "order or sense" in item.text
@@ -112,8 +117,13 @@ def test_going_back_over_its_own_path_is_another_path():
 
 def test_a_spline_is_the_arc_that_it_draws():
     half = math.sqrt(0.5)
-    curve = Nurbs(np.array([[10.0, 0, 0], [10, 10, 0], [0, 10, 0]]), np.array([1, half, 1]), np.array([0.0, 0, 0, 1, 1, 1]), 2)
-    spline, arc = Course().line(10, 0).spline(curve).line(0, 0), Course().line(10, 0).arc((0, 10, 0), (0, 0, 0)).line(0, 0)
+    curve = Nurbs(
+        np.array([[10.0, 0, 0], [10, 10, 0], [0, 10, 0]]), np.array([1, half, 1]), np.array([0.0, 0, 0, 1, 1, 1]), 2
+    )
+    spline, arc = (
+        Course().line(10, 0).spline(curve).line(0, 0),
+        Course().line(10, 0).arc((0, 10, 0), (0, 0, 0)).line(0, 0),
+    )
     assert kinds(spline.program(), arc.program()) == [DifferenceKind.SAME_PATH]
     assert kinds(spline.program(), spline.program()) == []
 
@@ -136,7 +146,13 @@ def test_what_is_left_out_and_what_is_put_in():
     assert item.distance == pytest.approx(math.sqrt(50))
     tail = Course().line(10, 0).line(10, 10)
     (item,) = compare(whole.program(), tail.program(), TOLERANCE).items
-    assert (item.kind, item.a.first, item.a.stop, item.b.first, item.b.last_line) == (DifferenceKind.MISSING, 2, 3, 2, 2)
+    assert (item.kind, item.a.first, item.a.stop, item.b.first, item.b.last_line) == (
+        DifferenceKind.MISSING,
+        2,
+        3,
+        2,
+        2,
+    )
     assert kinds(tail.program(), whole.program()) == [DifferenceKind.EXTRA]
 
 
@@ -151,16 +167,27 @@ def test_a_rapid_instead_of_a_feed_is_told():
     assert (item.kind, item.a.first_line) == (DifferenceKind.RAPID, 2)
 
 
-@pytest.mark.parametrize(("state", "kind", "told"), [
-    (replace(CUTTING, tool=2), DifferenceKind.TOOL, "T1 in the first, T2 in the second"),
-    (replace(CUTTING, speed=11999.0), DifferenceKind.SPINDLE, "S 12000 M3 in the first, S 11999 M3 in the second"),
-    (replace(CUTTING, spindle=-1), DifferenceKind.SPINDLE, "M3 in the first, S 12000 M4 in the second"),
-    (replace(CUTTING, spindle=0), DifferenceKind.SPINDLE, "spindle off in the second"),
-    (replace(CUTTING, flood=False), DifferenceKind.COOLANT, "flood in the first, no coolant in the second"),
-    (replace(CUTTING, work_offset="G55"), DifferenceKind.WORK_OFFSET, "G54 in the first, G55 in the second"),
-    (replace(CUTTING, length_offset=2), DifferenceKind.LENGTH_OFFSET, "no length (G49) in the first, G43 H2 in the second"),
-    (replace(CUTTING, path="G61", path_tolerance=0.0), DifferenceKind.PATH_MODE, "G64 in the first, G61 in the second"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("state", "kind", "told"),
+    [
+        (replace(CUTTING, tool=2), DifferenceKind.TOOL, "T1 in the first, T2 in the second"),
+        (replace(CUTTING, speed=11999.0), DifferenceKind.SPINDLE, "S 12000 M3 in the first, S 11999 M3 in the second"),
+        (replace(CUTTING, spindle=-1), DifferenceKind.SPINDLE, "M3 in the first, S 12000 M4 in the second"),
+        (replace(CUTTING, spindle=0), DifferenceKind.SPINDLE, "spindle off in the second"),
+        (replace(CUTTING, flood=False), DifferenceKind.COOLANT, "flood in the first, no coolant in the second"),
+        (replace(CUTTING, work_offset="G55"), DifferenceKind.WORK_OFFSET, "G54 in the first, G55 in the second"),
+        (
+            replace(CUTTING, length_offset=2),
+            DifferenceKind.LENGTH_OFFSET,
+            "no length (G49) in the first, G43 H2 in the second",
+        ),
+        (
+            replace(CUTTING, path="G61", path_tolerance=0.0),
+            DifferenceKind.PATH_MODE,
+            "G64 in the first, G61 in the second",
+        ),
+    ],
+)
 def test_what_is_in_force_is_compared(state, kind, told):
     program = pocket().program(CUTTING, state)
     state_of_row = program.motions.state.copy()
@@ -171,15 +198,36 @@ def test_what_is_in_force_is_compared(state, kind, told):
     assert told in item.text
 
 
-@pytest.mark.parametrize(("dialect", "word", "other", "kind", "told"), [
-    (Dialect.LINUXCNC, "G54", "G55", DifferenceKind.WORK_OFFSET, "G54 in the first, G55 in the second"),
-    (Dialect.HAAS, "G54", "G54.1 P12", DifferenceKind.WORK_OFFSET, "G54 in the first, G54.1 P12 in the second"),
-    (Dialect.HAAS, "G43 H2", "G43 H1", DifferenceKind.LENGTH_OFFSET, "G43 H2 in the first, G43 H1 in the second"),
-    (Dialect.LINUXCNC, "G43", "", DifferenceKind.LENGTH_OFFSET, "G43 H2 in the first, no length (G49) in the second"),
-    (Dialect.LINUXCNC, "G64 P0.01", "G64", DifferenceKind.PATH_MODE, "G64 P 0.01 mm in the first, G64 in the second"),
-    (Dialect.LINUXCNC, "G64 P0.01", "G64 P0.1", DifferenceKind.PATH_MODE, "P 0.01 mm in the first, G64 P 0.1 mm in the second"),
-    (Dialect.LINUXCNC, "G64 P0.01", "G61", DifferenceKind.PATH_MODE, "P 0.01 mm in the first, G61 in the second"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("dialect", "word", "other", "kind", "told"),
+    [
+        (Dialect.LINUXCNC, "G54", "G55", DifferenceKind.WORK_OFFSET, "G54 in the first, G55 in the second"),
+        (Dialect.HAAS, "G54", "G54.1 P12", DifferenceKind.WORK_OFFSET, "G54 in the first, G54.1 P12 in the second"),
+        (Dialect.HAAS, "G43 H2", "G43 H1", DifferenceKind.LENGTH_OFFSET, "G43 H2 in the first, G43 H1 in the second"),
+        (
+            Dialect.LINUXCNC,
+            "G43",
+            "",
+            DifferenceKind.LENGTH_OFFSET,
+            "G43 H2 in the first, no length (G49) in the second",
+        ),
+        (
+            Dialect.LINUXCNC,
+            "G64 P0.01",
+            "G64",
+            DifferenceKind.PATH_MODE,
+            "G64 P 0.01 mm in the first, G64 in the second",
+        ),
+        (
+            Dialect.LINUXCNC,
+            "G64 P0.01",
+            "G64 P0.1",
+            DifferenceKind.PATH_MODE,
+            "P 0.01 mm in the first, G64 P 0.1 mm in the second",
+        ),
+        (Dialect.LINUXCNC, "G64 P0.01", "G61", DifferenceKind.PATH_MODE, "P 0.01 mm in the first, G61 in the second"),
+    ],
+)
 def test_every_word_that_changes_what_the_machine_does_is_a_difference(dialect, word, other, kind, told):
     first, second = (
         read_program(f"G21\nT2 M6\n{each}\nG0 Z5.\nG0 X1. Y2.\nG1 Z-1. F50.\nX5.\nM30\n".encode(), ReadOptions(dialect))
@@ -194,7 +242,10 @@ def test_every_word_that_changes_what_the_machine_does_is_a_difference(dialect, 
 
 
 def test_one_path_tolerance_in_mm_and_in_inch_is_no_difference():
-    mm, inch = (read_program(text, ReadOptions()) for text in (b"G21 G64 P0.01\nG1 X25.4 F254\nM2\n", b"G20 G64 P0.0004\nG1 X1 F10\nM2\n"))
+    mm, inch = (
+        read_program(text, ReadOptions())
+        for text in (b"G21 G64 P0.01\nG1 X25.4 F254\nM2\n", b"G20 G64 P0.0004\nG1 X1 F10\nM2\n")
+    )
     assert compare(mm, inch).items == ()
 
 
@@ -229,7 +280,9 @@ def zigzag(count: int) -> Motions:
     small, line = np.zeros(count, np.uint8), np.arange(1, count + 1, dtype=np.int32)
     nowhere = np.full((count, 3), np.nan)
     feeds = np.full(count, 800.0)
-    return Motions(points[:-1], points[1:], nowhere, small + np.uint8(MotionKind.LINE), small, line * 0, feeds, line, line * 0)
+    return Motions(
+        points[:-1], points[1:], nowhere, small + np.uint8(MotionKind.LINE), small, line * 0, feeds, line, line * 0
+    )
 
 
 @settings(deadline=None, max_examples=examples(12))
@@ -263,7 +316,11 @@ def test_points_rounded_anew_and_lines_split_are_no_difference(seed):
     course = Course(tuple(more[0]))
     for point in more[1:].tolist():
         course.line(*point)
-    found = compare(NcProgram(motions), replace(course.program(), motions=replace(course.motions(), feed=np.full(3040, 800.0))), TOLERANCE)
+    found = compare(
+        NcProgram(motions),
+        replace(course.program(), motions=replace(course.motions(), feed=np.full(3040, 800.0))),
+        TOLERANCE,
+    )
     assert found.same_motion, found.items[:3]
     assert sum(run.count for run in found.runs) >= 3000 - 5 * 40
 
@@ -275,8 +332,13 @@ def test_200_000_motions_are_compared_in_seconds():
     end[chosen, 2] += 0.01
     start[chosen + 1] = end[chosen]
     keep = np.delete(np.arange(200_000), np.arange(100_000, 100_200))
-    changed = replace(motions, **{name: getattr(replace(motions, start=start, end=end), name)[keep] for name in (
-        "start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")})  # fmt: skip
+    changed = replace(
+        motions,
+        **{
+            name: getattr(replace(motions, start=start, end=end), name)[keep]
+            for name in ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
+        },
+    )
     begin = time.perf_counter()
     found = compare(NcProgram(motions), NcProgram(changed), TOLERANCE)
     assert time.perf_counter() - begin < 10

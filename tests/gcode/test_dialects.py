@@ -25,7 +25,9 @@ HAAS = {
     'use = "none"': 'use = "flood"',
     'blend = "G64 P{blend} Q0"': 'blend = ""',
     "top = []": 'top = ["%"]',
-    '["G17 {units} G90 G94 G40 G49 G80", "G91.1", "G54", "{blending}"]': '["{units}", "G17 G40 G49 G80 G90 G94", "G54", "{blending}"]',
+    '["G17 {units} G90 G94 G40 G49 G80", "G91.1", "G54", "{blending}"]': (
+        '["{units}", "G17 G40 G49 G80 G90 G94", "G54", "{blending}"]'
+    ),
     '"G43"': '"G43 H{tool}"',
     'end = ["M2"]': 'end = ["M30", "%"]',
 }
@@ -65,7 +67,12 @@ def test_an_exact_path_is_not_promised_without_a_word_for_it(haas: Post) -> None
 
 
 def test_semicolon_comments(tmp_path: Path) -> None:
-    text = resource("posts", "linuxcnc.toml").read_text("utf-8").replace('open = "("', 'open = "; "').replace('close = ")"', 'close = ""')
+    text = (
+        resource("posts", "linuxcnc.toml")
+        .read_text("utf-8")
+        .replace('open = "("', 'open = "; "')
+        .replace('close = ")"', 'close = ""')
+    )
     (tmp_path / "mill.toml").write_text(text, "utf-8")
     written = write_program(two_tools().program(), job(), read_post(tmp_path / "mill.toml")).text
     assert written.startswith("; Part plate\n; Hitofude for LinuxCNC")

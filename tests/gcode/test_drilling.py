@@ -1,4 +1,6 @@
-"""Holes as canned cycles: written only where the control moves exactly as the moves do; rs274 and our reader are the judges."""
+"""Holes as canned cycles: written only where the control moves exactly as the moves do; rs274 and our reader are the
+judges.
+"""
 
 from __future__ import annotations
 
@@ -76,7 +78,9 @@ def written(path: Path, post: Post, units: Units = Units.MM) -> NcFile:
 
 
 def assert_moves(file: NcFile, moves: Moves, post: Post) -> None:
-    """Assert that our reader, and for LinuxCNC its interpreter, moves as the moves do: kinds, ends, feeds, none missing."""
+    """Assert that our reader, and for LinuxCNC its interpreter, moves as the moves do: kinds, ends, feeds, none
+    missing.
+    """
     read = read_program(file.nc.text.encode(), ReadOptions(dialect=post.dialect))
     assert read.problems == ()
     rows = [k for k in range(len(read.motions)) if read.motions.line[k] not in file.nc.home_lines]
@@ -91,8 +95,12 @@ def assert_moves(file: NcFile, moves: Moves, post: Post) -> None:
 def assert_alike(seen: list[tuple[int, tuple[float, ...], float]], moves: Moves) -> None:
     """The approach along Z comes first; moves that go nowhere are left out on both sides."""
     meant = [(int(kind), tuple(end), feed) for kind, end, feed in zip(moves.kind, moves.end, moves.feed, strict=True)]
-    meant = [one for k, one in enumerate(meant) if k == 0 or np.max(np.abs(np.subtract(one[1], meant[k - 1][1]))) > 5e-4]
-    seen = [one for k, one in enumerate(seen) if k == 0 or np.max(np.abs(np.subtract(one[1], seen[k - 1][1]))) > 5e-4][1:]
+    meant = [
+        one for k, one in enumerate(meant) if k == 0 or np.max(np.abs(np.subtract(one[1], meant[k - 1][1]))) > 5e-4
+    ]
+    seen = [one for k, one in enumerate(seen) if k == 0 or np.max(np.abs(np.subtract(one[1], seen[k - 1][1]))) > 5e-4][
+        1:
+    ]
     assert [one[0] for one in seen] == [one[0] for one in meant]
     for (kind, end, feed), (_, meant_end, meant_feed) in zip(seen, meant, strict=True):
         assert np.max(np.abs(np.subtract(end, meant_end))) <= 3e-3
@@ -109,11 +117,17 @@ def test_a_row_of_holes() -> None:
     body = blocks(file)
     start = body.index("G0 Z5.0000")
     assert body[start + 1 : start + 7] == [
-        "X10.0000 Y10.0000", "G98 G81 X10.0000 Y10.0000 Z-6.0000 R1.0000 F120",
-        "X20.0000 Y10.0000 Z-6.0000 R1.0000", "X20.0000 Y20.0000 Z-7.5000 R1.0000", "G80", "M5",
-    ]  # fmt: skip
+        "X10.0000 Y10.0000",
+        "G98 G81 X10.0000 Y10.0000 Z-6.0000 R1.0000 F120",
+        "X20.0000 Y10.0000 Z-6.0000 R1.0000",
+        "X20.0000 Y20.0000 Z-7.5000 R1.0000",
+        "G80",
+        "M5",
+    ]
     lines = file.nc.lines.tolist()
-    assert lines[1:] == [lines[0] + 1] * 3 + [lines[0] + 2] * 4 + [lines[0] + 3] * 4, "the first move of a tool stands alone"
+    assert lines[1:] == [lines[0] + 1] * 3 + [lines[0] + 2] * 4 + [lines[0] + 3] * 4, (
+        "the first move of a tool stands alone"
+    )
 
 
 def test_a_row_that_stays_low_between() -> None:
@@ -127,7 +141,14 @@ def test_rows_that_end_at_different_heights_are_different_rows() -> None:
     path = Holes().drilled(10, 10, -6, back=1.0).drilled(20, 10, -6, back=1.0).up(5.0)
     path.drilled(30, 10, -6).drilled(30, 20, -6, back=1.0).up(5.0)
     text = written(path, load_post("haas")).nc.text
-    assert [word for word in text.split() if word in ("G98", "G99", "G80")][1:] == ["G99", "G80", "G98", "G80", "G99", "G80"]
+    assert [word for word in text.split() if word in ("G98", "G99", "G80")][1:] == [
+        "G99",
+        "G80",
+        "G98",
+        "G80",
+        "G99",
+        "G80",
+    ]
 
 
 def test_pecks_where_the_control_is_known_to_peck_so() -> None:
@@ -136,7 +157,9 @@ def test_pecks_where_the_control_is_known_to_peck_so() -> None:
     assert "G98 G83 X5.0000 Y5.0000 Z-7.0000 R1.0000 Q2.5000 F90" in body
     assert "G98 G73 X15.0000 Y5.0000 Z-6.0000 R1.0000 Q3.5000" in body
     for name in ("fanuc", "haas", "mach3"):
-        assert not {"G83", "G73", "G81"} & set(written(path, load_post(name)).nc.text.split()), "its gap is a setting of its own"
+        assert not {"G83", "G73", "G81"} & set(written(path, load_post(name)).nc.text.split()), (
+            "its gap is a setting of its own"
+        )
 
 
 def test_pecks_of_another_gap_are_written_out() -> None:
@@ -185,9 +208,13 @@ def test_a_rapid_down_is_allowed_only_where_it_was_drilled() -> None:
 
 
 holes = st.tuples(
-    st.sampled_from(["drilled", "pecked", "chipped"]), st.integers(0, 3), st.integers(0, 3), st.floats(-9, -0.5), st.floats(0.4, 4),
+    st.sampled_from(["drilled", "pecked", "chipped"]),
+    st.integers(0, 3),
+    st.integers(0, 3),
+    st.floats(-9, -0.5),
+    st.floats(0.4, 4),
     st.sampled_from([1.0, 5.0]),
-)  # fmt: skip
+)
 
 
 @POSTS

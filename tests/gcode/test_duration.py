@@ -120,7 +120,9 @@ def around(plane: Plane, radius: float, angles: list[float], feed: float) -> Cou
 @pytest.mark.parametrize("plane", list(Plane))
 @pytest.mark.parametrize(("count", "slower"), [(48, 1.03), (90, 1.02), (360, 1.005), (5000, 1.001)])
 @pytest.mark.parametrize("begin", [0.0, 0.4, math.pi / 4])
-def test_a_circle_of_chords_takes_the_time_of_the_arc_and_not_less(plane: Plane, count: int, slower: float, begin: float) -> None:
+def test_a_circle_of_chords_takes_the_time_of_the_arc_and_not_less(
+    plane: Plane, count: int, slower: float, begin: float
+) -> None:
     for radius, feed in ((10.0, 6000.0), (2.0, 3000.0), (10.0, 600.0)):
         chords = around(plane, radius, [begin + 2 * math.pi * k / count for k in range(count + 1)], feed)
         first: tuple[float, float, float] = chords.rows[0][0]  # type: ignore[assignment]
@@ -129,7 +131,9 @@ def test_a_circle_of_chords_takes_the_time_of_the_arc_and_not_less(plane: Plane,
         took = seconds(chords, ModalState(path="G64", path_tolerance=0.5))
         assert arc * shorter * 0.9999 <= took <= arc * slower
         if feed == 6000:
-            assert took >= arc * 0.9999, "where the curve bounds the speed, chords are not faster though they are shorter"
+            assert took >= arc * 0.9999, (
+                "where the curve bounds the speed, chords are not faster though they are shorter"
+            )
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -142,8 +146,13 @@ def test_chords_of_unlike_lengths_are_not_faster_than_the_arc_either(seed: int) 
 
 
 @settings(max_examples=examples(40), deadline=None)
-@given(st.lists(st.tuples(st.floats(-0.9, 0.9), st.floats(0.02, 8), st.integers(1, 6)), min_size=2, max_size=25), st.floats(100, 9000))
-def test_a_bent_path_takes_as_long_however_its_straight_pieces_are_split(legs: list[tuple[float, float, int]], feed: float) -> None:
+@given(
+    st.lists(st.tuples(st.floats(-0.9, 0.9), st.floats(0.02, 8), st.integers(1, 6)), min_size=2, max_size=25),
+    st.floats(100, 9000),
+)
+def test_a_bent_path_takes_as_long_however_its_straight_pieces_are_split(
+    legs: list[tuple[float, float, int]], feed: float
+) -> None:
     whole, split, angle = Course(feed=feed), Course(feed=feed), 0.3
     for turn, size, parts in legs:
         angle += turn
@@ -218,7 +227,11 @@ def test_time_is_told_by_tool_and_by_rapid() -> None:
     course.state = 1
     course.rapid(200, 100).line(200, 150)
     states = (ModalState(tool=1), ModalState(tool=2))
-    events = (Event(EventKind.TOOL_CHANGE, 0, 1, 1), Event(EventKind.TOOL_CHANGE, 2, 3, 2), Event(EventKind.TOOL_CHANGE, 3, 4, 2))
+    events = (
+        Event(EventKind.TOOL_CHANGE, 0, 1, 1),
+        Event(EventKind.TOOL_CHANGE, 2, 3, 2),
+        Event(EventKind.TOOL_CHANGE, 3, 4, 2),
+    )
     told = duration(course.program(*states, events=events), machine(tool_change=10.0))
     assert told.waiting.tolist() == [10, 0, 10, 0, 0]
     assert sum(told.by_tool.values()) == pytest.approx(told.total) == pytest.approx(sum(told.parts.values()))
@@ -253,7 +266,9 @@ def test_two_hundred_thousand_motions_take_well_under_a_tenth_of_a_second() -> N
     points = np.column_stack([50 * np.cos(turns), 50 * np.sin(turns), turns * 0.01])
     small, whole = np.ones(200_000, np.uint8), np.zeros(200_000, np.int32)
     nothing = np.full((200_000, 3), math.nan)
-    motions = Motions(points[:-1], points[1:], nothing, small, small * 0, whole, np.full(200_000, 3000.0), whole + 1, whole)
+    motions = Motions(
+        points[:-1], points[1:], nothing, small, small * 0, whole, np.full(200_000, 3000.0), whole + 1, whole
+    )
     program = NcProgram(motions)
     duration(program, machine())
     took = []

@@ -28,7 +28,9 @@ def random_arc(seed: int) -> Course:
     end[[a, b]] += radius * np.array([math.cos(last), math.sin(last)])
     end[normal] = chance.choice([0.0, 5.0, -20.0])
     course = Course(at=tuple(start.tolist()))
-    return course.arc(tuple(end.tolist()), tuple(centre.tolist()), bool(chance.integers(2)), (plane, int(chance.integers(1, 4))))
+    return course.arc(
+        tuple(end.tolist()), tuple(centre.tolist()), bool(chance.integers(2)), (plane, int(chance.integers(1, 4)))
+    )
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -51,7 +53,12 @@ def test_a_full_circle_reaches_all_round() -> None:
 
 
 def test_a_spline_stays_in_the_box_of_its_control_points_and_weights_pull() -> None:
-    quarter = Nurbs(np.array([[5, 0, 0], [5, 5, 0], [0, 5, 0.0]]), np.array([1, math.sqrt(0.5), 1]), np.array([0, 0, 0, 1, 1, 1.0]), 2)
+    quarter = Nurbs(
+        np.array([[5, 0, 0], [5, 5, 0], [0, 5, 0.0]]),
+        np.array([1, math.sqrt(0.5), 1]),
+        np.array([0, 0, 0, 1, 1, 1.0]),
+        2,
+    )
     points = spline_points(quarter)
     assert np.hypot(points[:, 0], points[:, 1]) == pytest.approx(np.full(len(points), 5))
     motions = Course(at=(5, 0, 0)).spline(quarter).motions()
@@ -99,7 +106,10 @@ def test_travel_is_held_against_each_end_from_the_work_origin() -> None:
     program = Course().rapid(400, 0).line(401, 0).line(0, 0, -501).program()
     found = told(program, work_origin=(100.0, 0.0, 0.0))
     assert [line for line, _ in found] == [2, 3]
-    assert "goes to X401.000, 1.000 mm beyond the travel of Test mill, which ends at 400 from the work origin" in found[0][1]
+    assert (
+        "goes to X401.000, 1.000 mm beyond the travel of Test mill, which ends at 400 from the work origin"
+        in found[0][1]
+    )
     assert "Z-501.000, 1.000 mm beyond" in found[1][1]
 
 
@@ -122,7 +132,10 @@ def test_feeds_and_speeds_out_of_range() -> None:
     course.state, course.feed = 1, 100
     course.line(3, 0)
     found = told(course.program(ModalState(spindle=1, speed=24000), ModalState(speed=50)), largest_feed=4000.0)
-    assert [text.split(",")[0] for _, text in found] == ["feed is up to 5000 mm/min in 2 motions", "the spindle is to turn at 24000 rpm"]
+    assert [text.split(",")[0] for _, text in found] == [
+        "feed is up to 5000 mm/min in 2 motions",
+        "the spindle is to turn at 24000 rpm",
+    ]
 
 
 def test_a_way_home_that_a_block_names_and_fails_to_go_is_none() -> None:

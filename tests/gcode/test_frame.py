@@ -1,4 +1,6 @@
-"""The frame program: rapids alone, round the box, at clearance, with the tool's length and a spindle that stands still."""
+"""The frame program: rapids alone, round the box, at clearance, with the tool's length and a spindle that stands
+still.
+"""
 
 from __future__ import annotations
 

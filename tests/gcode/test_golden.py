@@ -1,4 +1,6 @@
-"""The whole text of a small program with two tools, for every post: a pocket ring, then lines, arcs, a full circle, a helix."""
+"""The whole text of a small program with two tools, for every post: a pocket ring, then lines, arcs, a full circle, a
+helix.
+"""
 
 from __future__ import annotations
 

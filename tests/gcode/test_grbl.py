@@ -27,13 +27,24 @@ UNITS = pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inc
 @pytest.mark.parametrize(
     ("line", "error"),
     [
-        ("T1 M6", "M6 is not supported"), ("G64 P0.01", "G64 is not supported"), ("G98 G81 X1 Y1 Z-1 R1 F60", "G81 is not supported"),
-        ("G43 H1", "G43 is not supported"), ("G5.2 X1 Y1 P1", "G5.2 is not supported"), ("G41 D1", "G41 is not supported"),
-        ("G1 X1", "no feed rate"), ("G20 G21", "two words of a modal group"), ("G0 X1 X2", "a word twice"), ("G4", "G4 without P"),
-        ("(" + "a" * 80 + ")", "longer than"), ("(what?)", "acts at once"), ("#1=2", "no words"), ("G2 X1 Y1 F60", "without a centre"),
-        ("G0 X1 I1", "words that nothing uses"), ("M3", "M3 without a speed"),
+        ("T1 M6", "M6 is not supported"),
+        ("G64 P0.01", "G64 is not supported"),
+        ("G98 G81 X1 Y1 Z-1 R1 F60", "G81 is not supported"),
+        ("G43 H1", "G43 is not supported"),
+        ("G5.2 X1 Y1 P1", "G5.2 is not supported"),
+        ("G41 D1", "G41 is not supported"),
+        ("G1 X1", "no feed rate"),
+        ("G20 G21", "two words of a modal group"),
+        ("G0 X1 X2", "a word twice"),
+        ("G4", "G4 without P"),
+        ("(" + "a" * 80 + ")", "longer than"),
+        ("(what?)", "acts at once"),
+        ("#1=2", "no words"),
+        ("G2 X1 Y1 F60", "without a centre"),
+        ("G0 X1 I1", "words that nothing uses"),
+        ("M3", "M3 without a speed"),
     ],
-)  # fmt: skip
+)
 def test_the_judge_sees_what_grbl_refuses(line: str, error: str) -> None:
     assert any(error in found for found in grbl_errors(line))
 
@@ -47,7 +58,9 @@ def test_the_judge_measures_radii() -> None:
 
 @UNITS
 def test_every_file_is_one_that_grbl_takes(units: Units) -> None:
-    part = Part(name="Getriebegehäuse (links) ? ! ~ $ with a name that is much longer than any line of grbl may ever be")
+    part = Part(
+        name="Getriebegehäuse (links) ? ! ~ $ with a name that is much longer than any line of grbl may ever be"
+    )
     task = job(part=part, out_units=units, layer_names=("Kontur außen (1+2)" * 9, "0"), origin_xy=OriginXY.CENTRE)
     for file in write_files(two_tools().program(), task, GRBL):
         assert grbl_errors(file.nc.text) == []
@@ -79,7 +92,9 @@ def test_a_tool_that_comes_back_has_another_file() -> None:
     tools = tuple(Tool(number, 3.0) for number in (1, 2, 10))
     files = write_files(path.program(), job(tools=tools), GRBL)
     assert [file.suffix for file in files] == ["_1_T1", "_2_T2", "_3_T1", "_4_T10"]
-    assert np.concatenate([np.arange(len(file.nc.lines)) + file.first for file in files]).tolist() == list(range(len(path.rows)))
+    assert np.concatenate([np.arange(len(file.nc.lines)) + file.first for file in files]).tolist() == list(
+        range(len(path.rows))
+    )
 
 
 def test_a_program_of_one_tool_is_one_plain_file() -> None:

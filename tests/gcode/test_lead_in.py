@@ -1,4 +1,6 @@
-"""The lead-in of a restart does on each control what the control's own post does: off the work first, no length by itself."""
+"""The lead-in of a restart does on each control what the control's own post does: off the work first, no length by
+itself.
+"""
 
 import re
 from dataclasses import replace
@@ -62,16 +64,33 @@ def test_home_then_tool_then_its_length_with_z_and_a_dwell_in_milliseconds(diale
     data, options = part_for(dialect)
     line = data.split(b"\n").index(b"Y22.") + 1
     assert lead_in_lines(data, line, options) == [
-        "%", "O0001", f"(RESTART FROM LINE {line})", "(Y22.)", "G21 G17 G90 G94 G40 G49 G80", "G54", *home, "T1 M6", "G0 G43 H1 Z5.",
-        "S12000 M3", "G4 P3000", "M8", "G0 X32. Y12.", "G0 Z1.", "G1 Z-1. F200.", "G98", "F600.",
-    ]  # fmt: skip
+        "%",
+        "O0001",
+        f"(RESTART FROM LINE {line})",
+        "(Y22.)",
+        "G21 G17 G90 G94 G40 G49 G80",
+        "G54",
+        *home,
+        "T1 M6",
+        "G0 G43 H1 Z5.",
+        "S12000 M3",
+        "G4 P3000",
+        "M8",
+        "G0 X32. Y12.",
+        "G0 Z1.",
+        "G1 Z-1. F200.",
+        "G98",
+        "F600.",
+    ]
 
 
 @pytest.mark.parametrize("dialect", list(HOMES))
 def test_from_every_line_nothing_is_touched_before_z_is_home_and_no_length_stands_alone(dialect):
     data, options = part_for(dialect)
     begun = 0
-    for line in (number for number, text in enumerate(data.split(b"\n")[:-2], 1) if number > 3 and text not in (b"G90", b"%")):
+    for line in (
+        number for number, text in enumerate(data.split(b"\n")[:-2], 1) if number > 3 and text not in (b"G90", b"%")
+    ):
         lines = lead_in_lines(data, line, options)
         words = "\n".join(lines)
         assert not re.search(r"^G43 H\d+$", words, re.M), words
@@ -112,7 +131,9 @@ def test_clearance_is_no_machine_home_however_the_work_offset_lies(dialect):
 def test_the_first_motion_of_a_lead_in_is_along_z_alone():
     for dialect in (Dialect.FANUC, Dialect.HAAS, Dialect.LINUXCNC, Dialect.MACH3):
         data = part_for(Dialect.HAAS)[0] if dialect is Dialect.HAAS else part_for(Dialect.FANUC)[0]
-        data = data if dialect in HOMES else re.sub(rb"%\n|O0001\n|G91 G28 Z0.\nG90\n", b"", data).replace(b"P2000", b"P2")
+        data = (
+            data if dialect in HOMES else re.sub(rb"%\n|O0001\n|G91 G28 Z0.\nG90\n", b"", data).replace(b"P2000", b"P2")
+        )
         options = RestartOptions(ReadOptions(dialect, TOOLS, start=(7.0, 8.0, 90.0), block_delete=False))
         line = data.split(b"\n").index(b"Y22.") + 1
         again = read_program(restart(data, line, options), options.read)
@@ -123,8 +144,16 @@ def test_the_first_motion_of_a_lead_in_is_along_z_alone():
         assert (change.before > 0) == (dialect in HOMES), "home before the tool where the control has words for it"
 
 
-@pytest.mark.parametrize(("dialect", "told"), [
-    (Dialect.LINUXCNC, True), (Dialect.GRBL, True), (Dialect.MACH3, True), (Dialect.FANUC, False), (Dialect.HAAS, False)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("dialect", "told"),
+    [
+        (Dialect.LINUXCNC, True),
+        (Dialect.GRBL, True),
+        (Dialect.MACH3, True),
+        (Dialect.FANUC, False),
+        (Dialect.HAAS, False),
+    ],
+)
 def test_where_no_words_go_home_the_operator_is_told_to_stand_clear(dialect, told):
     data = b"G21\nG0 Z5.\nG0 X1. Y2.\nM3 S9000\nG1 Z-1. F50.\nX5.\nM30\n"
     lines = lead_in_lines(data, 6, RestartOptions(ReadOptions(dialect)))

@@ -1,4 +1,6 @@
-"""NURBS in a control's words: read back they are the same curve, and LinuxCNC's interpreter takes its own and drives along it."""
+"""NURBS in a control's words: read back they are the same curve, and LinuxCNC's interpreter takes its own and drives
+along it.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,12 @@ from tests.examples import examples
 from tests.gcode.rs274_oracle import canonical_calls, exact_motions
 
 UNITS = pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inch"])
-QUARTER = Nurbs(np.array([[10, 0, -1], [10, 10, -1], [0, 10, -1.0]]), np.array([1, math.sqrt(0.5), 1]), np.array([0, 0, 0, 1, 1, 1.0]), 2)
+QUARTER = Nurbs(
+    np.array([[10, 0, -1], [10, 10, -1], [0, 10, -1.0]]),
+    np.array([1, math.sqrt(0.5), 1]),
+    np.array([0, 0, 0, 1, 1, 1.0]),
+    2,
+)
 
 
 def curve(points: list[tuple[float, float, float]], weights: list[float], inner: list[float], degree: int) -> Nurbs:
@@ -35,10 +42,22 @@ def text_of(meant: Nurbs, name: str, units: Units) -> str:
     post = load_post(name)
     blocks = nurbs_blocks(meant, post, units)
     assert blocks is not None
-    start = " ".join(f"{axis}{round(value / units.value, 5):.5f}" for axis, value in zip("XYZ", meant.points[0], strict=True))
+    start = " ".join(
+        f"{axis}{round(value / units.value, 5):.5f}" for axis, value in zip("XYZ", meant.points[0], strict=True)
+    )
     if name == "fanuc":
         start = " ".join(word for word in blocks[0].split() if word[0] in "XYZ")
-    return "\n".join([f"G17 G90 G94 {'G20' if units is Units.INCH else 'G21'}", f"G0 {start}", "F100.", *blocks, "G0 Z50.", "M30", ""])
+    return "\n".join(
+        [
+            f"G17 G90 G94 {'G20' if units is Units.INCH else 'G21'}",
+            f"G0 {start}",
+            "F100.",
+            *blocks,
+            "G0 Z50.",
+            "M30",
+            "",
+        ]
+    )
 
 
 def read_back(text: str, name: str) -> list[Nurbs]:
@@ -50,7 +69,9 @@ def read_back(text: str, name: str) -> list[Nurbs]:
 
 
 def driven_back(text: str) -> list[np.ndarray]:
-    """What LinuxCNC's words drive at the feed: splines of one piece as control points (4, 4), lines as both ends (2, 4)."""
+    """What LinuxCNC's words drive at the feed: splines of one piece as control points (4, 4), lines as both ends (2,
+    4).
+    """
     program = read_program(text.encode(), ReadOptions(dialect=load_post("linuxcnc").dialect))
     assert program.problems == ()
     motions = program.motions
@@ -82,14 +103,22 @@ def sampled(piece: np.ndarray, count: int = 33, share: tuple[float, float] = (0,
 
 
 def along(curves: list[Nurbs], count: int = 33) -> np.ndarray:
-    """(pieces, count, 3) points of each Bézier piece at evenly spread parameters: those of two equal curves are equal."""
+    """(pieces, count, 3) points of each Bézier piece at evenly spread parameters: those of two equal curves are
+    equal.
+    """
     return np.array([sampled(piece, count) for each in curves for piece in pieces_of(each)])
 
 
-def left_of(seen: list[np.ndarray], meant: np.ndarray, near: float, share: tuple[float, float] = (0, 1)) -> list[np.ndarray]:
-    """What is left of the driven pieces behind a meant one, which they are whole, or in parts of 2 and 3 fifths, and of these."""
+def left_of(
+    seen: list[np.ndarray], meant: np.ndarray, near: float, share: tuple[float, float] = (0, 1)
+) -> list[np.ndarray]:
+    """What is left of the driven pieces behind a meant one, which they are whole, or in parts of 2 and 3 fifths, and of
+    these.
+    """
     goal = sampled(meant, share=share)[:, :2]
-    if not np.any(np.abs(goal - goal[0]) > near) and (not seen or np.abs(seen[0][-1, :2] / seen[0][-1, 3] - goal[-1]).max() > near):
+    if not np.any(np.abs(goal - goal[0]) > near) and (
+        not seen or np.abs(seen[0][-1, :2] / seen[0][-1, 3] - goal[-1]).max() > near
+    ):
         return seen  # the control need not be told of a place where it stands
     first, *rest = seen
     if len(first) > 2 and np.abs(sampled(first)[:, :2] - goal).max() <= near:
@@ -111,10 +140,12 @@ weight = st.floats(0.05, 20)
 @st.composite
 def curves(draw: st.DrawFn, flat: bool) -> Nurbs:
     degree = draw(st.integers(1, 3))
-    inner = draw(st.one_of(
-        st.lists(st.floats(0.01, 0.99), max_size=4, unique=True),
-        st.integers(0, 5).map(lambda n: [k / (n + 1) for k in range(1, n + 1)]),
-    ))  # fmt: skip
+    inner = draw(
+        st.one_of(
+            st.lists(st.floats(0.01, 0.99), max_size=4, unique=True),
+            st.integers(0, 5).map(lambda n: [k / (n + 1) for k in range(1, n + 1)]),
+        )
+    )
     count = degree + 1 + len(inner)
     height = st.just(draw(coordinate)) if flat else coordinate
     points = draw(st.lists(st.tuples(coordinate, coordinate, height), min_size=count, max_size=count))
@@ -159,18 +190,34 @@ def test_linuxcnc_drives_along_it(units: Units, meant: Nurbs) -> None:
 
 def test_a_quarter_of_a_circle_in_the_words_of_each_control() -> None:
     assert nurbs_blocks(QUARTER, load_post("linuxcnc"), Units.MM) == (
-        "G5.2 P1 L4", "X10.0000 Y5.8579 P0.804737854", "X5.8579 Y10.0000 P0.804737854", "X0.0000 Y10.0000 P1", "G5.3",
-    )  # fmt: skip
+        "G5.2 P1 L4",
+        "X10.0000 Y5.8579 P0.804737854",
+        "X5.8579 Y10.0000 P0.804737854",
+        "X0.0000 Y10.0000 P1",
+        "G5.3",
+    )
     assert nurbs_blocks(QUARTER, load_post("fanuc"), Units.MM) == (
-        "G6.2 P3 K0. X10. Y0. Z-1. R9999.", "K0. X10. Y10. Z-1. R7070.361", "K0. X0. Y10. Z-1. R9999.", "K1.", "K1.", "K1.",
-    )  # fmt: skip
+        "G6.2 P3 K0. X10. Y0. Z-1. R9999.",
+        "K0. X10. Y10. Z-1. R7070.361",
+        "K0. X0. Y10. Z-1. R9999.",
+        "K1.",
+        "K1.",
+        "K1.",
+    )
     for name, off in (("linuxcnc", 1e-4), ("fanuc", 1e-3)):
         points = along(read_back(text_of(QUARTER, name, Units.MM), name))
         assert np.abs(np.hypot(points[..., 0], points[..., 1]) - 10).max() < off
 
 
 def test_even_knots_stay_and_uneven_ones_give_way_to_those_of_pieces() -> None:
-    points = [(0.0, 0.0, 0.0), (10.0, 5.0, 0.0), (20.0, -5.0, 1.0), (30.0, 5.0, 0.0), (40.0, 0.0, 0.0), (50.0, 3.0, 0.0)]
+    points = [
+        (0.0, 0.0, 0.0),
+        (10.0, 5.0, 0.0),
+        (20.0, -5.0, 1.0),
+        (30.0, 5.0, 0.0),
+        (40.0, 0.0, 0.0),
+        (50.0, 3.0, 0.0),
+    ]
     fanuc = load_post("fanuc")
     even = nurbs_blocks(curve(points, [1.0] * 6, [1 / 3, 2 / 3], 3), fanuc, Units.MM)
     assert even is not None and [block.split()[-1] for block in even[6:]] == ["K3."] * 4
@@ -200,7 +247,9 @@ def g52(meant: Nurbs) -> str:
 
 @pytest.mark.parametrize("meant", [S_SHAPED, STRAIGHT], ids=["s", "straight"])
 def test_linuxcnc_is_never_given_a_piece_with_a_step_that_does_not_turn(meant: Nurbs) -> None:
-    """Its own formula for two arcs divides by the turn; a straight piece goes out as a line, another is cut unevenly."""
+    """Its own formula for two arcs divides by the turn; a straight piece goes out as a line, another is cut
+    unevenly.
+    """
     post = load_post("linuxcnc")
     assert not turns_all_along(meant), "or this test tests nothing"
     blocks = nurbs_blocks(meant, post, Units.MM)

@@ -38,14 +38,20 @@ def test_going_back_over_itself_needs_a_longer_leash_though_no_place_is_apart():
 
 def test_the_farthest_place_is_told():
     found = farthest(path((0, 0), (10, 0)), path((0, 0), (5, 3), (10, 0)))
-    assert (found.distance, found.a, found.b) == (pytest.approx(3.0), pytest.approx((5, 0, 0)), pytest.approx((5, 3, 0)))
+    assert (found.distance, found.a, found.b) == (
+        pytest.approx(3.0),
+        pytest.approx((5, 0, 0)),
+        pytest.approx((5, 3, 0)),
+    )
 
 
 def test_a_path_without_length_is_as_far_as_the_other_goes():
     assert leash(path((1, 1), (1, 1)), path((1, 1), (4, 5))) == pytest.approx(5.0)
 
 
-PLACES = st.lists(st.tuples(*[st.integers(-20, 20)] * 2), min_size=2, max_size=9).filter(lambda places: len(set(places)) > 1)
+PLACES = st.lists(st.tuples(*[st.integers(-20, 20)] * 2), min_size=2, max_size=9).filter(
+    lambda places: len(set(places)) > 1
+)
 
 
 @settings(deadline=None, max_examples=examples(80))
@@ -65,6 +71,8 @@ def test_pieces_that_are_cut_anew_and_moved_a_little_need_as_long_a_leash_as_the
     if len(a.points) < 2:
         return
     at = np.sort(np.concatenate([a.along, rng.uniform(0, a.along[-1], 20)]))
-    moved = np.column_stack([np.interp(at, a.along, column) for column in a.points.T]) + rng.uniform(-1e-4, 1e-4, (len(at), 3))
+    moved = np.column_stack([np.interp(at, a.along, column) for column in a.points.T]) + rng.uniform(
+        -1e-4, 1e-4, (len(at), 3)
+    )
     b = Polyline.through(moved, np.arange(len(at)))
     assert leash(a, b) <= 2e-3

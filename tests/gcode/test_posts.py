@@ -36,8 +36,12 @@ def test_linuxcnc() -> None:
 def test_five_controls_come_with_the_program() -> None:
     assert post_titles() == {"fanuc": "Fanuc", "grbl": "grbl", "haas": "Haas", "linuxcnc": "LinuxCNC", "mach3": "Mach3"}
     assert {name: load_post(name).extension for name in post_names()} == {
-        "fanuc": ".nc", "grbl": ".nc", "haas": ".nc", "linuxcnc": ".ngc", "mach3": ".tap",
-    }  # fmt: skip
+        "fanuc": ".nc",
+        "grbl": ".nc",
+        "haas": ".nc",
+        "linuxcnc": ".ngc",
+        "mach3": ".tap",
+    }
     assert all(load_post(name).dialect is Dialect(name) for name in post_names())
 
 
@@ -45,7 +49,14 @@ def test_five_controls_come_with_the_program() -> None:
 def test_posts_know_only_words_of_their_language(name: str) -> None:
     """No block of a post names a G word that the reader's table says the control lacks."""
     post, missing = load_post(name), HABITS[Dialect(name)].missing
-    blocks = [*post.program.start, *post.program.tool, *post.program.leave, *post.program.home, *post.program.end, post.blending.exact]
+    blocks = [
+        *post.program.start,
+        *post.program.tool,
+        *post.program.leave,
+        *post.program.home,
+        *post.program.end,
+        post.blending.exact,
+    ]
     blocks += [post.blending.blend, post.drilling.drill, post.drilling.peck, post.drilling.chip_break, post.nurbs.word]
     assert not missing & {word for block in blocks for word in re.findall(r"[GM][0-9.]+", block)}
 
@@ -66,7 +77,11 @@ def test_unknown_post_names_the_known_ones() -> None:
         ("dwell_s = 2.0", "dwell_s = true", "mill.toml: spindle.dwell_s is True; expected is a number"),
         ("use = false", "use = 0", "mill.toml: numbers.use is 0; expected is true or false"),
         ("step = 10", "step = 1.5", "mill.toml: numbers.step is 1.5; expected is a whole number"),
-        ('centre = "incremental"', 'centre = "radius"', "mill.toml: arcs.centre is 'radius'; expected is 'incremental' or 'absolute'"),
+        (
+            'centre = "incremental"',
+            'centre = "radius"',
+            "mill.toml: arcs.centre is 'radius'; expected is 'incremental' or 'absolute'",
+        ),
         ('end = ["M2"]', 'end = "M2"', "mill.toml: program.end is 'M2'; expected is a list of texts"),
         ('end = ["M2"]', 'end = ["M2 {tool}"]', "mill.toml: program.end: {tool} in 'M2 {tool}' is not known"),
         ('"T{tool} M6"', '"T{tool M6"', "mill.toml: program.tool: 'T{tool M6' has a brace without its partner"),
@@ -75,15 +90,31 @@ def test_unknown_post_names_the_known_ones() -> None:
         ('"G2", "G3"]', '"G2"]', "mill.toml: words.motion has 3 texts"),
         ('"T{tool} M6"', '"T{tool:>4} M6"', "mill.toml: program.tool: 'T{tool:>4} M6' cannot be filled in"),
         ('"T{tool} M6"', '"T{tool[x]} M6"', "mill.toml: program.tool: {tool[x]} in 'T{tool[x]} M6' is not known"),
-        ('home = []', 'home = ["G0 Z{clearance}"]', "mill.toml: program.home: {clearance} in 'G0 Z{clearance}' is not known"),
+        (
+            "home = []",
+            'home = ["G0 Z{clearance}"]',
+            "mill.toml: program.home: {clearance} in 'G0 Z{clearance}' is not known",
+        ),
         ("number = 1", "number = 9001", "mill.toml: program.number is 9001; expected is a number from 1 to 7999"),
         ('form = "bezier"', 'form = "none"', "mill.toml: nurbs.word is 'G5.2' for the form 'none'"),
-        ('"T{tool} M6"', '"T{tool} M6 (Fräser)"', "mill.toml: program.tool has 'T{tool} M6 (Fräser)'; programs are lines of ASCII"),
+        (
+            '"T{tool} M6"',
+            '"T{tool} M6 (Fräser)"',
+            "mill.toml: program.tool has 'T{tool} M6 (Fräser)'; programs are lines of ASCII",
+        ),
         ('end = ["M2"]', 'end = ["M2\\nM30"]', "mill.toml: program.end has 'M2\\nM30'; programs are lines of ASCII"),
-        ('dialect = "linuxcnc"', 'dialect = "okuma"', "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'"),
+        (
+            'dialect = "linuxcnc"',
+            'dialect = "okuma"',
+            "mill.toml: dialect is 'okuma'; expected is 'linuxcnc' or 'grbl'",
+        ),
         ("X = 4", "X = 9", "mill.toml: decimals.mm.X is 9; expected is a number from 0 to 6"),
         ("I = 4", "I = 3", "mill.toml: decimals.mm must be alike"),
-        ("Z = 4", "Z = 2", "mill.toml: decimals.mm must be alike for X and Y, and for I and J, and I and Z not less than X"),
+        (
+            "Z = 4",
+            "Z = 2",
+            "mill.toml: decimals.mm must be alike for X and Y, and for I and J, and I and Z not less than X",
+        ),
         ('title = "LinuxCNC"', "title = ", "mill.toml: this is no TOML file"),
     ],
 )

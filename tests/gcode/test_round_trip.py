@@ -1,4 +1,6 @@
-"""What is written, for every post, and read back in its dialect is the path that was meant: random jobs, mm and inch."""
+"""What is written, for every post, and read back in its dialect is the path that was meant: random jobs, mm and
+inch.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,14 @@ def paths(draw: st.DrawFn) -> Path:
         if draw(st.integers(0, 3)):
             random_path(draw(st.lists(st.one_of(arc_steps, line_steps), min_size=1, max_size=15)), path)
         else:
-            drill(path, draw(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9), st.floats(-9.0, 0.5)), min_size=1, max_size=5)))
+            drill(
+                path,
+                draw(
+                    st.lists(
+                        st.tuples(st.integers(0, 9), st.integers(0, 9), st.floats(-9.0, 0.5)), min_size=1, max_size=5
+                    )
+                ),
+            )
     return path
 
 
@@ -46,11 +55,18 @@ def drill(path: Path, holes: list[tuple[int, int, float]]) -> None:
 
 @st.composite
 def jobs(draw: st.DrawFn) -> Job:
-    tools = tuple(Tool(number, 3.0, spindle_speed=draw(st.floats(1.0, 30000.0)), name=draw(st.text(max_size=12))) for number in (1, 2, 14))
+    tools = tuple(
+        Tool(number, 3.0, spindle_speed=draw(st.floats(1.0, 30000.0)), name=draw(st.text(max_size=12)))
+        for number in (1, 2, 14)
+    )
     return job(
-        part=Part(name=draw(st.text(max_size=40))), tools=tools, out_units=draw(st.sampled_from([Units.MM, Units.INCH])),
-        origin_xy=draw(st.sampled_from(OriginXY)), origin_z=draw(st.sampled_from(OriginZ)), exact_path=draw(st.booleans()),
-    )  # fmt: skip
+        part=Part(name=draw(st.text(max_size=40))),
+        tools=tools,
+        out_units=draw(st.sampled_from([Units.MM, Units.INCH])),
+        origin_xy=draw(st.sampled_from(OriginXY)),
+        origin_z=draw(st.sampled_from(OriginZ)),
+        exact_path=draw(st.booleans()),
+    )
 
 
 @st.composite

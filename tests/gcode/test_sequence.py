@@ -21,7 +21,10 @@ def second_tool_low() -> Path:
 
 REFUSED = {
     "no moves": (None, "has no moves"),
-    "first below safe Z": (Path().rapid(0, 0, 4.0), "Move 1 to X 0 Y 0 Z 4 is the first of T1 and must be a rapid at safe Z 5"),
+    "first below safe Z": (
+        Path().rapid(0, 0, 4.0),
+        "Move 1 to X 0 Y 0 Z 4 is the first of T1 and must be a rapid at safe Z 5",
+    ),
     "first is a cut": (Path().line(0, 0, 5.0), "is the first of T1"),
     "second tool below safe Z": (second_tool_low(), "Move 5 to X 5 Y 5 Z 1 is the first of T2"),
     "diagonal rapid": (Path().rapid(0, 0, 5.0).rapid(3, 0, 1.0), "changes XY and Z at once"),

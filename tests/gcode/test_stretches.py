@@ -1,4 +1,6 @@
-"""Which lines of a program are in stretches that may be written anew, why others are not, and what follows a stretch."""
+"""Which lines of a program are in stretches that may be written anew, why others are not, and what follows a
+stretch.
+"""
 
 import pytest
 
@@ -40,8 +42,12 @@ def test_lines_that_are_done_twice_are_in_none() -> None:
 @pytest.mark.parametrize(
     ("behind", "resumed"),
     [
-        ("G0 Z5\n", True), ("(a comment)\n\nG00 Z5\n", True), ("N9 G2 X4 I0.5\n", True),
-        ("Z5 F20\n", False), ("G21\n", False), ("M5\nG0 Z5\n", False),
+        ("G0 Z5\n", True),
+        ("(a comment)\n\nG00 Z5\n", True),
+        ("N9 G2 X4 I0.5\n", True),
+        ("Z5 F20\n", False),
+        ("G21\n", False),
+        ("M5\nG0 Z5\n", False),
     ],
 )
 def test_what_follows_says_itself_how_to_move_or_does_not(behind: str, resumed: bool) -> None:

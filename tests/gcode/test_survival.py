@@ -58,7 +58,11 @@ def test_each_tool_begins_in_the_order_that_is_safe(name: str, units: Units) -> 
     """Change, length, spindle, time to spin up, coolant, up to clearance; only then X and Y."""
     flood = post(name, Coolant.FLOOD)
     files = write_files(two_tools().program(), job(out_units=units), flood)
-    found = [section for file in files for section in sections([line for line in file.nc.text.splitlines() if line[0] != "("])]
+    found = [
+        section
+        for file in files
+        for section in sections([line for line in file.nc.text.splitlines() if line[0] != "("])
+    ]
     assert len(found) == 2
     for number, section in enumerate(found, start=1):
         level = next(k for k, block in enumerate(section) if {"X", "Y"} & words(block).keys())
@@ -92,9 +96,14 @@ def test_before_a_change_the_tool_is_at_clearance_and_the_spindle_off(name: str,
         assert len(stops) == len(sections(blocks))
         for k in stops:
             assert "Z" in words(blocks[k - 1]) and not {"X", "Y"} & words(blocks[k - 1]).keys()
-            assert blocks[k - 1].startswith("G0 ") and float(words(blocks[k - 1])["Z"]) * units.value == pytest.approx(5.0, abs=2e-3)
+            assert blocks[k - 1].startswith("G0 ") and float(words(blocks[k - 1])["Z"]) * units.value == pytest.approx(
+                5.0, abs=2e-3
+            )
         for before, change in pairwise(sections(blocks)):
-            assert not any({"X", "Y", "I"} & words(block).keys() for block in before[place(before, "M5") :]) and "M6" in change[0]
+            assert (
+                not any({"X", "Y", "I"} & words(block).keys() for block in before[place(before, "M5") :])
+                and "M6" in change[0]
+            )
 
 
 @POSTS
@@ -119,7 +128,9 @@ def test_the_start_is_safe(name: str, units: Units) -> None:
 @POSTS
 @UNITS
 def test_decimals_and_points(name: str, units: Units) -> None:
-    """Every axis word has a point; no more digits behind it than the control takes; F has one where whole numbers count less."""
+    """Every axis word has a point; no more digits behind it than the control takes; F has one where whole numbers count
+    less.
+    """
     most = DECIMALS.get(name, (4, 5))[units is Units.INCH]
     for blocks in texts(name, units, origin_xy=OriginXY.CENTRE):
         for block in blocks:
@@ -140,7 +151,11 @@ def test_arcs_are_what_the_control_takes(name: str, units: Units) -> None:
         radius, angle = 0.003 * 1.22**k, 2.4 * k
         cx, cy = x - radius * math.cos(angle), y - radius * math.sin(angle)
         sweep = (0.02, 1.0, 3.1, 6.2, math.tau)[k % 5]
-        end = (x, y) if sweep == math.tau else (cx + radius * math.cos(angle + sweep), cy + radius * math.sin(angle + sweep))
+        end = (
+            (x, y)
+            if sweep == math.tau
+            else (cx + radius * math.cos(angle + sweep), cy + radius * math.sin(angle + sweep))
+        )
         path.arc((*end, -1.0), (cx, cy))
         x, y = end
     rules, count = load_post(name).arcs, 0
@@ -154,7 +169,10 @@ def test_arcs_are_what_the_control_takes(name: str, units: Units) -> None:
                 first, last = abs(start - centre) * units.value, abs(end - centre) * units.value
                 count += 1
                 assert start != end and min(first, last) >= rules.smallest_radius_mm - 1e-12
-                assert abs(first - last) <= rules.radius_mismatch_mm + 1e-12 and max(first, last) <= rules.largest_radius_mm
+                assert (
+                    abs(first - last) <= rules.radius_mismatch_mm + 1e-12
+                    and max(first, last) <= rules.largest_radius_mm
+                )
             at |= {letter: float(found[letter]) for letter in "XY" if letter in found}
     assert count > 60
 
@@ -181,7 +199,11 @@ def test_tapes_begin_and_end_as_the_control_wants(name: str) -> None:
     for file in write_files(two_tools().program(), job(part=Part(name="bracket 1234")), load_post(name)):
         lines = file.nc.text.splitlines()
         if name in DOTTED:
-            assert lines[0] == lines[-1] == "%" and lines[1] == {"fanuc": "O1234", "haas": "O01234"}[name] and lines[-2] == "M30"
+            assert (
+                lines[0] == lines[-1] == "%"
+                and lines[1] == {"fanuc": "O1234", "haas": "O01234"}[name]
+                and lines[-2] == "M30"
+            )
         else:
             assert "%" not in lines and lines[-1] == ("M2" if name == "linuxcnc" else "M30")
             assert not any(line.startswith("O") for line in lines)
@@ -189,7 +211,7 @@ def test_tapes_begin_and_end_as_the_control_wants(name: str) -> None:
 
 @POSTS
 def test_comments_hold_only_what_the_control_takes(name: str) -> None:
-    part = Part(name="Gehäuse; (links) 50% \"neu\" {1} [2] a'b")
+    part = Part(name='Gehäuse; (links) 50% "neu" {1} [2] a\'b')
     for file in write_files(two_tools().program(), job(part=part, layer_names=("a;b", "Ä" * 200)), load_post(name)):
         comments = [line for line in file.nc.text.splitlines() if line[0] == "("]
         assert all(re.fullmatch(r"\([A-Za-z0-9 .,:;+\-/=_]*\)", line) for line in comments)
@@ -202,7 +224,9 @@ def test_comments_hold_only_what_the_control_takes(name: str) -> None:
 
 @POSTS
 def test_home_is_gone_to_only_behind_clearance_and_spindle_stop(name: str) -> None:
-    """Controls with a magazine leave Z at home for the change and for the operator; along Z alone, in machine coordinates."""
+    """Controls with a magazine leave Z at home for the change and for the operator; along Z alone, in machine
+    coordinates.
+    """
     for file in write_files(two_tools().program(), job(), load_post(name)):
         lines = file.nc.text.splitlines()
         home = [lines[line - 1] for line in file.nc.home_lines]

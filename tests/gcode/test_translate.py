@@ -1,4 +1,6 @@
-"""Programs in another control's words: every number and mode said as that control takes it, or refused by line and word."""
+"""Programs in another control's words: every number and mode said as that control takes it, or refused by line and
+word.
+"""
 
 from __future__ import annotations
 
@@ -81,8 +83,11 @@ def test_holes_without_pecks_stay_a_cycle() -> None:
 def test_a_length_stands_with_the_move_that_takes_it_up() -> None:
     """Alone G43 may move Z by the offset on a Fanuc."""
     assert blocks("fanuc", HEAD + "G43\nG0 X1\nZ15\nG1 Z-1 F100\nG49\nG0 Z20\nM2\n")[-4:] == [
-        "G0 X1.", "G0 G43 H1 Z15.", "G1 Z-1. F100.", "G0 G49 Z20.",
-    ]  # fmt: skip
+        "G0 X1.",
+        "G0 G43 H1 Z15.",
+        "G1 Z-1. F100.",
+        "G0 G49 Z20.",
+    ]
     assert blocks("linuxcnc", "G21 G90\nT3 M6\nG0 G43 H3 Z15.\nM30\n", "fanuc")[-2:] == ["G43 H3", "G0 Z15.0000"]
 
 
@@ -106,12 +111,17 @@ def test_increments_do_not_add_up_their_rounding() -> None:
 
 def test_arcs_have_their_centre_from_the_start_and_no_full_turn() -> None:
     assert blocks("fanuc", "G90.1\nG0 X10 Y0\nG3 X-10 Y0 I0 J0 F100\nM2\n")[-1] == "G3 X-10. Y0. I-10. J0. F100."
-    assert blocks("haas", "G0 X10 Y0\nG2 X10 Y0 I-10 F100\nM2\n")[-2:] == ["G2 X-10. Y0. I-10. J0. F100.", "X10. Y0. I10. J0."]
-    assert blocks("linuxcnc", "G0 X10. Y0.\nG18 G3 X12. Z0. R1. F100.\nM30\n", "fanuc")[-1].startswith("G3 X12.0000 Z0.0000 I1.0000 K")
+    assert blocks("haas", "G0 X10 Y0\nG2 X10 Y0 I-10 F100\nM2\n")[-2:] == [
+        "G2 X-10. Y0. I-10. J0. F100.",
+        "X10. Y0. I10. J0.",
+    ]
+    assert blocks("linuxcnc", "G0 X10. Y0.\nG18 G3 X12. Z0. R1. F100.\nM30\n", "fanuc")[-1].startswith(
+        "G3 X12.0000 Z0.0000 I1.0000 K"
+    )
 
 
 def test_comments_are_in_the_controls_signs() -> None:
-    made = into("fanuc", "(slot 1; \"deep\")\nG0 X1 ;go\nM2\n").data.decode()
+    made = into("fanuc", '(slot 1; "deep")\nG0 X1 ;go\nM2\n').data.decode()
     assert "(SLOT 1, ,DEEP,)\n" in made and "(GO)\n" in made
     text = (GOLDEN / "linuxcnc_mm.ngc").read_text()
     assert "(Hitofude for LinuxCNC" in text
@@ -149,16 +159,27 @@ def test_what_has_no_counterpart_is_named(control: str, text: str, words: str) -
     assert told(control, text).endswith("keep the program for LinuxCNC.")
 
 
-LOOP = "G21 F100 (slots)\nG0 X0 Y0 Z5\n#1=0\no1 while [#1 lt 3]\nG1 X[#1*10] Z-1 (slot)\nG0 Z5\n#1=[#1+1]\no1 endwhile\nM2\n"
+LOOP = (
+    "G21 F100 (slots)\nG0 X0 Y0 Z5\n#1=0\no1 while [#1 lt 3]\nG1 X[#1*10] Z-1 (slot)\nG0 Z5\n#1=[#1+1]\no1 "
+    "endwhile\nM2\n"
+)
 CALLS = "F100\no<s> sub\nG1 X#1 Y#2\nG2 X[#1+2] I1\no<s> endsub\nG0 X0 Y0\no<s> call [5] [3]\no<s> call [15] [4]\nM2\n"
 ROUND = "F100\nG0 X-10 Y0 Z5\nG1 Z-1\nG41.1 D6\nG1 X0 Y0\nY20\nX20\nY0\nG40\nG0 X30\nM2\n"
-FANUC_CALLS = "G21 G90 F100.\nG0 X0. Y0.\n#1=2\nWHILE [#1 GT 0] DO1\nM98 P7 L2\n#1=#1-1\nEND1\nM30\nO7\nG91 G1 X1.\nG90\nM99\n"
+FANUC_CALLS = (
+    "G21 G90 F100.\nG0 X0. Y0.\n#1=2\nWHILE [#1 GT 0] DO1\nM98 P7 L2\n#1=#1-1\nEND1\nM30\nO7\nG91 G1 X1.\nG90\nM99\n"
+)
 
 
 def test_loops_are_written_as_what_they_do() -> None:
     assert blocks("fanuc", LOOP)[2:] == [
-        "G0 X0. Y0. Z5.", "G1 X0. Z-1. F100.", "G0 Z5.", "G1 X10. Z-1.", "G0 Z5.", "G1 X20. Z-1.", "G0 Z5.",
-    ]  # fmt: skip
+        "G0 X0. Y0. Z5.",
+        "G1 X0. Z-1. F100.",
+        "G0 Z5.",
+        "G1 X10. Z-1.",
+        "G0 Z5.",
+        "G1 X20. Z-1.",
+        "G0 Z5.",
+    ]
     made = into("fanuc", LOOP).data
     assert b"(LOOPS, SUBROUTINES AND JUMPS ARE WRITTEN OUT" in made and b"(PARAMETERS AND EXPRESSIONS" in made
     assert made.count(b"(SLOT)") == 1, "a comment stands where its line is done first"
@@ -166,21 +187,28 @@ def test_loops_are_written_as_what_they_do() -> None:
 
 def test_subroutines_are_written_where_they_are_called() -> None:
     assert blocks("grbl", CALLS)[-5:] == [
-        "G0 X0.0000 Y0.0000", "G1 X5.0000 Y3.0000 F100", "G2 X7.0000 Y3.0000 I1.0000 J0.0000", "G1 X15.0000 Y4.0000",
+        "G0 X0.0000 Y0.0000",
+        "G1 X5.0000 Y3.0000 F100",
+        "G2 X7.0000 Y3.0000 I1.0000 J0.0000",
+        "G1 X15.0000 Y4.0000",
         "G2 X17.0000 Y4.0000 I1.0000 J0.0000",
-    ]  # fmt: skip
+    ]
 
 
 def test_calls_of_fanuc_are_written_for_linuxcnc() -> None:
     made = into("linuxcnc", FANUC_CALLS, "fanuc")
-    assert made.program.motions.end[:, 0].tolist() == [0, 1, 2, 3, 4] and b"M98" not in made.data and b"#" not in made.data
+    assert (
+        made.program.motions.end[:, 0].tolist() == [0, 1, 2, 3, 4] and b"M98" not in made.data and b"#" not in made.data
+    )
 
 
 def test_cutter_compensation_is_written_as_its_path() -> None:
     """About a square on its left, 3 mm beside it: its outer corners are arcs of that radius."""
     made = blocks("fanuc", ROUND)
     assert made[-6:-1] == ["Y20.", "G2 X0. Y23. I3. J0.", "G1 X20.", "G2 X23. Y20. I0. J-3.", "G1 Y0."]
-    assert not any("G41" in line for line in made) and b"CUTTER COMPENSATION IS WRITTEN OUT" in into("fanuc", ROUND).data
+    assert (
+        not any("G41" in line for line in made) and b"CUTTER COMPENSATION IS WRITTEN OUT" in into("fanuc", ROUND).data
+    )
 
 
 @pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
@@ -209,7 +237,9 @@ def test_our_own_programs_are_the_same_on_every_control(came: str, control: str,
 
 
 def travelled(program: NcProgram) -> tuple[np.ndarray, np.ndarray]:
-    """Where the tool stands at first and behind each motion, and how far it has gone by then, but for ways to the machine's own places."""
+    """Where the tool stands at first and behind each motion, and how far it has gone by then, but for ways to the
+    machine's own places.
+    """
     motions = program.motions
     kept = np.ones(len(motions), bool)
     kept[list(program.homeward)] = False
@@ -218,7 +248,8 @@ def travelled(program: NcProgram) -> tuple[np.ndarray, np.ndarray]:
 
 
 def assert_moves_alike(before: NcProgram, after: NcProgram, off: float, parted: int = 2) -> None:
-    """The same places in the same order, reached after as long a way, but for those where arcs are parted; and the same waits.
+    """The same places in the same order, reached after as long a way, but for those where arcs are parted; and the same
+    waits.
 
     A motion whose ends are written as one place is none there; a full circle, whose ends are one too, has its length.
     """
@@ -235,15 +266,22 @@ def assert_moves_alike(before: NcProgram, after: NcProgram, off: float, parted: 
 
 
 TINY = {
-    "a rapid": "G0 X0.0001", "a rapid between others": "G0 X5.\nG0 X5.0001\nG0 X6.", "a cut at the end": "G0 X5.\nG1 X5.0001",
-    "cuts between rapids": "G1 X0.0001\nG0 X3.\nG1 X2.9999\nG0 X5.", "in inch": "G20\nG1 X0.00001\nG0 X1.",
+    "a rapid": "G0 X0.0001",
+    "a rapid between others": "G0 X5.\nG0 X5.0001\nG0 X6.",
+    "a cut at the end": "G0 X5.\nG1 X5.0001",
+    "cuts between rapids": "G1 X0.0001\nG0 X3.\nG1 X2.9999\nG0 X5.",
+    "in inch": "G20\nG1 X0.00001\nG0 X1.",
     "rapids and cuts in turn": "G91\n" + "G0 X0.0004\nG1 X0.0003\n" * 9 + "G90\nG0 X4.",
-    "an arc": "G0 X10.\nG2 X10.0001 Y0.0001 R1.", "an arc by its centre": "G0 X10.\nG2 X10.0001 Y0. I-5.\nG0 X3.",
-    "a full circle that is not": "G0 X10.\nG2 I-5.\nG0 X3.", "a narrow one that is": "G0 X10.\nG2 I-0.0001\nG0 X3.",
-    "a narrow helix": "G0 X10.\nG2 I-0.0001 Z-1.\nG0 X3.", "an arc that turns nearly round": "G0 X10.\nG3 X10. Y-0.0004 R5.\nG0 X3.",
-    "with dwells": "G0 X0.0001\nG4 {wait}\nG0 X0.0002\nG4 {wait}\nG0 X4.", "a dwell before a full circle": "G0 X5.\nG4 {wait}\nG2 I-1. J0.",
+    "an arc": "G0 X10.\nG2 X10.0001 Y0.0001 R1.",
+    "an arc by its centre": "G0 X10.\nG2 X10.0001 Y0. I-5.\nG0 X3.",
+    "a full circle that is not": "G0 X10.\nG2 I-5.\nG0 X3.",
+    "a narrow one that is": "G0 X10.\nG2 I-0.0001\nG0 X3.",
+    "a narrow helix": "G0 X10.\nG2 I-0.0001 Z-1.\nG0 X3.",
+    "an arc that turns nearly round": "G0 X10.\nG3 X10. Y-0.0004 R5.\nG0 X3.",
+    "with dwells": "G0 X0.0001\nG4 {wait}\nG0 X0.0002\nG4 {wait}\nG0 X4.",
+    "a dwell before a full circle": "G0 X5.\nG4 {wait}\nG2 I-1. J0.",
     "a dwell between": "G0 X5.\nG1 X5.0001\nG4 {wait}\nG2 X5.0001 Y0. I-1. J0.\nG0 X9.",
-}  # fmt: skip
+}
 """Motions whose ends another control's last decimal may make one, or only seems to."""
 
 
@@ -263,24 +301,60 @@ def test_what_is_less_than_the_last_digit_is_no_motion_there(what: str, came: st
 def test_a_lost_circle_and_a_moved_dwell_are_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is dropped for being small is held to its path, not to its ends."""
     right = Blocks.block
-    lost = {"G3 ": "G0 X10\nG3 X10 Y0 I-5 J0 F50", "G1 X10.": "G0 X5\nG1 X10.003 F50\nX5", "G4 ": "G1 X5 F50\nG4 P0.5\nX5.0001"}
+    lost = {
+        "G3 ": "G0 X10\nG3 X10 Y0 I-5 J0 F50",
+        "G1 X10.": "G0 X5\nG1 X10.003 F50\nX5",
+        "G4 ": "G1 X5 F50\nG4 P0.5\nX5.0001",
+    }
     for was, text in lost.items():
-        monkeypatch.setattr(Blocks, "block", lambda self, line, was=was: right(self, "" if line.startswith(was) else line))
+        monkeypatch.setattr(
+            Blocks, "block", lambda self, line, was=was: right(self, "" if line.startswith(was) else line)
+        )
         with pytest.raises(InputError, match="is not the same there"):
             pytest.fail(f"{was} went unseen: {into('fanuc', text + chr(10) + 'M2' + chr(10)).data!r}")
 
 
 lengths = st.decimals(-40, 40, places=4).map(lambda value: f"{value:.4f}")
 axes = st.lists(st.sampled_from("XYZ"), min_size=1, max_size=3, unique=True).flatmap(
-    lambda letters: st.tuples(*(lengths for _ in letters)).map(lambda values: " ".join(map("".join, zip(letters, values, strict=True))))
+    lambda letters: st.tuples(*(lengths for _ in letters)).map(
+        lambda values: " ".join(map("".join, zip(letters, values, strict=True)))
+    )
 )
 lines = st.one_of(
-    st.builds("G0 {}".format, axes), st.builds("G1 {}".format, axes), axes, st.builds("G91 G1 {}\nG90".format, axes),
-    st.builds("G91 G2 {}\nG90".format, st.sampled_from(["X10.0 I5.0", "Y2.0 R1.0", "I3.0 J1.0", "X1.0 Y1.0 I1.0 Z-1.0"])),
-    st.builds("G0 Z50.0\n{} X{} Y{} Z-5.0 R2.0\nX{}\nG80".format, st.sampled_from(["G98 G81", "G99 G81", "G83 Q2.5", "G82 P0.5"]),
-              lengths, lengths, lengths),
-    st.sampled_from(["G20", "G21", "S900 M3", "M5", "M8", "M9", "G4 P0.5", "M1", "G54", "G55", "G61", "G64", "F55.5", "T2 M6", "(text)"]),
-)  # fmt: skip
+    st.builds("G0 {}".format, axes),
+    st.builds("G1 {}".format, axes),
+    axes,
+    st.builds("G91 G1 {}\nG90".format, axes),
+    st.builds(
+        "G91 G2 {}\nG90".format, st.sampled_from(["X10.0 I5.0", "Y2.0 R1.0", "I3.0 J1.0", "X1.0 Y1.0 I1.0 Z-1.0"])
+    ),
+    st.builds(
+        "G0 Z50.0\n{} X{} Y{} Z-5.0 R2.0\nX{}\nG80".format,
+        st.sampled_from(["G98 G81", "G99 G81", "G83 Q2.5", "G82 P0.5"]),
+        lengths,
+        lengths,
+        lengths,
+    ),
+    st.sampled_from(
+        [
+            "G20",
+            "G21",
+            "S900 M3",
+            "M5",
+            "M8",
+            "M9",
+            "G4 P0.5",
+            "M1",
+            "G54",
+            "G55",
+            "G61",
+            "G64",
+            "F55.5",
+            "T2 M6",
+            "(text)",
+        ]
+    ),
+)
 
 
 @settings(max_examples=examples(60), deadline=None)
@@ -296,14 +370,25 @@ def test_random_programs_move_alike_on_every_control(some: list[str], came: str,
 def test_a_post_that_does_not_say_its_modes_is_refused() -> None:
     post = load_post("fanuc")
     silent = replace(post, program=replace(post.program, start=("G54",)))
-    with pytest.raises(InputError, match=r"hangs on modes that another job may have left in force; let the post's program\.start say them"):
+    with pytest.raises(
+        InputError,
+        match=r"hangs on modes that another job may have left in force; let the post's program\.start say them",
+    ):
         translated("a.ngc", b"G21 G90\nG0 X1\nM2\n", ReadOptions(), silent)
 
 
 def test_a_writer_that_errs_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever the writer does, what the other control makes of it is held against the program that came."""
     right = Blocks.block
-    for was, now in (("X10.", "X10.1"), ("F100.", "F1000."), ("M3", "M4"), ("P1500", "P150"), ("G1 ", "G0 "), ("H1", "H2"), ("G55", "G54")):
+    for was, now in (
+        ("X10.", "X10.1"),
+        ("F100.", "F1000."),
+        ("M3", "M4"),
+        ("P1500", "P150"),
+        ("G1 ", "G0 "),
+        ("H1", "H2"),
+        ("G55", "G54"),
+    ):
         monkeypatch.setattr(Blocks, "block", lambda self, text, was=was, now=now: right(self, text.replace(was, now)))
         text = HEAD + "G4 P1.5\nG43\nG55\nG10 L2 P2 X5\nG0 Z5\nX3\nG1 X10 F100\nM2\n"
         with pytest.raises(InputError, match="is not the same there"):

@@ -60,12 +60,21 @@ def test_a_post_named_like_the_one_it_extends_means_the_programs_own() -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ('extends = "nowhere"\n', "broken.toml: extends is 'nowhere'; expected is the name of another post: broken, fanuc, grbl"),
+        (
+            'extends = "nowhere"\n',
+            "broken.toml: extends is 'nowhere'; expected is the name of another post: broken, fanuc, grbl",
+        ),
         ("extends = 3\n", "broken.toml: extends is 3; expected is the name of another post"),
         ('extends = "broken"\n', "broken.toml: extends is 'broken'; expected is the name of another post"),
-        ('extends = "linuxcnc"\n[spindle]\ndwell_s = -1\n', "broken.toml:3: spindle.dwell_s is -1; expected is a number from 0 to 600"),
+        (
+            'extends = "linuxcnc"\n[spindle]\ndwell_s = -1\n',
+            "broken.toml:3: spindle.dwell_s is -1; expected is a number from 0 to 600",
+        ),
         ('extends = "linuxcnc"\nspindle = 3\n', "broken.toml:2: spindle is 3; expected is a table with dwell_s"),
-        ('extends = "linuxcnc"\n[program]\nend = ["M2 {toll}"]\n', "broken.toml: program.end: {toll} in 'M2 {toll}' is not known"),
+        (
+            'extends = "linuxcnc"\n[program]\nend = ["M2 {toll}"]\n',
+            "broken.toml: program.end: {toll} in 'M2 {toll}' is not known",
+        ),
         ('title = "half"\n', "broken.toml:1: extension is missing; add a text"),
         ("title = ", "broken.toml: this is no TOML file"),
         ("a = " + "[" * 5000, "broken.toml: this is no TOML file"),
@@ -124,6 +133,10 @@ def test_the_manual_names_every_table_and_key() -> None:
     manual = resource("docs", "posts.md").read_text("utf-8")
     for table in fields(Post):
         assert f"`{table.name}" in manual
-        inside = fields(getattr(load_post("linuxcnc"), table.name)) if is_dataclass(getattr(load_post("linuxcnc"), table.name)) else ()
+        inside = (
+            fields(getattr(load_post("linuxcnc"), table.name))
+            if is_dataclass(getattr(load_post("linuxcnc"), table.name))
+            else ()
+        )
         if table.name not in ("decimals", "drilling"):
             assert [key.name for key in inside if f"`{key.name}`" not in manual] == []

@@ -53,7 +53,9 @@ def test_absolute_arc_centres_and_block_numbers_are_data() -> None:
         LINUXCNC,
         arcs=replace(LINUXCNC.arcs, centre=ArcCentre.ABSOLUTE),
         numbers=Numbers(True, 10, 10),
-        program=replace(LINUXCNC.program, start=tuple(line.replace("G91.1", "G90.1") for line in LINUXCNC.program.start)),
+        program=replace(
+            LINUXCNC.program, start=tuple(line.replace("G91.1", "G90.1") for line in LINUXCNC.program.start)
+        ),
     )
     program, task = two_tools().program(), job()
     text = write_program(program, task, absolute).text
@@ -80,7 +82,9 @@ line_steps = st.tuples(st.just("line"), st.one_of(st.floats(0, 2e-4), st.floats(
 
 
 def random_path(steps: list[tuple[object, ...]], path: Path | None = None) -> Path:
-    """Chain steps, behind a path if there is one; each begins where the one before ended. Arcs longer than 200 mm are cut short."""
+    """Chain steps, behind a path if there is one; each begins where the one before ended. Arcs longer than 200 mm are
+    cut short.
+    """
     path = (path or Path()).into_work(1.23456, -6.54321)
     for step in steps:
         x, y, z = path.rows[-1][0]
@@ -91,7 +95,11 @@ def random_path(steps: list[tuple[object, ...]], path: Path | None = None) -> Pa
         sweep = min(sweep, 200 / radius)
         cx, cy = x - radius * math.cos(angle), y - radius * math.sin(angle)
         turn = sweep if ccw else -sweep
-        end = (x, y) if sweep == math.tau else (cx + radius * math.cos(angle + turn), cy + radius * math.sin(angle + turn))
+        end = (
+            (x, y)
+            if sweep == math.tau
+            else (cx + radius * math.cos(angle + turn), cy + radius * math.sin(angle + turn))
+        )
         gap = math.dist((x, y), end)
         if 0 < gap < 1e-8 or math.dist(end, (cx, cy)) == 0:
             continue

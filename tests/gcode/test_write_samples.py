@@ -1,4 +1,6 @@
-"""Whole drawings: LinuxCNC's interpreter accepts its program and moves along the computed path to 1 um; every post's reads back."""
+"""Whole drawings: LinuxCNC's interpreter accepts its program and moves along the computed path to 1 um; every post's
+reads back.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,10 @@ from tests.gcode.grbl_syntax import grbl_errors
 from tests.gcode.rs274_oracle import assert_same_motion
 
 FIG2 = ROOT / "resources" / "samples" / "fig2.dxf"
-DRAWINGS = [FIG2, *(ROOT / "tests" / "data" / "dxf" / f"{name}.dxf" for name in ("apu-mount", "complex", "gear", "genshi", "insert"))]
+DRAWINGS = [
+    FIG2,
+    *(ROOT / "tests" / "data" / "dxf" / f"{name}.dxf" for name in ("apu-mount", "complex", "gear", "genshi", "insert")),
+]
 
 
 @pytest.mark.parametrize("drawing", DRAWINGS, ids=lambda path: path.stem)

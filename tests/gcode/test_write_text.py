@@ -56,8 +56,17 @@ def test_order_round_a_tool_change() -> None:
     blocks = body(write(two_tools()))
     change = blocks.index("T2 M6")
     assert blocks[change - 2 : change + 8] == [
-        "G0 Z5.0000", "M5", "T2 M6", "G43", "S18000 M3", "G4 P2", "G0 Z5.0000", "X8.0000 Y5.0000", "Z1.0000", "G1 Z-1.0000 F200",
-    ]  # fmt: skip
+        "G0 Z5.0000",
+        "M5",
+        "T2 M6",
+        "G43",
+        "S18000 M3",
+        "G4 P2",
+        "G0 Z5.0000",
+        "X8.0000 Y5.0000",
+        "Z1.0000",
+        "G1 Z-1.0000 F200",
+    ]
     assert blocks[:4] == ["G17 G21 G90 G94 G40 G49 G80", "G91.1", "G54", "G64 P0.0100 Q0"]
     assert blocks[-3:] == ["G0 Z5.0000", "M5", "M2"]
 
@@ -65,7 +74,13 @@ def test_order_round_a_tool_change() -> None:
 def test_the_control_sees_that_order() -> None:
     calls = [name for name, _ in canonical_calls(write(two_tools()).text)]
     second = len(calls) - 1 - calls[::-1].index("CHANGE_TOOL")
-    up, off, change, on, wait = "STRAIGHT_TRAVERSE", "STOP_SPINDLE_TURNING", "CHANGE_TOOL", "START_SPINDLE_CLOCKWISE", "DWELL"
+    up, off, change, on, wait = (
+        "STRAIGHT_TRAVERSE",
+        "STOP_SPINDLE_TURNING",
+        "CHANGE_TOOL",
+        "START_SPINDLE_CLOCKWISE",
+        "DWELL",
+    )
     wanted = [up, off, change, on, wait, up, "STRAIGHT_FEED"]
     seen = [name for name in calls[second - 6 :] if name in wanted]
     assert [name for i, name in enumerate(seen) if i == 0 or name != seen[i - 1]][:7] == wanted
@@ -97,7 +112,13 @@ def test_words_are_modal() -> None:
 
 
 def test_no_negative_zero_and_all_decimals() -> None:
-    path = Path().rapid(-0.00001, 0.00004, 5.0).rapid(-0.00001, 0.00004, 1.0).line(-0.00001, 0.00004, -0.00003).line(3, 0, -0.00003)
+    path = (
+        Path()
+        .rapid(-0.00001, 0.00004, 5.0)
+        .rapid(-0.00001, 0.00004, 1.0)
+        .line(-0.00001, 0.00004, -0.00003)
+        .line(3, 0, -0.00003)
+    )
     path.arc((3, 6, -0.00003), (3, 3)).out_of_work()
     for units, decimals in ((Units.MM, 4), (Units.INCH, 5)):
         text = write(path, out_units=units).text
@@ -149,7 +170,9 @@ def test_exact_path() -> None:
 def test_writing_tolerance() -> None:
     assert writing_tolerance(job(), LINUXCNC) == pytest.approx(2e-4)
     assert writing_tolerance(job(out_units=Units.INCH), LINUXCNC) == pytest.approx(2e-5 * 25.4)
-    coarse = replace(LINUXCNC, decimals=replace(LINUXCNC.decimals, mm=replace(LINUXCNC.decimals.mm, X=3, Y=3, I=3, J=3)))
+    coarse = replace(
+        LINUXCNC, decimals=replace(LINUXCNC.decimals, mm=replace(LINUXCNC.decimals.mm, X=3, Y=3, I=3, J=3))
+    )
     assert writing_tolerance(job(), coarse) == pytest.approx(1e-3)
 
 
@@ -169,16 +192,28 @@ def test_header_names_stock_origin_tools_and_operations() -> None:
         ContourOperation(Cut(tool=3)),
         ContourOperation(Cut(tool=3, enabled=False)),
     )
-    comments = [line[1:-1] for line in write(two_tools(), tools=tools, operations=operations).text.splitlines() if line[0] == "("]
+    comments = [
+        line[1:-1]
+        for line in write(two_tools(), tools=tools, operations=operations).text.splitlines()
+        if line[0] == "("
+    ]
     for words in (
-        "Part plate", "Stock 44 mm x 34 mm x 8 mm", "Work origin: drawing zero, top of stock", "T1 flat 6 mm Schlichtfraser, 12000 rpm",
-        "T2 ball 3.175 mm, 18000 rpm", "Contour T3: depth 2 mm, stepdown 2 mm, stock to leave 0 mm, climb, makes no moves",
+        "Part plate",
+        "Stock 44 mm x 34 mm x 8 mm",
+        "Work origin: drawing zero, top of stock",
+        "T1 flat 6 mm Schlichtfraser, 12000 rpm",
+        "T2 ball 3.175 mm, 18000 rpm",
+        "Contour T3: depth 2 mm, stepdown 2 mm, stock to leave 0 mm, climb, makes no moves",
         "Pocket T1: depth 2 mm, stepdown 2 mm, stock to leave 0.1 mm, climb, stepover 2.5 mm",
-        "hitofude: part=plate", "hitofude: units=mm", "hitofude: origin_mm=0,0,0", "hitofude: stock_mm=-2,-2,-8,42,32,0",
+        "hitofude: part=plate",
+        "hitofude: units=mm",
+        "hitofude: origin_mm=0,0,0",
+        "hitofude: stock_mm=-2,-2,-8,42,32,0",
         "hitofude: tool=2,ball,3.175",
-        "hitofude: operation=pocket,tool=1,depth=2,stock_to_leave=0.1,stepover=2.5", "hitofude: path_tolerance_mm=0.0012",
+        "hitofude: operation=pocket,tool=1,depth=2,stock_to_leave=0.1,stepover=2.5",
+        "hitofude: path_tolerance_mm=0.0012",
         "hitofude: blend_mm=0.01",
-    ):  # fmt: skip
+    ):
         assert words in comments
     assert not [line for line in comments if line.startswith("T3")]
 

@@ -1,4 +1,6 @@
-"""Drawings that meet in every way that is hard to decide: kinds of contact, times offsets, times poses; and lattices of them."""
+"""Drawings that meet in every way that is hard to decide: kinds of contact, times offsets, times poses; and lattices of
+them.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,12 @@ def tilted(x0: float, y0: float, x1: float, y1: float, angle: float) -> Contour:
 
 def rounded(x0: float, y0: float, x1: float, y1: float, r: float) -> Contour:
     """Return a rectangle with round corners; a slot where they are half as wide as it."""
-    sides = [((x0 + r, y0), (x1 - r, y0)), ((x1, y0 + r), (x1, y1 - r)), ((x1 - r, y1), (x0 + r, y1)), ((x0, y1 - r), (x0, y0 + r))]
+    sides = [
+        ((x0 + r, y0), (x1 - r, y0)),
+        ((x1, y0 + r), (x1, y1 - r)),
+        ((x1 - r, y1), (x0 + r, y1)),
+        ((x0, y1 - r), (x0, y0 + r)),
+    ]
     centres = [(x1 - r, y0 + r), (x1 - r, y1 - r), (x0 + r, y1 - r), (x0 + r, y0 + r)]
     curves: list[Primitive] = []
     for k, ((a, b), centre) in enumerate(zip(sides, centres, strict=True)):
@@ -102,11 +109,31 @@ KINDS: dict[str, Callable[[float], Shapes]] = {
     "round corners over round corners": lambda e: [rounded(0, 0, 20, 12, 3), rounded(e, e, 20, 12, 3)],
     "round corners over sharp ones": lambda e: [rounded(0, 0, 20, 12, 3), box(0, 0, 20 + e, 12 - e)],
     "bow tie": lambda e: [polygon_contour([(0, 0), (10, 10 + e), (10, 0), (0, 10)])],
-    "spike": lambda e: [polygon_contour([(0, 0), (20, 0), (20, 5), (30, 5), (20, 5 + abs(e) + 1e-15), (20, 10), (0, 10)])],
-    "slit": lambda e: [polygon_contour([(0, 0), (20, 0), (20, 5), (8, 5), (20, 5 + abs(e) + 1e-15), (20, 10), (0, 10)])],
+    "spike": lambda e: [
+        polygon_contour([(0, 0), (20, 0), (20, 5), (30, 5), (20, 5 + abs(e) + 1e-15), (20, 10), (0, 10)])
+    ],
+    "slit": lambda e: [
+        polygon_contour([(0, 0), (20, 0), (20, 5), (8, 5), (20, 5 + abs(e) + 1e-15), (20, 10), (0, 10)])
+    ],
     "vertex on the opposite side": lambda e: [polygon_contour([(0, 0), (20, 0), (20, 10), (10, e), (0, 10)])],
-    "hole by a bridge": lambda e: [polygon_contour([(0, 0), (20, 0), (20, 20), (10, 20), (10, 15 + e), (15, 15), (15, 5), (5, 5), (5, 15),
-                                                     (10, 15), (10, 20), (0, 20)])],
+    "hole by a bridge": lambda e: [
+        polygon_contour(
+            [
+                (0, 0),
+                (20, 0),
+                (20, 20),
+                (10, 20),
+                (10, 15 + e),
+                (15, 15),
+                (15, 5),
+                (5, 5),
+                (5, 15),
+                (10, 15),
+                (10, 20),
+                (0, 20),
+            ]
+        )
+    ],
     "chain of circles": lambda e: [disc(0, 0, 5), disc(10 - e, 0, 5), disc(20 - 2 * e, 0, 5)],
     "triangle of circles": _triangle,
     "circles through a point": _fan,
@@ -114,7 +141,12 @@ KINDS: dict[str, Callable[[float], Shapes]] = {
     "pencil of circles, both sides": lambda e: [*_pencil(e), disc(4, 0, 4)],
     "rectangles over one edge": lambda e: [box(0, 0, 10, 10), box(0, e, 10, 10 + e), box(5, 0, 15, 10)],
     "rectangles that share an edge": lambda e: [box(0, 0, 10, 10), box(10, 0, 20, 10), box(5 + e, 0, 15, 10)],
-    "four squares round a point": lambda e: [box(0, 0, 10, 10), box(-10, 0, e, 10), box(-10, -10, 0, e), box(0, -10, 10, 0)],
+    "four squares round a point": lambda e: [
+        box(0, 0, 10, 10),
+        box(-10, 0, e, 10),
+        box(-10, -10, 0, e),
+        box(0, -10, 10, 0),
+    ],
     "a circle three times": lambda e: [disc(0, 0, 10), disc(e, 0, 10), disc(0, e, 10)],
     "circle along two sides": lambda e: [box(0, 0, 30, 10), disc(12, 5 + e, 5)],
 }

@@ -17,7 +17,10 @@ CENTRE, RADIUS = (17.3, -4.1), 3.0
 
 
 def on_circle(angles: np.ndarray, radius: float = RADIUS, decimals: int = 9) -> list[tuple[float, float]]:
-    return [(round(CENTRE[0] + radius * math.cos(a), decimals), round(CENTRE[1] + radius * math.sin(a), decimals)) for a in angles]
+    return [
+        (round(CENTRE[0] + radius * math.cos(a), decimals), round(CENTRE[1] + radius * math.sin(a), decimals))
+        for a in angles
+    ]
 
 
 def regular(count: int, turn: float = 0.3) -> np.ndarray:
@@ -33,32 +36,53 @@ def of_beziers(each: int) -> Contour:
     """Four cubics, as drawing programs write circles, each in chords of equal parameter: 0.03 % off at most."""
     k, t = 4 / 3 * math.tan(math.pi / 8), np.linspace(0, 1, each, endpoint=False)[:, None]
     corners = [(math.cos(a), math.sin(a)) for a in np.arange(5) * math.pi / 2]
-    parts = [(1 - t) ** 3 * np.array([[ax, ay]]) + 3 * t * (1 - t) ** 2 * np.array([[ax - k * ay, ay + k * ax]])
-             + 3 * t * t * (1 - t) * np.array([[bx + k * by, by - k * bx]]) + t ** 3 * np.array([[bx, by]])
-             for (ax, ay), (bx, by) in pairwise(corners)]  # fmt: skip
-    return polygon_contour([(CENTRE[0] + RADIUS * x, CENTRE[1] + RADIUS * y) for x, y in np.concatenate(parts).tolist()])
+    parts = [
+        (1 - t) ** 3 * np.array([[ax, ay]])
+        + 3 * t * (1 - t) ** 2 * np.array([[ax - k * ay, ay + k * ax]])
+        + 3 * t * t * (1 - t) * np.array([[bx + k * by, by - k * bx]])
+        + t**3 * np.array([[bx, by]])
+        for (ax, ay), (bx, by) in pairwise(corners)
+    ]
+    return polygon_contour(
+        [(CENTRE[0] + RADIUS * x, CENTRE[1] + RADIUS * y) for x, y in np.concatenate(parts).tolist()]
+    )
 
 
 CIRCLES = {
-    "a circle": circle(RADIUS, *CENTRE), "two bulges": by_bulges(2, 4), "four bulges": by_bulges(4, 3), "many bulges": by_bulges(36, 3),
-    **{f"{count} chords, {decimals} decimals": polygon_contour(on_circle(regular(count), decimals=decimals))
-       for count in (12, 16, 64, 500) for decimals in (2, 3, 9)},
+    "a circle": circle(RADIUS, *CENTRE),
+    "two bulges": by_bulges(2, 4),
+    "four bulges": by_bulges(4, 3),
+    "many bulges": by_bulges(36, 3),
+    **{
+        f"{count} chords, {decimals} decimals": polygon_contour(on_circle(regular(count), decimals=decimals))
+        for count in (12, 16, 64, 500)
+        for decimals in (2, 3, 9)
+    },
     "a shorter chord at the end": polygon_contour(on_circle(np.arange(0, math.tau, 0.1))),
     "Bezier curves in chords": of_beziers(12),
 }
 OTHERS = {
     **{f"{count} corners": polygon_contour(on_circle(regular(count))) for count in (3, 4, 6, 8, 10, 11)},
     "a flat on a shaft": polygon_contour(on_circle(np.linspace(0.2, math.tau - 0.2, 60))),
-    "a flat across arcs": bulged([(*on_circle(np.array([0.2]))[0], math.tan((math.tau - 0.4) / 4)),
-                                  (*on_circle(np.array([-0.2]))[0], 0)]),
+    "a flat across arcs": bulged(
+        [(*on_circle(np.array([0.2]))[0], math.tan((math.tau - 0.4) / 4)), (*on_circle(np.array([-0.2]))[0], 0)]
+    ),
     "an ellipse": polygon_contour([(10 * math.cos(a), 9.9 * math.sin(a)) for a in regular(64)]),
     "a star": polygon_contour([on_circle(np.array([a]), RADIUS - 0.1 * (k % 2))[0] for k, a in enumerate(regular(40))]),
-    "a square in short lines": polygon_contour([*((k, 0) for k in range(10)), *((10, k) for k in range(10)),
-                                                *((10 - k, 10) for k in range(10)), *((0, 10 - k) for k in range(10))]),
+    "a square in short lines": polygon_contour(
+        [
+            *((k, 0) for k in range(10)),
+            *((10, k) for k in range(10)),
+            *((10 - k, 10) for k in range(10)),
+            *((0, 10 - k) for k in range(10)),
+        ]
+    ),
     "twice round": polygon_contour(on_circle(np.linspace(0, 2 * math.tau, 80, endpoint=False))),
     "forth and back": polygon_contour(on_circle(np.concatenate([np.linspace(0, 5, 50), np.linspace(4.9, 0.1, 49)]))),
     "a lens": bulged([(0, 0, 0.4), (10, 0, 0.4)]),
-    "very small and coarse": polygon_contour([(round(0.3 * math.cos(a), 1), round(0.3 * math.sin(a), 1)) for a in regular(12)]),
+    "very small and coarse": polygon_contour(
+        [(round(0.3 * math.cos(a), 1), round(0.3 * math.sin(a), 1)) for a in regular(12)]
+    ),
 }
 
 

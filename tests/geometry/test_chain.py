@@ -30,7 +30,9 @@ def chained(curves: Sequence[Curve], join_tolerance: float = 0.01) -> Chaining:
             assert a.end == b.start
         assert not contour.closed or contour.primitives[-1].end == contour.primitives[0].start
         for p in contour.primitives:
-            assert not isinstance(p, Arc) or math.dist(p.start, p.centre) == pytest.approx(math.dist(p.end, p.centre), rel=1e-9)
+            assert not isinstance(p, Arc) or math.dist(p.start, p.centre) == pytest.approx(
+                math.dist(p.end, p.centre), rel=1e-9
+            )
     return made
 
 
@@ -84,11 +86,18 @@ def test_open_contour_names_both_loose_ends() -> None:
     assert "The contour on layer 0, 10 x 10 mm from (0.000, 0.000), is open by 0.12 mm" in found.text
     assert "(0.000, 0.000) and (0.000, 0.120)" in found.text
     assert "tolerance 0.2" in found.text
-    assert shape(chained([Line((0, 0), (10, 0)), Line((10, 0), (10, 10)), Line((10, 10), (0, 0.12))], 0.2)) == [(True, 3)]
+    assert shape(chained([Line((0, 0), (10, 0)), Line((10, 0), (10, 10)), Line((10, 10), (0, 0.12))], 0.2)) == [
+        (True, 3)
+    ]
 
 
 def test_arcs_stay_true_arcs_when_ends_move() -> None:
-    slot = [Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2)), Line((10, 4.004), (0, 4)), Arc((0, 4), (0, 0.006), (0, 2.003))]
+    slot = [
+        Line((0, 0), (10, 0)),
+        Arc((10, 0), (10, 4), (10, 2)),
+        Line((10, 4.004), (0, 4)),
+        Arc((0, 4), (0, 0.006), (0, 2.003)),
+    ]
     made = chained(slot)
     assert shape(made) == [(True, 4)]
     assert made.contours[0].primitives[1] == slot[1]
@@ -102,7 +111,9 @@ def test_an_end_that_is_off_by_a_last_digit_makes_no_piece_of_its_own() -> None:
 
 
 def test_nearly_full_arc_is_bridged_not_bent() -> None:
-    """The ends are 0.4 mm apart and each has to go 0.004 mm: moving them would shift the centre by a multiple of that."""
+    """The ends are 0.4 mm apart and each has to go 0.004 mm: moving them would shift the centre by a multiple of
+    that.
+    """
     a, b = (5 * math.cos(0.04), 5 * math.sin(0.04)), (5 * math.cos(0.04), -5 * math.sin(0.04))
     cap = Arc((b[0] + 0.008, b[1]), (a[0] + 0.008, a[1]), (a[0] - 0.2, 0.0))
     tilted = Arc((b[0] + 0.008, b[1] + 0.004), (a[0] - 0.004, a[1] + 0.004), (0.0, 0.0))
@@ -110,7 +121,9 @@ def test_nearly_full_arc_is_bridged_not_bent() -> None:
     for cover in (cap, tilted):
         made = chained([Arc(a, b, (0, 0)), cover])
         assert made.contours[0].closed
-        large = max((p for p in made.contours[0].primitives if isinstance(p, Arc)), key=lambda p: abs(p.sweep) * p.radius)
+        large = max(
+            (p for p in made.contours[0].primitives if isinstance(p, Arc)), key=lambda p: abs(p.sweep) * p.radius
+        )
         assert math.dist(large.centre, (0, 0)) + abs(large.radius - 5) <= 0.012
 
 
@@ -118,7 +131,9 @@ def _between(arc: Arc, height: float) -> Point:
     """A centre equally far from both ends, `height` to the left of the chord."""
     dx, dy = arc.end[0] - arc.start[0], arc.end[1] - arc.start[1]
     length = math.hypot(dx, dy)
-    return (arc.start[0] + arc.end[0]) / 2 - dy / length * height, (arc.start[1] + arc.end[1]) / 2 + dx / length * height
+    return (arc.start[0] + arc.end[0]) / 2 - dy / length * height, (
+        arc.start[1] + arc.end[1]
+    ) / 2 + dx / length * height
 
 
 def test_arc_whose_ends_meet_is_a_circle() -> None:
@@ -128,12 +143,19 @@ def test_arc_whose_ends_meet_is_a_circle() -> None:
 
 def test_short_details_survive_a_wide_tolerance() -> None:
     """Segments shorter than the join tolerance are not swallowed where they are connected already."""
-    fine = [(round(0.01 * math.cos(a) + 5, 6), round(0.01 * math.sin(a), 6)) for a in [math.tau * k / 12 for k in range(12)]]
+    fine = [
+        (round(0.01 * math.cos(a) + 5, 6), round(0.01 * math.sin(a), 6)) for a in [math.tau * k / 12 for k in range(12)]
+    ]
     assert shape(chained(polygon(fine), 0.05)) == [(True, 12)]
 
 
 def test_ends_that_are_nearest_are_joined() -> None:
-    comb = [Line((0, 0), (0, 10)), Line((0, 10.005), (0.02, 10.005)), Line((0.02, 10), (0.02, 0)), Line((0.02, -0.004), (0, -0.004))]
+    comb = [
+        Line((0, 0), (0, 10)),
+        Line((0, 10.005), (0.02, 10.005)),
+        Line((0.02, 10), (0.02, 0)),
+        Line((0.02, -0.004), (0, -0.004)),
+    ]
     assert shape(chained(comb)) == [(True, 4)]
 
 
@@ -215,7 +237,17 @@ def test_walls_of_a_thin_feature_stay_two(width: float) -> None:
 
 def test_thin_tongue_of_an_outline_with_gaps_stays() -> None:
     """Narrower than the tolerance, but what joins its walls says that they are two."""
-    points = [(0.0, 0.0), (5.0, 0.0), (5.0, -9.0), (5.008, -9.0), (5.008, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.004)]
+    points = [
+        (0.0, 0.0),
+        (5.0, 0.0),
+        (5.0, -9.0),
+        (5.008, -9.0),
+        (5.008, 0.0),
+        (10.0, 0.0),
+        (10.0, 10.0),
+        (0.0, 10.0),
+        (0.0, 0.004),
+    ]
     made = chained([Line(a, b) for a, b in pairwise(points)])
     assert shape(made) == [(True, 8)]
 
@@ -284,8 +316,17 @@ def test_bar_between_two_loops_leaves_both_closed() -> None:
 
 
 def test_dividing_line_leaves_the_outline() -> None:
-    made = chained([Line((5, 0), (5, 10)), Line((0, 0), (5, 0)), Line((5, 0), (10, 0)), Line((10, 0), (10, 10)), Line((10, 10), (5, 10)),
-                    Line((5, 10), (0, 10)), Line((0, 10), (0, 0))])
+    made = chained(
+        [
+            Line((5, 0), (5, 10)),
+            Line((0, 0), (5, 0)),
+            Line((5, 0), (10, 0)),
+            Line((10, 0), (10, 10)),
+            Line((10, 10), (5, 10)),
+            Line((5, 10), (0, 10)),
+            Line((0, 10), (0, 0)),
+        ]
+    )
     assert shape(made) == [(False, 1), (True, 6)]
     assert len([f for f in of_kind(made, FindingKind.SELF_INTERSECTION) if f.counts]) == 2
 
@@ -298,7 +339,15 @@ def test_curves_become_lines_and_arcs_with_their_deviation() -> None:
 
 
 def test_curves_without_length_are_named() -> None:
-    made = chained([*polygon(SQUARE), Line((3, 3), (3, 3)), Circle((1, 1), 1e-9), Line((0, math.nan), (1, 1)), Line((0, 0), (1e300, 1))])
+    made = chained(
+        [
+            *polygon(SQUARE),
+            Line((3, 3), (3, 3)),
+            Circle((1, 1), 1e-9),
+            Line((0, math.nan), (1, 1)),
+            Line((0, 0), (1e300, 1)),
+        ]
+    )
     assert shape(made) == [(True, 4)]
     assert [f.entity_ids for f in of_kind(made, FindingKind.TINY_ENTITY)] == [(5,), (6,), (7,), (8,)]
 
@@ -312,15 +361,19 @@ def test_many_faults_are_counted_not_listed() -> None:
 def test_lines_that_bound_nothing_are_one_line_a_layer_with_the_way_out() -> None:
     centre = [Entity(k, Line((0, 3.0 * k), (10 + k, 3.0 * k)), "Centre lines") for k in range(1, 29)]
     (found,) = chain([*centre, Entity(99, Circle((0, 0), 1), "0")]).findings
-    assert found.text == ("Layer Centre lines has 28 lines that bound nothing, the longest 38 x 0 mm at (0.000, 84.000). "
-                          'Complete them, or leave the layer out: --skip-layer "Centre lines".')
+    assert found.text == (
+        "Layer Centre lines has 28 lines that bound nothing, the longest 38 x 0 mm at (0.000, 84.000). "
+        'Complete them, or leave the layer out: --skip-layer "Centre lines".'
+    )
     assert found.counts and len(found.entity_ids) == 28
     (among,) = chain([*centre, Entity(99, Circle((0, 0), 1), "Centre lines")]).findings
     assert "draw them on a layer of their own, which --skip-layer leaves out" in among.text
 
 
 def test_the_nearest_other_end_is_what_an_advice_is_about() -> None:
-    """Two halves of an outline: one gap is closed, the ends at the other are 0.0113 mm apart; each half is open by 40 mm as a whole."""
+    """Two halves of an outline: one gap is closed, the ends at the other are 0.0113 mm apart; each half is open by 40
+    mm as a whole.
+    """
     half = [Line((0, 0), (40, 0)), Line((40, 0), (40, 30))]
     other = [Line((40, 30.0113), (0, 30)), Line((0, 30), (0, 0.0)), Line((60, 60), (130, 60))]
     found = of_kind(chained([*half, *other]), FindingKind.OPEN_CONTOUR)
@@ -340,7 +393,10 @@ def test_no_tolerance_is_advised_that_is_not_allowed(gap: float, advised: str) -
 def test_ends_of_different_curves_are_named_with_their_distance() -> None:
     made = chained([Line((0, 0), (40, 0)), Line((40.5, 0), (80, 30)), Line((200, 0), (200, 50))])
     found = of_kind(made, FindingKind.OPEN_CONTOUR)
-    assert "its loose end at (40.000, 0.000) is 0.5 mm from that of another at (40.500, 0.000). Join with tolerance 0.5" in found[0].text
+    assert (
+        "its loose end at (40.000, 0.000) is 0.5 mm from that of another at (40.500, 0.000). Join with tolerance 0.5"
+        in found[0].text
+    )
 
 
 def test_flat_arc_with_a_far_centre_closes_its_outline() -> None:

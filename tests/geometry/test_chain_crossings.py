@@ -38,7 +38,9 @@ def test_apart_or_inside_is_no_finding() -> None:
 
 
 def test_smooth_outline_does_not_meet_itself() -> None:
-    slot = contour(Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2)), Line((10, 4), (0, 4)), Arc((0, 4), (0, 0), (0, 2)))
+    slot = contour(
+        Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2)), Line((10, 4), (0, 4)), Arc((0, 4), (0, 0), (0, 2))
+    )
     assert crossings([slot]) == []
 
 
@@ -64,7 +66,9 @@ def test_figure_eight_crosses_itself() -> None:
     assert found.counts and (found.x, found.y) == pytest.approx((5, 5)) and "crosses itself" in found.text
 
 
-@pytest.mark.parametrize(("circle", "places"), [(Circle((5, 0), 2), 2), (Circle((10, 10), 3), 2), (Circle((5, 5), 6), 8)])
+@pytest.mark.parametrize(
+    ("circle", "places"), [(Circle((5, 0), 2), 2), (Circle((10, 10), 3), 2), (Circle((5, 5), 6), 8)]
+)
 def test_line_and_circle(circle: Circle, places: int) -> None:
     found = only([SQUARE, contour(circle)])
     assert found.counts and found.amount == places
@@ -126,8 +130,11 @@ def test_concentric_circles_are_no_burden() -> None:
 def test_random_circles_agree_with_closed_form() -> None:
     rng = np.random.default_rng(4)
     circles = [Circle((float(x), float(y)), float(r)) for x, y, r in rng.uniform((0, 0, 1), (60, 60, 9), (40, 3))]
-    expected = sum(abs(a.radius - b.radius) < math.dist(a.centre, b.centre) < a.radius + b.radius
-                   for k, a in enumerate(circles) for b in circles[:k])
+    expected = sum(
+        abs(a.radius - b.radius) < math.dist(a.centre, b.centre) < a.radius + b.radius
+        for k, a in enumerate(circles)
+        for b in circles[:k]
+    )
     found = crossings([contour(c) for c in circles])
     assert all(f.counts for f in found)
     total = len(found) if len(found) <= 20 else 20 + int(found[-1].amount or 0)

@@ -1,4 +1,6 @@
-"""Random outlines cut up, shuffled, reversed, drawn twice and shaken below the tolerance come back as the same outlines."""
+"""Random outlines cut up, shuffled, reversed, drawn twice and shaken below the tolerance come back as the same
+outlines.
+"""
 
 import math
 import random
@@ -39,7 +41,9 @@ def outline(rng: random.Random, x: float, y: float) -> list[Line | Arc]:
 
 def point_on(curve: Line | Arc, share: float) -> Point:
     if isinstance(curve, Line):
-        return curve.start[0] + share * (curve.end[0] - curve.start[0]), curve.start[1] + share * (curve.end[1] - curve.start[1])
+        return curve.start[0] + share * (curve.end[0] - curve.start[0]), curve.start[1] + share * (
+            curve.end[1] - curve.start[1]
+        )
     angle = curve.start_angle + share * curve.sweep
     return curve.centre[0] + curve.radius * math.cos(angle), curve.centre[1] + curve.radius * math.sin(angle)
 
@@ -127,7 +131,9 @@ def scribbles(draw: st.DrawFn) -> list[Curve]:
         elif kind == "arc" and a != b:
             bulge = draw(st.sampled_from([1.0, -1.0, 0.2, -0.4, 30.0]))
             h = (1 / bulge - bulge) / 4
-            found.append(Arc(a, b, ((a[0] + b[0]) / 2 - (b[1] - a[1]) * h, (a[1] + b[1]) / 2 + (b[0] - a[0]) * h), bulge > 0))
+            found.append(
+                Arc(a, b, ((a[0] + b[0]) / 2 - (b[1] - a[1]) * h, (a[1] + b[1]) / 2 + (b[0] - a[0]) * h), bulge > 0)
+            )
         else:
             found.append(Line(a, b))
     return found

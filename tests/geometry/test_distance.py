@@ -8,7 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.distance import DistanceField
-from app.geometry.primitives import boxes, contour_rows, lengths, points_at, sample, signed_area, sweeps, within_half_turn
+from app.geometry.primitives import (
+    boxes,
+    contour_rows,
+    lengths,
+    points_at,
+    sample,
+    signed_area,
+    sweeps,
+    within_half_turn,
+)
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import bulged, circle, random_part
@@ -35,7 +44,10 @@ def test_inside_equals_plain_even_odd(seed: int) -> None:
 
 def test_a_ray_through_vertices_and_tops_of_arcs_counts_once() -> None:
     field = DistanceField.of(contour_rows(circle(5)))
-    assert field.inside(np.array([[0.0, 0.0], [-6.0, 0.0], [6.0, 0.0], [6.0, 5.0], [6.0, -5.0]])).tolist() == [True, *[False] * 4]
+    assert field.inside(np.array([[0.0, 0.0], [-6.0, 0.0], [6.0, 0.0], [6.0, 5.0], [6.0, -5.0]])).tolist() == [
+        True,
+        *[False] * 4,
+    ]
 
 
 def test_a_limit_cuts_the_search_short() -> None:

@@ -27,8 +27,12 @@ def lens(r: float, s: float, gap: float) -> float:
     return r * r * (a - math.sin(2 * a) / 2) + s * s * (b - math.sin(2 * b) / 2)
 
 
-ONE = [(box(1, 2, 4, 9), 21.0), (slot(0, 0, 30, 6), 144 + 9 * math.pi), (rounded(0, 0, 20, 12, 3), 204 + 9 * math.pi),
-       (disc(3, 4, 5), 25 * math.pi)]  # fmt: skip
+ONE = [
+    (box(1, 2, 4, 9), 21.0),
+    (slot(0, 0, 30, 6), 144 + 9 * math.pi),
+    (rounded(0, 0, 20, 12, 3), 204 + 9 * math.pi),
+    (disc(3, 4, 5), 25 * math.pi),
+]
 
 
 @pytest.mark.parametrize(("shape", "area"), ONE)
@@ -50,7 +54,9 @@ def test_two_circles(gap: float, pose: Pose) -> None:
 
 @pytest.mark.parametrize("e", [0.0, 1e-13, -1e-9, 1e-6])
 def test_what_is_drawn_twice_is_nothing_and_three_times_is_there(e: float) -> None:
-    assert even_odd([box(0, 0, 10, 10), box(e, e, 10 + e, 10 + e)]).area == pytest.approx(4 * 10 * abs(e) - 2 * e * e, abs=1e-12)
+    assert even_odd([box(0, 0, 10, 10), box(e, e, 10 + e, 10 + e)]).area == pytest.approx(
+        4 * 10 * abs(e) - 2 * e * e, abs=1e-12
+    )
     assert even_odd([disc(0, 0, 10)] * 3).area == pytest.approx(100 * math.pi)
 
 
@@ -81,13 +87,20 @@ def test_random_parts_agree_with_polygons(seed: int) -> None:
     contours, _ = random_part(seed)
     area = shapely.Polygon()
     for contour in contours:
-        area = shapely.symmetric_difference(area, shapely.make_valid(shapely.Polygon(sample(contour_rows(contour), 1e-6))))
+        area = shapely.symmetric_difference(
+            area, shapely.make_valid(shapely.Polygon(sample(contour_rows(contour), 1e-6)))
+        )
     assert even_odd(contours).area == pytest.approx(float(area.area), abs=1e-3)
 
 
 def test_it_does_not_matter_where_and_how_it_is_turned() -> None:
     rng = np.random.default_rng(3)
-    shapes = [disc(*rng.uniform(0, 30, 2), rng.uniform(1, 9)) for _ in range(12)] + [box(3, 4, 20, 22), slot(0, 9, 40, 5)]
+    shapes = [disc(*rng.uniform(0, 30, 2), rng.uniform(1, 9)) for _ in range(12)] + [
+        box(3, 4, 20, 22),
+        slot(0, 9, 40, 5),
+    ]
     first = even_odd(shapes).area
     for angle in rng.uniform(0, math.tau, 8):
-        assert even_odd([Pose(float(angle), 500, -900).of(shape) for shape in shapes]).area == pytest.approx(first, abs=1e-8)
+        assert even_odd([Pose(float(angle), 500, -900).of(shape) for shape in shapes]).area == pytest.approx(
+            first, abs=1e-8
+        )

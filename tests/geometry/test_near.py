@@ -18,6 +18,8 @@ def test_portions_give_what_one_question_gives() -> None:
     tree = shapely.STRtree(shapely.box(*rng.uniform(0, 100, (2, 300)), *rng.uniform(0, 100, (2, 300))))
     distance = rng.uniform(0, 3, len(points))
     assert pairs_of(near(tree, points)) == pairs_of(tree.query(points))
-    assert pairs_of(near(tree, points, distance)) == pairs_of(tree.query(points, predicate="dwithin", distance=distance))
+    assert pairs_of(near(tree, points, distance)) == pairs_of(
+        tree.query(points, predicate="dwithin", distance=distance)
+    )
     assert pairs_of(near(tree, points, 2.0)) == pairs_of(tree.query(points, predicate="dwithin", distance=2.0))
     assert near(tree, points[:0]).shape == (2, 0)

@@ -14,8 +14,12 @@ from app.geometry.triangulation import neighbours
 from tests.examples import examples
 
 SOME = settings(max_examples=examples(60), deadline=None)
-places = st.integers(1, 4).flatmap(lambda d: arrays(np.float64, st.tuples(st.integers(1, 30), st.just(d)), elements=st.integers(-5, 5)))
-pairs = st.integers(1, 30).flatmap(lambda n: st.tuples(st.just(n), st.lists(st.tuples(*[st.integers(0, n - 1)] * 2), max_size=40)))
+places = st.integers(1, 4).flatmap(
+    lambda d: arrays(np.float64, st.tuples(st.integers(1, 30), st.just(d)), elements=st.integers(-5, 5))
+)
+pairs = st.integers(1, 30).flatmap(
+    lambda n: st.tuples(st.just(n), st.lists(st.tuples(*[st.integers(0, n - 1)] * 2), max_size=40))
+)
 
 
 def both(monkeypatch: pytest.MonkeyPatch, ask):
@@ -32,7 +36,9 @@ def test_pairs(points, reach: float) -> None:
     with pytest.MonkeyPatch.context() as monkeypatch:
         few, many = both(monkeypatch, lambda: pairs_within(points, reach))
     assert few.tolist() == many.tolist()
-    assert few.tolist() == [[j, k] for j, k in combinations(range(len(points)), 2) if np.linalg.norm(points[j] - points[k]) <= reach]
+    assert few.tolist() == [
+        [j, k] for j, k in combinations(range(len(points)), 2) if np.linalg.norm(points[j] - points[k]) <= reach
+    ]
 
 
 @SOME

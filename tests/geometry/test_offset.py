@@ -75,7 +75,9 @@ def test_slot_exactly_as_wide_as_the_tool_gives_no_ring_on_the_ridge() -> None:
 
 
 def test_neck_narrower_than_the_tool_parts_the_region() -> None:
-    bone = polygon_contour([(0, 0), (20, 0), (20, 9), (30, 9), (30, 0), (50, 0), (50, 20), (30, 20), (30, 11), (20, 11), (20, 20), (0, 20)])
+    bone = polygon_contour(
+        [(0, 0), (20, 0), (20, 9), (30, 9), (30, 0), (50, 0), (50, 20), (30, 20), (30, 11), (20, 11), (20, 20), (0, 20)]
+    )
     wide, narrow = levels_of([bone], [0.9, 1.1])
     assert len(wide.rings) == 1 and len(narrow.rings) == 2
 
@@ -101,7 +103,9 @@ def test_levels_do_not_depend_on_the_ones_before() -> None:
 def check_random(seed: int) -> None:
     contours, crossing = random_part(seed)
     contours = list(without_crossings(contours).contours) if crossing else contours
-    distances = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0] if seed % 2 else list(np.cumsum(np.random.default_rng(seed).uniform(0.1, 2, 6)))
+    distances = (
+        [0.5, 1.0, 1.5, 2.0, 3.0, 4.0] if seed % 2 else list(np.cumsum(np.random.default_rng(seed).uniform(0.1, 2, 6)))
+    )
     cells = sheared_grid(contours)
     field = np.where(plain_distance.inside(cells, contours), plain_distance.distance(cells, contours), -1)
     cell = abs(np.linalg.det(np.stack([cells[1] - cells[0], cells[GRID] - cells[0]])))
@@ -109,7 +113,9 @@ def check_random(seed: int) -> None:
         assert not any(ring.polyline for ring in level.rings)
         counted = float((field > level.distance).sum()) * cell
         perimeter = sum(float(lengths(ring.rows).sum()) for ring in level.rings)
-        assert area_of(level) == pytest.approx(counted, abs=0.1 * perimeter * math.sqrt(cell) + 4 * cell + 4e-3 * perimeter)
+        assert area_of(level) == pytest.approx(
+            counted, abs=0.1 * perimeter * math.sqrt(cell) + 4 * cell + 4e-3 * perimeter
+        )
         if level.rings:
             assert np.abs(plain_distance.distance(points_of(level), contours) - level.distance).max() <= 2e-6
 
@@ -122,7 +128,9 @@ def sheared_grid(contours: list[Contour]) -> np.ndarray:
     reach = max(max(map(abs, p)) for c in contours for k in c.primitives for p in (k.start, k.end)) + 4
     axis = np.linspace(-1.6 * reach, 1.6 * reach, GRID)
     x, y = np.meshgrid(axis, axis)
-    return np.stack([x * math.cos(0.37) - y * math.sin(0.37), x * math.sin(0.37) + y * math.cos(0.37)], -1).reshape(-1, 2)
+    return np.stack([x * math.cos(0.37) - y * math.sin(0.37), x * math.sin(0.37) + y * math.cos(0.37)], -1).reshape(
+        -1, 2
+    )
 
 
 @settings(max_examples=examples(40), deadline=None)
@@ -161,7 +169,14 @@ def test_cancel_stops_between_levels() -> None:
 
 
 def test_cusps_that_point_out_of_the_area_get_no_arc_and_those_that_point_in_do() -> None:
-    star = bulged([(10, 0, -math.sqrt(2) + 1), (0, 10, -math.sqrt(2) + 1), (-10, 0, -math.sqrt(2) + 1), (0, -10, -math.sqrt(2) + 1)])
+    star = bulged(
+        [
+            (10, 0, -math.sqrt(2) + 1),
+            (0, 10, -math.sqrt(2) + 1),
+            (-10, 0, -math.sqrt(2) + 1),
+            (0, -10, -math.sqrt(2) + 1),
+        ]
+    )
     (level,) = levels_of([star], [1.0])
     assert [ring.polyline for ring in level.rings] == [False]
     corner = 10 - math.sqrt(11**2 - 10**2)  # where the grown quarter circles meet

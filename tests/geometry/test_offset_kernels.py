@@ -30,7 +30,9 @@ SEEDS = st.integers(0, 10**6)
 
 
 def random_rows(rng: np.random.Generator) -> Rows:
-    return np.concatenate([contour_rows(random_star(rng, (0, 0), (2, 9), 0.6)), contour_rows(random_star(rng, (3, 2), (1, 5), 0.9))])
+    return np.concatenate(
+        [contour_rows(random_star(rng, (0, 0), (2, 9), 0.6)), contour_rows(random_star(rng, (3, 2), (1, 5), 0.9))]
+    )
 
 
 def tree_of(field: DistanceField) -> tuple[np.ndarray, ...]:
@@ -87,8 +89,9 @@ def test_a_path_is_refused_where_it_comes_nearer_or_goes_farther_than_it_may(mov
     field = DistanceField.of(contour_rows(square(20)))
     path = contour_rows(square(18, 1, 1))
     path[0, 3] = path[1, 1] = path[0, 3] + moved  # one end of the first line, so that it slants
-    answer = offset_clearance_kernels.measures_right(path, np.arange(4), field.rows, field.boxes, *tree_of(field),
-                                                     1.0, 8e-7)
+    answer = offset_clearance_kernels.measures_right(
+        path, np.arange(4), field.rows, field.boxes, *tree_of(field), 1.0, 8e-7
+    )
     assert answer == right
 
 
@@ -97,8 +100,9 @@ def test_a_path_is_refused_for_a_place_that_is_neither_joint_nor_middle() -> Non
     field, path = DistanceField.of(wall), contour_rows(square(18, 1, 1))
     ends_and_middles = np.concatenate([points_at(path, np.full(4, f)) for f in (0.0, 0.5)])
     assert field.nearest(ends_and_middles)[0] == pytest.approx(1.0)
-    assert not offset_clearance_kernels.measures_right(path, np.arange(4), field.rows, field.boxes, *tree_of(field),
-                                                       1.0, 8e-7)
+    assert not offset_clearance_kernels.measures_right(
+        path, np.arange(4), field.rows, field.boxes, *tree_of(field), 1.0, 8e-7
+    )
 
 
 def test_thousands_of_short_lines_cost_little_more_each_than_hundreds() -> None:

@@ -26,11 +26,13 @@ NEARER = 1e-6
 def polygons_of(regions: tuple[Region, ...]) -> tuple[shapely.Geometry, ...]:
     """Chords within CHORD of the regions, as they are and cut shorter.
 
-    GEOS goes wrong either way: it first takes out corners that look small beside the lines next to them, and where all lines are
-    short it can lose a part.
+    GEOS goes wrong either way: it first takes out corners that look small beside the lines next to them, and where all
+    lines are short it can lose a part.
     """
     rings = ([sample(contour_rows(contour), CHORD) for contour in region.contours] for region in regions)
-    polygons = shapely.union_all([shapely.make_valid(shapely.Polygon(boundary, islands)) for boundary, *islands in rings])
+    polygons = shapely.union_all(
+        [shapely.make_valid(shapely.Polygon(boundary, islands)) for boundary, *islands in rings]
+    )
     return polygons, *(shapely.segmentize(polygons, max(short, polygons.length / 20_000)) for short in (0.02, 0.1, 0.5))
 
 
@@ -67,11 +69,16 @@ def check_area(level: Level, polygons: tuple[shapely.Geometry, ...]) -> None:
 
 
 def check_places(level: Level, contours: list[Contour], rng: np.random.Generator) -> None:
-    """No ring is missing and none too many: places are enclosed if they lie inside, farther from the drawing than the level."""
+    """No ring is missing and none too many: places are enclosed if they lie inside, farther from the drawing than the
+    level.
+    """
     corners = np.array([curve.start for contour in contours for curve in contour.primitives])
     places = rng.uniform(corners.min(axis=0) - 2, corners.max(axis=0) + 2, (700, 2))
     distance = plain_distance.distance(places, contours)
-    places, distance = places[np.abs(distance - level.distance) > SURE], distance[np.abs(distance - level.distance) > SURE]
+    places, distance = (
+        places[np.abs(distance - level.distance) > SURE],
+        distance[np.abs(distance - level.distance) > SURE],
+    )
     enclosed = np.zeros(len(places), bool)
     for ring in level.rings:
         enclosed ^= shapely.contains_xy(shapely.make_valid(shapely.Polygon(sample(ring.rows, CHORD))), places)

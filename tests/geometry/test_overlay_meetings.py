@@ -1,4 +1,6 @@
-"""Contours that meet in every way that is hard to decide: nothing is lost, nothing crashes, no curve is of no length."""
+"""Contours that meet in every way that is hard to decide: nothing is lost, nothing crashes, no curve is of no
+length.
+"""
 
 from __future__ import annotations
 
@@ -71,14 +73,18 @@ def test_kinds_of_contact_at_all_offsets() -> None:
             assert_whole(KINDS[kind](e))
 
 
-@pytest.mark.parametrize("seeds", [(0, 200), *(pytest.param((first, 5000), marks=pytest.mark.exhaustive) for first in range(1, 21))])
+@pytest.mark.parametrize(
+    "seeds", [(0, 200), *(pytest.param((first, 5000), marks=pytest.mark.exhaustive) for first in range(1, 21))]
+)
 def test_any_contact_in_any_pose(seeds: tuple[int, int]) -> None:
     """All together 100,000 cases."""
     for k in range(seeds[1]):
         assert_whole(any_case(np.random.default_rng((seeds[0], k))))
 
 
-@pytest.mark.parametrize("seeds", [(0, 50), *(pytest.param((first, 500), marks=pytest.mark.exhaustive) for first in range(1, 9))])
+@pytest.mark.parametrize(
+    "seeds", [(0, 50), *(pytest.param((first, 500), marks=pytest.mark.exhaustive) for first in range(1, 9))]
+)
 def test_lattices(seeds: tuple[int, int]) -> None:
     for k in range(seeds[1]):
         assert_whole(lattice(np.random.default_rng((seeds[0], k))))
@@ -97,16 +103,27 @@ def test_three_edges_on_one_another_count_once() -> None:
 
 
 def test_a_pencil_of_circles_keeps_its_hole() -> None:
-    shapes = [disc(-2095.854983085781, 2678.7072964098247, 10), disc(-2098.607161309485, 2682.881684391909, 5),
-              disc(-2099.708032599171, 2684.551439584213, 3)]
+    shapes = [
+        disc(-2095.854983085781, 2678.7072964098247, 10),
+        disc(-2098.607161309485, 2682.881684391909, 5),
+        disc(-2099.708032599171, 2684.551439584213, 3),
+    ]
     regions = nest(assert_whole(shapes))
-    assert sum(signed_area(contour_rows(c)) for region in regions for c in region.contours) == pytest.approx(84 * math.pi, abs=1e-4)
+    assert sum(signed_area(contour_rows(c)) for region in regions for c in region.contours) == pytest.approx(
+        84 * math.pi, abs=1e-4
+    )
 
 
 def test_curves_that_cross_beside_a_corner_both_go_through_it() -> None:
-    """The corner lies WELD from the circle, give or take the last digit: the crossing is at the corner, the circle is just not."""
-    corners = [(1734.6730329374907, 823.7700234533081), (1719.6730319374908, 823.7700236033081),
-               (1719.6730318374907, 813.7700246033081), (1734.6730328374908, 813.7700244533081)]
+    """The corner lies WELD from the circle, give or take the last digit: the crossing is at the corner, the circle is
+    just not.
+    """
+    corners = [
+        (1734.6730329374907, 823.7700234533081),
+        (1719.6730319374908, 823.7700236033081),
+        (1719.6730318374907, 813.7700246033081),
+        (1734.6730328374908, 813.7700244533081),
+    ]
     assert_whole([disc(1734.6730323042011, 818.7700224533081, 5), polygon_contour(corners)])
 
 
@@ -165,7 +182,12 @@ def ends(contours: tuple[Contour, ...]) -> list[tuple[object, ...]]:
 @pytest.mark.parametrize("size", [1e-9, 3e-8, 1e-7, 1e-6])
 def test_specks_are_no_trouble(size: float) -> None:
     """Shapes as small as what is merged, with something real beside them."""
-    specks = [disc(0, 0, 10 * size), disc(12 * size, 0, 10 * size), box(0, 0, 9 * size, 4 * size), box(0, 0, size, 20 * size)]
+    specks = [
+        disc(0, 0, 10 * size),
+        disc(12 * size, 0, 10 * size),
+        box(0, 0, 9 * size, 4 * size),
+        box(0, 0, size, 20 * size),
+    ]
     for shapes in (specks, [*specks, box(5, 5, 9, 9)]):
         made = without_crossings(shapes)
         assert made.findings == () and even_odd(made.contours).area == pytest.approx(even_odd(shapes).area, abs=1e-6)
@@ -182,12 +204,17 @@ def test_outlines_are_taken_out_whole() -> None:
             made = without_outlines(plain, held)
             expected = even_odd(plain, held)
             assert made.findings == ()
-            assert region_area(made.contours) == pytest.approx(expected.area, abs=expected.length * tolerances.WELD), (kind, e)
+            assert region_area(made.contours) == pytest.approx(expected.area, abs=expected.length * tolerances.WELD), (
+                kind,
+                e,
+            )
 
 
 def test_outlines_round_and_within_areas_that_they_do_not_touch() -> None:
     plate, hole, inner = box(0, 0, 100, 100), disc(30, 30, 20), disc(30, 30, 5)
-    made = without_outlines([plate, hole, inner], [disc(80, 80, 10), disc(30, 30, 8), disc(30, 42, 2), disc(200, 0, 5)]).contours
+    made = without_outlines(
+        [plate, hole, inner], [disc(80, 80, 10), disc(30, 30, 8), disc(30, 42, 2), disc(200, 0, 5)]
+    ).contours
     assert made[:2] == (plate, hole)
     assert region_area(made) == pytest.approx(10000 - 400 * math.pi - 100 * math.pi)
 
@@ -227,7 +254,8 @@ def test_a_lost_loop_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("seeds", [(40, 120), pytest.param((41, 3000), marks=pytest.mark.exhaustive)])
 def test_an_overlay_of_its_own_outcome_changes_nothing_but_by_what_is_merged(seeds: tuple[int, int]) -> None:
-    """Centres of arcs may change in their last digits, and what is just not thinner than WELD may go when it is looked at again.
+    """Centres of arcs may change in their last digits, and what is just not thinner than WELD may go when it is looked
+    at again.
 
     By the even-odd rule two areas together are what only one of them has.
     """

@@ -28,11 +28,17 @@ def test_a_contour_made_from_another_has_rows_and_an_extent_of_its_own() -> None
     assert extent([HALF_DISC, other]) == pytest.approx((-2.0, -2.0, 4.0, 4.0))
 
 
-@pytest.mark.parametrize(("start", "end", "ccw", "top"), [
-    ((1.0, 3.0), (3.0, 1.0), False, 3.0), ((1.0, 3.0), (3.0, 1.0), True, 10**0.5),
-    ((3.0, 1.0), (1.0, 3.0), True, 3.0), ((3.0, 1.0), (1.0, 3.0), False, 10**0.5),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("start", "end", "ccw", "top"),
+    [
+        ((1.0, 3.0), (3.0, 1.0), False, 3.0),
+        ((1.0, 3.0), (3.0, 1.0), True, 10**0.5),
+        ((3.0, 1.0), (1.0, 3.0), True, 3.0),
+        ((3.0, 1.0), (1.0, 3.0), False, 10**0.5),
+    ],
+)
 def test_an_arc_within_a_quadrant_reaches_no_farther_than_its_ends_and_the_rest_of_its_circle_does(
-        start: tuple[float, float], end: tuple[float, float], ccw: bool, top: float) -> None:  # fmt: skip
+    start: tuple[float, float], end: tuple[float, float], ccw: bool, top: float
+) -> None:
     box = extent([Contour((Arc(start, end, (0.0, 0.0), ccw),), closed=False)])
     assert box is not None and box[3] == pytest.approx(top)

@@ -43,8 +43,12 @@ class Grain(Enum):
 class EngraveOperation(Operation):
     """A kind of operation that is registered from outside of the program."""
 
-    overcut: float = parameter(0.5, "overcut", "Overcut", "how far lines go on", Unit.LENGTH, high=9.0, option=True, group="Walls")
-    grain: Grain = parameter(Grain.ALONG, "grain", "Grain", "which way it runs", Unit.CHOICE, option=True, choices=("Along", "Across"))
+    overcut: float = parameter(
+        0.5, "overcut", "Overcut", "how far lines go on", Unit.LENGTH, high=9.0, option=True, group="Walls"
+    )
+    grain: Grain = parameter(
+        Grain.ALONG, "grain", "Grain", "which way it runs", Unit.CHOICE, option=True, choices=("Along", "Across")
+    )
     slant: float = parameter(0.1, "slant", "Slant", "of the cutter", Unit.ANGLE, high=1.0, option=True)
     twice: bool = parameter(False, "twice", "Twice", "every line is cut again", Unit.FLAG, option=True)
 
@@ -91,7 +95,9 @@ def test_job_files_and_projects_have_it() -> None:
     assert read == engraving(**ASKED)
     written = "\n".join(job_lines(Job(Part(), operations=(read,))))
     assert read_job("j", written.encode()).job.operations == (read,)
-    with pytest.raises(InputError, match="j:4: overcut belongs to engrave operations; remove it from this pocket operation"):
+    with pytest.raises(
+        InputError, match="j:4: overcut belongs to engrave operations; remove it from this pocket operation"
+    ):
         read_job("j", b"[[operation]]\nkind = 'pocket'\ntool = 1\novercut = 1\n")
     with pytest.raises(InputError, match="j:1: Overcut is 10 mm; use 0 to 9 mm"):
         read_job("j", b"[[operation]]\nkind = 'engrave'\ntool = 1\novercut = 10\n")
@@ -100,12 +106,17 @@ def test_job_files_and_projects_have_it() -> None:
 def test_programs_tell_it_and_it_is_read_back() -> None:
     made = job(operations=(ContourOperation(Cut(1), Side.ON), engraving(**ASKED)))
     assert operation_words(engraving(**ASKED), made) == (
-        "Engrave T2: depth 2 mm, stepdown 2 mm, stock to leave 0 mm, climb, overcut 1.25 mm, grain across, slant 12.5 degrees, twice")
+        "Engrave T2: depth 2 mm, stepdown 2 mm, stock to leave 0 mm, climb, overcut 1.25 mm, grain across, slant 12.5 "
+        "degrees, twice"
+    )
     files = write_files(two_tools().program(), made, load_post("fanuc"))
     headers = [read_program(file.nc.text.encode(), ReadOptions(load_post("fanuc").dialect)).header for file in files]
     told = [note.operation() for header in headers if header for note in header.operations][-1]
     assert isinstance(told, EngraveOperation)
-    assert {key: declared_of(EngraveOperation)[key].of(told) for key in ASKED} == {**ASKED, "slant": pytest.approx(ASKED["slant"])}
+    assert {key: declared_of(EngraveOperation)[key].of(told) for key in ASKED} == {
+        **ASKED,
+        "slant": pytest.approx(ASKED["slant"]),
+    }
 
 
 def test_reports_have_it() -> None:
@@ -130,7 +141,11 @@ def test_every_parameter_has_one_meaning_in_all_kinds() -> None:
     for kind in operations.OPERATION_KINDS.values():
         for key, placed in declared_of(kind).items():
             first = operations.declared()[key].parameter
-            assert (placed.parameter.label, placed.parameter.unit, placed.parameter.help) == (first.label, first.unit, first.help)
+            assert (placed.parameter.label, placed.parameter.unit, placed.parameter.help) == (
+                first.label,
+                first.unit,
+                first.help,
+            )
             assert placed.parameter.help[:1].islower() or (placed.parameter.help[:1].isupper() and key == "tool")
             assert not placed.parameter.help.endswith(".")
 
@@ -143,7 +158,12 @@ def test_what_a_kind_leaves_unused_is_not_among_its_parameters() -> None:
 
 
 def test_the_manual_has_a_table_of_all() -> None:
-    assert "| `overcut` | `--overcut` | Overcut | how far lines go on | 0 to 9 mm | 0.5 mm | engrave |" in parameter_table()
+    assert (
+        "| `overcut` | `--overcut` | Overcut | how far lines go on | 0 to 9 mm | 0.5 mm | engrave |"
+        in parameter_table()
+    )
     operations.OPERATION_KINDS.pop("engrave")
     page = resource("docs", "parameters.md")
-    assert page.read_text("utf-8") == parameter_table(), "write the page anew: app.usecases.parameter_table.parameter_table()"
+    assert page.read_text("utf-8") == parameter_table(), (
+        "write the page anew: app.usecases.parameter_table.parameter_table()"
+    )

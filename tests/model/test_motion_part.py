@@ -44,10 +44,22 @@ def test_a_part_of_a_line(share: float) -> None:
 @settings(deadline=None)
 @given(share=SHARE)
 def test_a_part_of_a_spline_is_chords_along_it(share: float) -> None:
-    curve = Nurbs(np.array([[0.0, 0, 0], [1, 3, -1], [4, 3, -1], [6, 0, 0]]), np.ones(4), np.array([0.0, 0, 0, 0, 1, 1, 1, 1]), 3)
+    curve = Nurbs(
+        np.array([[0.0, 0, 0], [1, 3, -1], [4, 3, -1], [6, 0, 0]]), np.ones(4), np.array([0.0, 0, 0, 0, 1, 1, 1, 1]), 3
+    )
     one = polyline([(0, 0, 0), (6, 0, 0)])
-    way = Motions(one.start, one.end, one.centre, np.array([MotionKind.SPLINE], np.uint8), one.plane, one.turns, one.feed, one.line,
-                  one.state, {0: curve})  # fmt: skip
+    way = Motions(
+        one.start,
+        one.end,
+        one.centre,
+        np.array([MotionKind.SPLINE], np.uint8),
+        one.plane,
+        one.turns,
+        one.feed,
+        one.line,
+        one.state,
+        {0: curve},
+    )
     part = part_of(way, 0, share)
     assert np.array_equal(part.start[1:], part.end[:-1])
     assert set(part.kind.tolist()) == {MotionKind.LINE}

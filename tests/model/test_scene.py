@@ -38,7 +38,9 @@ WRONG: dict[str, Callable[[], object]] = {
     "rows have different numbers of points": lambda: BsplineShape((GRID[0], GRID[1][:3], GRID[2], GRID[3])),
     "degree_u is 4 with 4 points; use 1 to 3, or more points": lambda: BsplineShape(GRID, 4),
     "knots_v are 3; give 8 that do not fall, or none": lambda: BsplineShape(GRID, knots_v=(0.0, 0.5, 1.0)),
-    "knots_u are not clamped; repeat the first and the last one 4 times": lambda: BsplineShape(GRID, knots_u=tuple(map(float, range(8)))),
+    "knots_u are not clamped; repeat the first and the last one 4 times": lambda: BsplineShape(
+        GRID, knots_u=tuple(map(float, range(8)))
+    ),
     "weights are not all greater than 0": lambda: BsplineShape(GRID, weights=((0.0,) * 4,) * 4),
     "weights are not as many as the points": lambda: BsplineShape(GRID, weights=((1.0,) * 4,) * 3),
     "A loft's sections are 1; give 2 or more": lambda: LoftShape((LINE,)),
@@ -51,7 +53,9 @@ WRONG: dict[str, Callable[[], object]] = {
     "either points or a drawing": SectionCurve,
     "all have two coordinates, or all three": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0, 0.0))),
     "Two neighbouring points of a section curve are alike, 0, 0": lambda: SectionCurve(((0.0, 0.0), (0.0, 0.0))),
-    "A closed section curve has 2 points; it needs 3 or more": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), closed=True),
+    "A closed section curve has 2 points; it needs 3 or more": lambda: SectionCurve(
+        ((0.0, 0.0), (1.0, 0.0)), closed=True
+    ),
     "Weights belong to control points": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), weights=(1.0, 1.0)),
     "one greater than 0 each": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), CurveForm.CONTROL, weights=(1.0, -1.0)),
     "An axis has no length": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), x_axis=ZERO),
@@ -74,7 +78,9 @@ WRONG: dict[str, Callable[[], object]] = {
     "Stock to leave is -1 mm": lambda: Passes(1, pitch=1.0, stock_to_leave=-1.0),
     "Feed rate is 0 mm/min": lambda: Passes(1, pitch=1.0, feed_rate=0.0),
     "The first line of passes has no length": lambda: Passes(1, pitch=1.0, line=(1.0, 1.0, 1.0, 1.0)),
-    "Passes have a line, and an angle or a place beside it": lambda: Passes(1, pitch=1.0, angle_deg=1.0, line=(0.0, 0.0, 1.0, 1.0)),
+    "Passes have a line, and an angle or a place beside it": lambda: Passes(
+        1, pitch=1.0, angle_deg=1.0, line=(0.0, 0.0, 1.0, 1.0)
+    ),
     "The stock is a box": lambda: SceneStock((0.0, 0.0, 0.0, 1.0, 1.0, 0.0)),
     "The stock's margin is -1 mm": lambda: SceneStock(margin=-1.0),
     "The scene has no tool T3": lambda: Scene().tool(3),

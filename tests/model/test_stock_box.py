@@ -26,7 +26,9 @@ def test_an_arc_reaches_beyond_its_ends() -> None:
 
 
 def test_the_same_arc_clockwise_reaches_the_other_way() -> None:
-    assert extent([Contour((Arc((10.0, 0.0), (-10.0, 0.0), (0.0, 0.0), ccw=False),))]) == pytest.approx((-10, -10, 10, 0))
+    assert extent([Contour((Arc((10.0, 0.0), (-10.0, 0.0), (0.0, 0.0), ccw=False),))]) == pytest.approx(
+        (-10, -10, 10, 0)
+    )
 
 
 def test_a_circle() -> None:

@@ -1,4 +1,6 @@
-"""Tools: every range says what is wrong with a value, kinds have only what belongs to them, feeds follow from chip loads."""
+"""Tools: every range says what is wrong with a value, kinds have only what belongs to them, feeds follow from chip
+loads.
+"""
 
 import math
 from dataclasses import replace
@@ -8,46 +10,69 @@ import pytest
 from app.core.errors import ParameterError
 from app.model.tool import FeedRow, Tool, ToolKind
 
-BULL = Tool(3, 12.0, ToolKind.BULL, corner_radius=1.0, flute_length=26.0, overall_length=83.0, stick_out=40.0, shank_diameter=12.0)
+BULL = Tool(
+    3,
+    12.0,
+    ToolKind.BULL,
+    corner_radius=1.0,
+    flute_length=26.0,
+    overall_length=83.0,
+    stick_out=40.0,
+    shank_diameter=12.0,
+)
 V = Tool(4, 6.0, ToolKind.V, tip_angle=math.radians(60), tip_diameter=0.1)
 ALUMINIUM = FeedRow("aluminium", surface_speed=200.0, feed_per_tooth=0.05, plunge_share=0.25)
 
 
-@pytest.mark.parametrize(("change", "told"), [
-    ({"number": 0}, "number 0 is out of range"),
-    ({"diameter": 0.0}, "diameter is 0 mm"),
-    ({"flutes": 0}, "flutes is 0"),
-    ({"corner_radius": 6.0}, "less than half the diameter, 6 mm"),
-    ({"corner_radius": -1.0}, "corner radius is -1 mm"),
-    ({"corner_radius": math.nan}, "corner radius is nan mm"),
-    ({"flute_length": 84.0}, "not be more than the overall length, 83 mm"),
-    ({"stick_out": 90.0}, "stick out is 90 mm"),
-    ({"shank_diameter": 1e4}, "less than 10000 mm"),
-    ({"length_offset": math.inf}, "length offset is inf mm"),
-    ({"tip_angle": 1.0}, "kind bull has no tip angle"),
-    ({"holder": ((1.0, 10.0), (5.0, 10.0))}, "begin with 0"),
-    ({"holder": ((0.0, 10.0), (5.0, 10.0), (4.0, 12.0))}, "not fall"),
-    ({"holder": ((0.0, 10.0),)}, "two points"),
-    ({"holder": ((0.0, 10.0), (math.nan, 12.0))}, "radius from 0"),
-    ({"feeds": (ALUMINIUM, replace(ALUMINIUM, material="ALUMINIUM"))}, "aluminium are given twice"),
-])
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"number": 0}, "number 0 is out of range"),
+        ({"diameter": 0.0}, "diameter is 0 mm"),
+        ({"flutes": 0}, "flutes is 0"),
+        ({"corner_radius": 6.0}, "less than half the diameter, 6 mm"),
+        ({"corner_radius": -1.0}, "corner radius is -1 mm"),
+        ({"corner_radius": math.nan}, "corner radius is nan mm"),
+        ({"flute_length": 84.0}, "not be more than the overall length, 83 mm"),
+        ({"stick_out": 90.0}, "stick out is 90 mm"),
+        ({"shank_diameter": 1e4}, "less than 10000 mm"),
+        ({"length_offset": math.inf}, "length offset is inf mm"),
+        ({"tip_angle": 1.0}, "kind bull has no tip angle"),
+        ({"holder": ((1.0, 10.0), (5.0, 10.0))}, "begin with 0"),
+        ({"holder": ((0.0, 10.0), (5.0, 10.0), (4.0, 12.0))}, "not fall"),
+        ({"holder": ((0.0, 10.0),)}, "two points"),
+        ({"holder": ((0.0, 10.0), (math.nan, 12.0))}, "radius from 0"),
+        ({"feeds": (ALUMINIUM, replace(ALUMINIUM, material="ALUMINIUM"))}, "aluminium are given twice"),
+    ],
+)
 def test_a_value_out_of_its_range_is_told(change, told):
     with pytest.raises(ParameterError, match=told):
         replace(BULL, **change)
 
 
-@pytest.mark.parametrize(("change", "told"), [
-    ({"tip_angle": math.pi}, "tip angle is 180 degrees"), ({"tip_diameter": 6.0}, "less than the diameter"),
-    ({"corner_radius": 0.1}, "kind v has no corner radius"),
-])
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"tip_angle": math.pi}, "tip angle is 180 degrees"),
+        ({"tip_diameter": 6.0}, "less than the diameter"),
+        ({"corner_radius": 0.1}, "kind v has no corner radius"),
+    ],
+)
 def test_a_pointed_tool_is_checked(change, told):
     with pytest.raises(ParameterError, match=told):
         replace(V, **change)
 
 
-@pytest.mark.parametrize("change", [
-    {"material": " "}, {"surface_speed": 0.0}, {"feed_per_tooth": math.nan}, {"feed_per_tooth": 101.0}, {"plunge_share": 1.01},
-])
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"material": " "},
+        {"surface_speed": 0.0},
+        {"feed_per_tooth": math.nan},
+        {"feed_per_tooth": 101.0},
+        {"plunge_share": 1.01},
+    ],
+)
 def test_feeds_out_of_range_are_refused(change):
     with pytest.raises(ParameterError):
         replace(ALUMINIUM, **change)

@@ -1,4 +1,6 @@
-"""Jobs of one contour operation, for the tests of contours: a drawing, clamps on a layer of their own, and what came of it."""
+"""Jobs of one contour operation, for the tests of contours: a drawing, clamps on a layer of their own, and what came of
+it.
+"""
 
 from __future__ import annotations
 
@@ -21,13 +23,24 @@ from app.toolpath.sheets import Sheet, Sheets
 CUTTING = (Purpose.CONTOUR, Purpose.TAB, Purpose.LEAD, Purpose.DOG_BONE)
 
 
-def contour_job(closed: Sequence[Contour], operation: ContourOperation | None = None, diameter: float = 3.0, *,
-                lines: Sequence[Primitive] = (), clamps: Sequence[Contour] = (), **changes: object) -> Job:  # fmt: skip
+def contour_job(
+    closed: Sequence[Contour],
+    operation: ContourOperation | None = None,
+    diameter: float = 3.0,
+    *,
+    lines: Sequence[Primitive] = (),
+    clamps: Sequence[Contour] = (),
+    **changes: object,
+) -> Job:
     drawing = [(curve, "0") for contour in closed for curve in contour.primitives] + [(curve, "0") for curve in lines]
     drawing += [(curve, "clamps") for contour in clamps for curve in contour.primitives]
     part = Part().with_entities(tuple(Entity(k, curve, layer) for k, (curve, layer) in enumerate(drawing, 1)))
     keep = {"keep_out_layers": ("clamps",), "keep_out_height": 5.0} if clamps else {}
-    settings = {"tools": (Tool(2, diameter),), "operations": (operation or ContourOperation(Cut(2)),), "stock": Stock(10.0, 10.0)}
+    settings = {
+        "tools": (Tool(2, diameter),),
+        "operations": (operation or ContourOperation(Cut(2)),),
+        "stock": Stock(10.0, 10.0),
+    }
     return Job(part, **(settings | keep | changes))  # type: ignore[arg-type]
 
 

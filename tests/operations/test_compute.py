@@ -111,7 +111,9 @@ def test_depth_passes_are_equal_and_reach_the_floor() -> None:
     assert sorted(set(np.round(moves.end[cutting, 2], 9))) == [-5.0, pytest.approx(-10 / 3), pytest.approx(-5 / 3)]
 
 
-@pytest.mark.parametrize(("direction", "sense"), [(Direction.CLIMB, MoveKind.ARC_CCW), (Direction.CONVENTIONAL, MoveKind.ARC_CW)])
+@pytest.mark.parametrize(
+    ("direction", "sense"), [(Direction.CLIMB, MoveKind.ARC_CCW), (Direction.CONVENTIONAL, MoveKind.ARC_CW)]
+)
 def test_climb_is_counter_clockwise_inside_a_circle(direction: Direction, sense: MoveKind) -> None:
     moves = compute(with_cut(job_of([circle(20)]), direction=direction)).moves
     assert set(moves.kind[moves.kind >= MoveKind.ARC_CW].tolist()) == {sense}
@@ -138,15 +140,21 @@ def test_a_region_too_small_is_named_and_located() -> None:
     program = compute(job_of([square(30), circle(1, 50, 10)]))
     found = [f for f in program.findings if f.kind is FindingKind.REGION_TOO_SMALL and f.counts]
     assert len(found) == 1
-    assert (found[0].x, found[0].y) == pytest.approx((50, 10), abs=0.1) and found[0].amount == pytest.approx(2, abs=0.05)
+    assert (found[0].x, found[0].y) == pytest.approx((50, 10), abs=0.1) and found[0].amount == pytest.approx(
+        2, abs=0.05
+    )
     assert "T2" in found[0].text
 
 
 def test_a_neck_too_narrow_is_named_and_located() -> None:
-    bone = polygon_contour([(0, 0), (20, 0), (20, 9), (30, 9), (30, 0), (50, 0), (50, 20), (30, 20), (30, 11), (20, 11), (20, 20), (0, 20)])
+    bone = polygon_contour(
+        [(0, 0), (20, 0), (20, 9), (30, 9), (30, 0), (50, 0), (50, 20), (30, 20), (30, 11), (20, 11), (20, 20), (0, 20)]
+    )
     program = compute(job_of([bone]))
     neck = next(f for f in program.findings if f.kind is FindingKind.NECK_TOO_NARROW)
-    assert 19 <= (neck.x or 0) <= 31 and neck.y == pytest.approx(10, abs=1.5) and neck.amount == pytest.approx(2, abs=0.1)
+    assert (
+        19 <= (neck.x or 0) <= 31 and neck.y == pytest.approx(10, abs=1.5) and neck.amount == pytest.approx(2, abs=0.1)
+    )
 
 
 def test_a_slot_exactly_as_wide_as_the_tool_is_cut_along_its_middle() -> None:
@@ -165,7 +173,10 @@ def test_a_hole_exactly_as_wide_as_the_tool_is_plunged_at_its_centre() -> None:
 
 
 def test_a_pocket_leads_through_a_neck_exactly_as_wide_as_the_tools() -> None:
-    right, left = [(20, 0), (20, 5.5), (30, 5.5), (30, 0), (50, 0)], [(50, 20), (30, 20), (30, 14.5), (20, 14.5), (20, 20), (0, 20)]
+    right, left = (
+        [(20, 0), (20, 5.5), (30, 5.5), (30, 0), (50, 0)],
+        [(50, 20), (30, 20), (30, 14.5), (20, 14.5), (20, 20), (0, 20)],
+    )
     program = compute(job_of([polygon_contour([(0, 0), *right, *left])]))  # the neck is 9 mm = 3 + 6
     assert program.strokes == 1
 
@@ -216,7 +227,12 @@ def test_that_many_lines_are_open_is_nothing_to_say_of_an_engraving_either() -> 
 def test_metal_under_a_clamp_in_the_middle_of_a_pocket_is_told() -> None:
     clamp = [Entity(50 + k, curve, "clamps") for k, curve in enumerate(circle(4.0, 20.0, 15.0).primitives)]
     task = job_of([square(40.0)])
-    task = replace(task, part=task.part.with_entities((*task.part.entities, *clamp)), keep_out_layers=("clamps",), keep_out_height=5.0)
+    task = replace(
+        task,
+        part=task.part.with_entities((*task.part.entities, *clamp)),
+        keep_out_layers=("clamps",),
+        keep_out_height=5.0,
+    )
     (told,) = [finding for finding in compute(task).findings if "under clamps" in finding.text]
     assert told.counts
     assert told.amount == pytest.approx(np.pi * 16, rel=1e-3)

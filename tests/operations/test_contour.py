@@ -1,4 +1,6 @@
-"""Contour operations as a whole: order, finish and spring passes, what is told, and programs that are cut and judged."""
+"""Contour operations as a whole: order, finish and spring passes, what is told, and programs that are cut and
+judged.
+"""
 
 from __future__ import annotations
 
@@ -55,12 +57,18 @@ def test_or_at_each_pass_before_going_deeper() -> None:
 @pytest.mark.parametrize("side", [Side.INSIDE, Side.OUTSIDE])
 def test_more_than_thin_metal_is_never_finished_at_full_depth_at_once(side: Side) -> None:
     deep = Cut(2, depth=12.0, stepdown=2.0, entry=Entry(EntryKind.PLUNGE))
-    program = compute(contour_job([square(40)], ContourOperation(deep, side, finish_width=2.9), stock=Stock(margin=10.0, thickness=20.0)))
+    program = compute(
+        contour_job(
+            [square(40)], ContourOperation(deep, side, finish_width=2.9), stock=Stock(margin=10.0, thickness=20.0)
+        )
+    )
     assert heights(at_distance(program, [square(40)], 1.5)) == [-2, -4, -6, -8, -10, -12]
     (told,) = [each for each in program.findings if "finish pass" in each.text]
     assert not told.counts and told.amount == 2.9 and "at every depth" in told.text
     flat = ContourOperation(Cut(2, depth=2.0, stepdown=2.0), side, finish_width=2.9)
-    assert not about(compute(contour_job([square(40)], flat)), "finish pass")  # one pass alone is as deep as was asked for
+    assert not about(
+        compute(contour_job([square(40)], flat)), "finish pass"
+    )  # one pass alone is as deep as was asked for
 
 
 def test_a_finish_path_where_nothing_was_roughed_is_cut_at_every_depth() -> None:
@@ -70,9 +78,16 @@ def test_a_finish_path_where_nothing_was_roughed_is_cut_at_every_depth() -> None
 
 
 def test_spring_passes_run_the_last_path_again_at_the_floor() -> None:
-    plain, sprung = (compute(contour_job([square(40)], ContourOperation(DEEP, lead=Lead(LeadKind.NONE), spring_passes=n))) for n in (0, 2))
+    plain, sprung = (
+        compute(contour_job([square(40)], ContourOperation(DEEP, lead=Lead(LeadKind.NONE), spring_passes=n)))
+        for n in (0, 2)
+    )
     once, again = (at_distance(program, [square(40)], 1.5).round(6).tolist() for program in (plain, sprung))
-    assert again.count(-6.0) == 3 * once.count(-6.0) and again.count(-2.0) == once.count(-2.0) and again.count(-4.0) == once.count(-4.0)
+    assert (
+        again.count(-6.0) == 3 * once.count(-6.0)
+        and again.count(-2.0) == once.count(-2.0)
+        and again.count(-4.0) == once.count(-4.0)
+    )
 
 
 def test_holes_are_cut_before_the_outline_that_frees_the_part() -> None:
@@ -81,21 +96,30 @@ def test_holes_are_cut_before_the_outline_that_frees_the_part() -> None:
     cut = moves.purpose == Purpose.CONTOUR
     inside = np.array([any(x0 < x < x0 + 60 and 0 < y < 60 for x0 in (0, 80)) for x, y in moves.end[cut, :2]])
     last = int(np.flatnonzero(inside)[-1])
-    assert inside[:last + 1].all() and not inside[last + 1:].any() and inside.sum() >= 8
+    assert inside[: last + 1].all() and not inside[last + 1 :].any() and inside.sum() >= 8
 
 
 def test_where_the_tool_does_not_fit_is_told_outside_too() -> None:
     program = compute(contour_job([square(20)], outside(), copies=Copies(2, 1, 22.0)))
     (finding,) = [each for each in program.findings if each.kind is FindingKind.NECK_TOO_NARROW]
-    assert finding.counts and finding.amount == pytest.approx(2, abs=1e-3) and (finding.x, finding.y) == pytest.approx((21, 10), abs=1e-3)
+    assert (
+        finding.counts
+        and finding.amount == pytest.approx(2, abs=1e-3)
+        and (finding.x, finding.y) == pytest.approx((21, 10), abs=1e-3)
+    )
     hole = compute(contour_job([square(40), circle(1, 20, 20)], outside()))
     assert [each.kind for each in hole.findings if each.counts] == [FindingKind.REGION_TOO_SMALL]
     assert about(hole, "is too small")
 
 
 def test_a_smaller_tool_that_follows_takes_what_the_larger_one_leaves() -> None:
-    job = contour_job([square(20)], outside(), copies=Copies(2, 1, 22.0), tools=(Tool(2, 3.0), Tool(3, 1.0)),
-                      operations=(outside(), ContourOperation(Cut(3), Side.OUTSIDE)))  # fmt: skip
+    job = contour_job(
+        [square(20)],
+        outside(),
+        copies=Copies(2, 1, 22.0),
+        tools=(Tool(2, 3.0), Tool(3, 1.0)),
+        operations=(outside(), ContourOperation(Cut(3), Side.OUTSIDE)),
+    )
     assert not [each for each in compute(job).findings if each.counts]
 
 

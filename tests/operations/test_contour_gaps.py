@@ -1,4 +1,6 @@
-"""What a cutter does not touch of the walls: corners are none of a finding, slots, necks and gaps are, with place and width."""
+"""What a cutter does not touch of the walls: corners are none of a finding, slots, necks and gaps are, with place and
+width.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ def found(job: Job) -> tuple[list[Gap], list[Narrow]]:
 
 def keyhole(width: float) -> Contour:
     half = width / 2
-    return polygon_contour([(0, 0), (20, 0), (20, 10 - half), (30, 10 - half), (30, 10 + half), (20, 10 + half), (20, 20), (0, 20)])
+    return polygon_contour(
+        [(0, 0), (20, 0), (20, 10 - half), (30, 10 - half), (30, 10 + half), (20, 10 + half), (20, 20), (0, 20)]
+    )
 
 
 def test_the_corners_of_a_square_are_gaps_of_twice_the_radius_and_nothing_else() -> None:
@@ -58,7 +62,9 @@ def test_a_slot_wide_enough_is_no_finding() -> None:
 @pytest.mark.parametrize("gap", [0.5, 2.0, 2.99])
 def test_the_gap_between_neighbours_is_one_place(gap: float) -> None:
     _, (place,) = found(contour_job([square(10), square(10, 10 + gap)], outside()))
-    assert place.width == pytest.approx(gap, abs=1e-4) and (place.x, place.y) == pytest.approx((10 + gap / 2, 5), abs=1e-3)
+    assert place.width == pytest.approx(gap, abs=1e-4) and (place.x, place.y) == pytest.approx(
+        (10 + gap / 2, 5), abs=1e-3
+    )
     assert found(contour_job([square(10), square(10, 13.0)], outside()))[1] == []
 
 

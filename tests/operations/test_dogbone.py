@@ -24,7 +24,9 @@ BONES = ContourOperation(Cut(2), dog_bones=True)
 
 
 def made(contours: list[Contour], diameter: float = 3.0, leave: float = 0.0, **kwargs: object) -> Program:
-    return compute(contour_job(contours, ContourOperation(Cut(2, stock_to_leave=leave), dog_bones=True), diameter, **kwargs))  # type: ignore[arg-type]
+    return compute(
+        contour_job(contours, ContourOperation(Cut(2, stock_to_leave=leave), dog_bones=True), diameter, **kwargs)
+    )  # type: ignore[arg-type]
 
 
 def test_in_right_angles_the_rim_touches_the_corner() -> None:
@@ -36,7 +38,11 @@ def test_in_right_angles_the_rim_touches_the_corner() -> None:
         assert math.dist((bone.x0, bone.y0), (bone.x1, bone.y1)) == pytest.approx(1.5 * (math.sqrt(2) - 1), abs=1e-9)
         assert bone.diameter == 3
     ways = rows_of(program.moves, Purpose.DOG_BONE)
-    assert len(ways) == 8 and ways[::2, :2] == pytest.approx(ways[1::2, 2:4]) and ways[::2, 2:4] == pytest.approx(ways[1::2, :2])
+    assert (
+        len(ways) == 8
+        and ways[::2, :2] == pytest.approx(ways[1::2, 2:4])
+        and ways[::2, 2:4] == pytest.approx(ways[1::2, :2])
+    )
 
 
 @settings(max_examples=examples(12), deadline=None)
@@ -47,7 +53,9 @@ def test_at_any_angle_the_way_is_as_long_as_the_bisector_says(angle: float, diam
     need = diameter / 2 + leave
     near = [bone for bone in program.dog_bones if math.hypot(bone.x0, bone.y0) < 30]
     (bone,) = near
-    assert math.dist((bone.x0, bone.y0), (bone.x1, bone.y1)) == pytest.approx(need / math.sin(angle / 2) - need, abs=1e-6)
+    assert math.dist((bone.x0, bone.y0), (bone.x1, bone.y1)) == pytest.approx(
+        need / math.sin(angle / 2) - need, abs=1e-6
+    )
     assert math.hypot(bone.x1, bone.y1) == pytest.approx(need, abs=1e-6)
     assert math.atan2(bone.y1, bone.x1) == pytest.approx(angle / 2, abs=1e-6)
 
@@ -57,7 +65,9 @@ def test_in_small_arcs_the_rim_touches_the_middle_of_the_arc() -> None:
     program = made([rounded])
     (bone,) = [each for each in program.dog_bones if each.x0 + each.y0 < 5]
     middle = 1 - math.sqrt(0.5)
-    assert math.dist((bone.x1, bone.y1), (middle, middle)) == pytest.approx(1.5, abs=1e-9) and bone.x1 == pytest.approx(bone.y1)
+    assert math.dist((bone.x1, bone.y1), (middle, middle)) == pytest.approx(1.5, abs=1e-9) and bone.x1 == pytest.approx(
+        bone.y1
+    )
     wide = bulged([(2, 0, 0), (20, 0, 0), (20, 20, 0), (0, 20, 0), (0, 2, math.tan(math.pi / 8))])
     assert len(made([wide]).dog_bones) == 3  # the cutter goes round in an arc of 2 mm by itself
 
@@ -66,7 +76,9 @@ def test_outside_they_are_in_the_corners_of_the_part() -> None:
     ell = polygon_contour([(0, 0), (40, 0), (40, 15), (15, 15), (15, 40), (0, 40)])
     program = compute(contour_job([ell], outside(dog_bones=True)))
     (bone,) = program.dog_bones
-    assert (bone.x0, bone.y0) == pytest.approx((16.5, 16.5)) and math.dist((bone.x1, bone.y1), (15, 15)) == pytest.approx(1.5)
+    assert (bone.x0, bone.y0) == pytest.approx((16.5, 16.5)) and math.dist(
+        (bone.x1, bone.y1), (15, 15)
+    ) == pytest.approx(1.5)
 
 
 def test_there_is_none_where_a_clamp_makes_the_corner() -> None:

@@ -46,7 +46,10 @@ def texts(program: Program, kind: FindingKind = FindingKind.LEFT_OUT, counts: bo
 def arcs(*cuts: float, radius: float = 3.0, centre: tuple[float, float] = (10.0, 10.0), off: float = 0.0) -> Contour:
     """A circle cut into arcs at some angles; with `off`, the first one's centre is that far away."""
     at = [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in cuts]
-    pieces = [Arc(a, b, (centre[0] + off * (k == 0), centre[1]), True) for k, (a, b) in enumerate(zip(at, at[1:] + at[:1], strict=True))]
+    pieces = [
+        Arc(a, b, (centre[0] + off * (k == 0), centre[1]), True)
+        for k, (a, b) in enumerate(zip(at, at[1:] + at[:1], strict=True))
+    ]
     return Contour(tuple(pieces))
 
 
@@ -74,16 +77,20 @@ def test_every_circle_as_wide_as_the_drill_is_drilled_once() -> None:
     assert drilling.sum() == 4
     assert "drills 4 circles; of other diameters 1 circle is left out: 8 mm (1)" in texts(program, counts=False)
     assert "drills to the depth with its full width; its point goes 1.502 mm deeper, to 5.502 mm" in texts(
-        program, FindingKind.ASSUMED, counts=False)  # fmt: skip
+        program, FindingKind.ASSUMED, counts=False
+    )
     twice = compute(job_of(DrillOperation(Cut(1, 4.0)), [*PLATE, *PLATE[1:]]))
     assert twice.moves.end.shape == program.moves.end.shape
 
 
-@pytest.mark.parametrize(("tool", "depth", "words"), [
-    (DRILL, 4.5 + TIP, "with its full width"),
-    (replace(DRILL, tip_angle=0.0), 4.5, "tells no tip angle"),
-    (Tool(1, 5.0), 4.5, "goes straight down to 4.500 mm"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("tool", "depth", "words"),
+    [
+        (DRILL, 4.5 + TIP, "with its full width"),
+        (replace(DRILL, tip_angle=0.0), 4.5, "tells no tip angle"),
+        (Tool(1, 5.0), 4.5, "goes straight down to 4.500 mm"),
+    ],
+)
 def test_which_depth_counts_is_said(tool: Tool, depth: float, words: str) -> None:
     operation = DrillOperation(Cut(1, 4.0), through=0.5)
     program = compute(job_of(operation, tool=tool))
@@ -92,9 +99,18 @@ def test_which_depth_counts_is_said(tool: Tool, depth: float, words: str) -> Non
     assert words in texts(program, FindingKind.ASSUMED, counts=False)
 
 
-@pytest.mark.parametrize(("least", "most", "drilled"), [
-    (None, None, 4), (5.0, 5.0, 4), (1.0, 8.0, 5), (6.0, None, 1), (None, 6.0, 4), (8.0, 8.0, 1), (9.0, 20.0, 0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("least", "most", "drilled"),
+    [
+        (None, None, 4),
+        (5.0, 5.0, 4),
+        (1.0, 8.0, 5),
+        (6.0, None, 1),
+        (None, 6.0, 4),
+        (8.0, 8.0, 1),
+        (9.0, 20.0, 0),
+    ],
+)
 def test_diameters(least: float | None, most: float | None, drilled: int) -> None:
     operation = DrillOperation(Cut(1), None, least, most)
     job = job_of(operation)
@@ -105,7 +121,9 @@ def test_diameters(least: float | None, most: float | None, drilled: int) -> Non
 @pytest.mark.parametrize("chords", [12, 48])
 def test_circles_in_chords_are_drilled_and_nothing_else_follows_them(chords: int) -> None:
     turns = np.arange(chords) * math.tau / chords
-    rough = polygon_contour([(round(30 + 2.5 * math.cos(a), 3), round(40 + 2.5 * math.sin(a), 3)) for a in turns.tolist()])
+    rough = polygon_contour(
+        [(round(30 + 2.5 * math.cos(a), 3), round(40 + 2.5 * math.sin(a), 3)) for a in turns.tolist()]
+    )
     nut = polygon_contour([(70 + 2.5 * math.cos(a), 40 + 2.5 * math.sin(a)) for a in np.arange(6) * math.tau / 6])
     on_line = ContourOperation(Cut(2), side=Side.ON)
     job = Job(layered_part({"a": [*PLATE, rough, nut]}), (DRILL, Tool(2, 2.0)), (DrillOperation(Cut(1, 4.0)), on_line))
@@ -121,19 +139,26 @@ def test_circles_in_chords_are_drilled_and_nothing_else_follows_them(chords: int
 def test_nothing_to_drill_counts() -> None:
     program = compute(job_of(DrillOperation(Cut(1)), tool=Tool(1, 3.0)))
     assert len(program.moves) == 0
-    assert "has nothing to drill: the drawing has no circle that it is for. Circles there are of 5 mm (4), 8 mm (1)." in texts(program)
+    assert (
+        "has nothing to drill: the drawing has no circle that it is for. Circles there are of 5 mm (4), 8 mm (1)."
+        in texts(program)
+    )
 
 
 def test_circles_narrower_than_the_drill_are_not_drilled() -> None:
     program = compute(job_of(DrillOperation(Cut(1), least=1.0, most=20.0), [*PLATE, circle(1, 30, 30)]))
     assert (30, 30) not in places(program.moves)
-    assert "the circle at (30.000, 30.000) is narrower than the drill by more than 0.1 mm and not drilled" in texts(program)
+    assert "the circle at (30.000, 30.000) is narrower than the drill by more than 0.1 mm and not drilled" in texts(
+        program
+    )
     assert "drawn are 8 mm (1)" in texts(program, FindingKind.TOLERANCE, counts=False)
 
 
 def test_no_hole_goes_into_a_clamp() -> None:
     layers = {"a": PLATE, "k": [square(20, 0, 0), square(5, 81, 7.5)]}
-    job = replace(Job(layered_part(layers), (DRILL,), (DrillOperation(Cut(1)),)), keep_out_layers=("k",), keep_out_height=20.0)
+    job = replace(
+        Job(layered_part(layers), (DRILL,), (DrillOperation(Cut(1)),)), keep_out_layers=("k",), keep_out_height=20.0
+    )
     program = compute(job)
     assert places(program.moves) == {(10, 90), (90, 10), (90, 90)}
     assert "the circle at (10.000, 10.000) is under a clamp" in texts(program)
@@ -218,10 +243,11 @@ def test_a_circle_that_drills_make_is_neither_wall_nor_region_for_mills() -> Non
     assert len(too_small(Job(part, tools, mills))) == 3
     assert len(too_small(Job(part, tools, (DrillOperation(Cut(1)), *mills)))) == 1
     assert len(too_small(Job(part, tools, (DrillOperation(Cut(1, enabled=False)), *mills)))) == 3
-    begun = Job(part, (Tool(1, 2.0, ToolKind.DRILL), Tool(2, 6.0)), (DrillOperation(Cut(1), least=1.0, most=9.0), *mills))
+    begun = Job(
+        part, (Tool(1, 2.0, ToolKind.DRILL), Tool(2, 6.0)), (DrillOperation(Cut(1), least=1.0, most=9.0), *mills)
+    )
     assert len(too_small(begun)) == 3
     crossing = [square(20, 0, 0), circle(2.5, 20, 10), circle(2.5, 30, 10), circle(2.5, 32, 10)]
     across = compute(Job(layered_part({"a": crossing}), tools, (DrillOperation(Cut(1)), *mills)))
     assert not [each.text for each in across.findings if each.counts]
     assert [len(area.regions) for area in across.areas] == [3, 1, 1]
-

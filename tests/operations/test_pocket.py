@@ -105,7 +105,9 @@ def test_strokes_are_counted_by_depth_pass() -> None:
 @pytest.mark.parametrize("direction", list(Direction))
 @pytest.mark.parametrize("outside_in", [False, True])
 def test_metal_is_on_the_same_side_in_both_orders(direction: Direction, outside_in: bool) -> None:
-    """Round pocket: from inside out the metal is outside, from outside in it is inside: the sense of rotation turns round."""
+    """Round pocket: from inside out the metal is outside, from outside in it is inside: the sense of rotation turns
+    round.
+    """
     chosen = shortest(sheet_of(nest([circle(20)])), replace(WANTED, manner=Manner(direction, outside_in)), (1.7,))
     (stroke,) = chosen.strokes
     rings = stroke.rows[(stroke.rows[:, 7] != 0) & (stroke.purpose == Purpose.POCKET)]

@@ -1,4 +1,6 @@
-"""Rest machining: nothing within reach is left, nothing is cut twice for nothing, no wall is touched, and the tool seldom lifts."""
+"""Rest machining: nothing within reach is left, nothing is cut twice for nothing, no wall is touched, and the tool
+seldom lifts.
+"""
 
 from __future__ import annotations
 
@@ -76,7 +78,11 @@ def left(program: Program, job: Job, contours: list[Contour]) -> float:
 def lifts(program: Program, index: int) -> int:
     """How often an operation leaves the metal for clearance height."""
     moves = program.moves
-    return int(np.count_nonzero((moves.operation == index) & (moves.kind == MoveKind.RAPID) & (moves.end[:, 2] > moves.start[:, 2] + 1e-9)))
+    return int(
+        np.count_nonzero(
+            (moves.operation == index) & (moves.kind == MoveKind.RAPID) & (moves.end[:, 2] > moves.start[:, 2] + 1e-9)
+        )
+    )
 
 
 def keeps_off(program: Program, index: int, contours: list[Contour], distance: float) -> None:
@@ -86,10 +92,17 @@ def keeps_off(program: Program, index: int, contours: list[Contour], distance: f
     rows = move_rows(moves)[low]
     for part in np.linspace(0, 1, 17):
         if len(rows):
-            assert plain_distance.distance(points_at(rows, np.full(len(rows), part)), contours).min() >= distance - tolerances.LEVEL
+            assert (
+                plain_distance.distance(points_at(rows, np.full(len(rows), part)), contours).min()
+                >= distance - tolerances.LEVEL
+            )
 
 
-BONE = [polygon_contour([(0, 0), (20, 0), (20, 8), (40, 8), (40, 0), (60, 0), (60, 20), (40, 20), (40, 12), (20, 12), (20, 20), (0, 20)])]
+BONE = [
+    polygon_contour(
+        [(0, 0), (20, 0), (20, 8), (40, 8), (40, 0), (60, 0), (60, 20), (40, 20), (40, 12), (20, 12), (20, 20), (0, 20)]
+    )
+]
 """Two rooms joined by a passage 4 mm wide and 20 mm long."""
 
 WEDGE = [polygon_contour([(0, 0), (60, 0), (0, 16)])]
@@ -97,7 +110,9 @@ WEDGE = [polygon_contour([(0, 0), (60, 0), (0, 16)])]
 
 
 @pytest.mark.parametrize("contours", [BONE, WEDGE], ids=["bone", "wedge"])
-@pytest.mark.parametrize("kinds", [("pocket 1", "rest 2", "contour 2"), ("pocket 1", "rest 2")], ids=["contour later", "no contour"])
+@pytest.mark.parametrize(
+    "kinds", [("pocket 1", "rest 2", "contour 2"), ("pocket 1", "rest 2")], ids=["contour later", "no contour"]
+)
 def test_what_the_pocket_leaves_is_cleared(contours: list[Contour], kinds: tuple[str, ...]) -> None:
     job = job_of(contours, (6.0, 1.5), *kinds)
     program = compute(job)
@@ -141,7 +156,9 @@ def test_a_third_and_smaller_tool_clears_what_the_second_leaves() -> None:
 
 def test_stock_to_leave_keeps_the_tool_off_the_walls() -> None:
     job = job_of(BONE, (8.0, 2.0), "pocket 1", "rest 2")
-    job = replace(job, operations=tuple(replace(each, cut=replace(each.cut, stock_to_leave=0.4)) for each in job.operations))
+    job = replace(
+        job, operations=tuple(replace(each, cut=replace(each.cut, stock_to_leave=0.4)) for each in job.operations)
+    )
     program = compute(job)
     keeps_off(program, 1, BONE, 1.4)
     assert solid(shapely.difference(reached(BONE, 1.0, 0.4), swept(program, job, 0, 1))) == 0
@@ -188,7 +205,9 @@ def test_the_same_job_gives_the_same_moves() -> None:
 
 
 def sides(program: Program, job: Job) -> tuple[float, float]:
-    """Metal, mm2, that the rest operation's runs take with it on the right of travel, and on the left; slots are in neither."""
+    """Metal, mm2, that the rest operation's runs take with it on the right of travel, and on the left; slots are in
+    neither.
+    """
     moves, radius = program.moves, job.tool(job.operations[1].cut.tool).radius
     rows, runs = move_rows(moves), cutting(moves, 1)
     low, high = rows[runs, :4].reshape(-1, 2).min(axis=0) - radius, rows[runs, :4].reshape(-1, 2).max(axis=0) + radius
@@ -210,11 +229,18 @@ def sides(program: Program, job: Job) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("direction", list(Direction))
-@pytest.mark.parametrize(("contours", "tools", "least"), [
-    ([square(40)], (12.0, 3.0), 20.0), (WEDGE, (6.0, 1.5), 3.0), ([square(60), circle(8, 20, 21), circle(8, 38, 39)], (12.0, 2.0), 5.0),
-], ids=["corners", "wedge", "islands"])  # fmt: skip
-def test_runs_keep_the_direction_that_is_asked_for(contours: list[Contour], tools: tuple[float, float], least: float,
-                                                   direction: Direction) -> None:  # fmt: skip
+@pytest.mark.parametrize(
+    ("contours", "tools", "least"),
+    [
+        ([square(40)], (12.0, 3.0), 20.0),
+        (WEDGE, (6.0, 1.5), 3.0),
+        ([square(60), circle(8, 20, 21), circle(8, 38, 39)], (12.0, 2.0), 5.0),
+    ],
+    ids=["corners", "wedge", "islands"],
+)
+def test_runs_keep_the_direction_that_is_asked_for(
+    contours: list[Contour], tools: tuple[float, float], least: float, direction: Direction
+) -> None:
     job = job_of(contours, tools, "pocket 1", "rest 2")
     turned = replace(job.operations[1], cut=replace(job.operations[1].cut, direction=direction))
     job = replace(job, operations=(job.operations[0], turned))
@@ -226,7 +252,9 @@ def test_runs_keep_the_direction_that_is_asked_for(contours: list[Contour], tool
 @settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6))
 def test_random_parts(seed: int) -> None:
-    contours, _ = random_part(seed - seed % 5 + seed % 3)  # none that cross: polygons are no oracle where walls touch themselves
+    contours, _ = random_part(
+        seed - seed % 5 + seed % 3
+    )  # none that cross: polygons are no oracle where walls touch themselves
     rng = np.random.default_rng(seed)
     small = float(rng.uniform(0.8, 2.5))
     kinds = ("pocket 1", "rest 2", "contour 2") if rng.random() < 0.5 else ("pocket 1", "rest 2")

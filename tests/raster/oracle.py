@@ -1,4 +1,6 @@
-"""Even-odd at every pixel centre in float64, by another way than the program's: chord polygons, and discs cut by chords."""
+"""Even-odd at every pixel centre in float64, by another way than the program's: chord polygons, and discs cut by
+chords.
+"""
 
 import math
 

@@ -15,7 +15,8 @@ def shrink(area: Mask, radius: float) -> Mask:
 
 
 def frame_distance(area: Mask) -> Floats:
-    """Return the distance of every pixel of A' from the nearest pixel of its frame, px: the one field that all rings are levels of.
+    """Return the distance of every pixel of A' from the nearest pixel of its frame, px: the one field that all rings
+    are levels of.
 
     The frame's pixels are the contour tool's path itself. -1 outside of the area.
     """

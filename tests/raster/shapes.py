@@ -20,7 +20,10 @@ def polygon(points: list[Point]) -> Contour:
 def snapped(rng: Rng, points: list[tuple[float, float]]) -> list[Point]:
     """Put points on pixel corners, pixel centres, quarters, or nowhere in particular."""
     grid, shift = [(1.0, 0.0), (1.0, 0.5), (0.25, 0.0), (0.0, 0.0)][int(rng.integers(4))]
-    return [(round((x - shift) / grid) * grid + shift, round((y - shift) / grid) * grid + shift) if grid else (x, y) for x, y in points]
+    return [
+        (round((x - shift) / grid) * grid + shift, round((y - shift) / grid) * grid + shift) if grid else (x, y)
+        for x, y in points
+    ]
 
 
 def star(rng: Rng, size: float) -> Shape:
@@ -28,7 +31,14 @@ def star(rng: Rng, size: float) -> Shape:
     turn = rng.uniform(0, math.tau)
     angles = [turn + math.pi * k / n for k in range(2 * n)]
     radii = [size / 2 * (1 if k % 2 else inner) for k in range(2 * n)]
-    return [polygon(snapped(rng, [(size / 2 + r * math.cos(a), size / 2 + r * math.sin(a)) for r, a in zip(radii, angles, strict=True)]))]
+    return [
+        polygon(
+            snapped(
+                rng,
+                [(size / 2 + r * math.cos(a), size / 2 + r * math.sin(a)) for r, a in zip(radii, angles, strict=True)],
+            )
+        )
+    ]
 
 
 def comb(rng: Rng, size: float) -> Shape:
@@ -52,9 +62,23 @@ def slots(rng: Rng, size: float) -> Shape:
         width = rng.choice([1.0, 2.0, 3.0, rng.uniform(0.2, 3)])
         if rng.random() < 0.5:
             turn = rng.choice([0, math.pi / 2])
-        along, across = (math.cos(turn) * length, math.sin(turn) * length), (-math.sin(turn) * width, math.cos(turn) * width)
-        shapes.append(polygon(snapped(rng, [(x, y), (x + along[0], y + along[1]), (x + along[0] + across[0], y + along[1] + across[1]),
-                                            (x + across[0], y + across[1])])))
+        along, across = (
+            (math.cos(turn) * length, math.sin(turn) * length),
+            (-math.sin(turn) * width, math.cos(turn) * width),
+        )
+        shapes.append(
+            polygon(
+                snapped(
+                    rng,
+                    [
+                        (x, y),
+                        (x + along[0], y + along[1]),
+                        (x + along[0] + across[0], y + along[1] + across[1]),
+                        (x + across[0], y + across[1]),
+                    ],
+                )
+            )
+        )
     return shapes
 
 
@@ -62,9 +86,15 @@ def touching(rng: Rng, size: float) -> Shape:
     """Squares that share edges and corners, some of them twice, some a hair apart."""
     cell = float(rng.integers(3, max(4, size // 5)))
     gap = rng.choice([0.0, 0.0, 0.5, 1.0])
-    cells = [(float(i) * cell + 1, float(j) * cell + 1) for i in range(int(size / cell) - 1) for j in range(int(size / cell) - 1)]
+    cells = [
+        (float(i) * cell + 1, float(j) * cell + 1)
+        for i in range(int(size / cell) - 1)
+        for j in range(int(size / cell) - 1)
+    ]
     chosen = [cells[k] for k in rng.integers(0, len(cells), min(len(cells), 12))]
-    return [polygon([(x, y), (x + cell - gap, y), (x + cell - gap, y + cell - gap), (x, y + cell - gap)]) for x, y in chosen]
+    return [
+        polygon([(x, y), (x + cell - gap, y), (x + cell - gap, y + cell - gap), (x, y + cell - gap)]) for x, y in chosen
+    ]
 
 
 def spiral(rng: Rng, size: float) -> Shape:
@@ -75,7 +105,10 @@ def spiral(rng: Rng, size: float) -> Shape:
         return star(rng, size)
     radii = steps / math.tau * pitch
     out = [(size / 2 + r * math.cos(t), size / 2 + r * math.sin(t)) for r, t in zip(radii, steps, strict=True)]
-    back = [(size / 2 + (r + width) * math.cos(t), size / 2 + (r + width) * math.sin(t)) for r, t in zip(radii, steps, strict=True)]
+    back = [
+        (size / 2 + (r + width) * math.cos(t), size / 2 + (r + width) * math.sin(t))
+        for r, t in zip(radii, steps, strict=True)
+    ]
     return [polygon(snapped(rng, out + back[::-1]))]
 
 
@@ -113,23 +146,43 @@ def arc_through(a: Point, b: Point, bulge: float) -> Primitive:
 
 def arcs(rng: Rng, size: float) -> Shape:
     """Polygons whose edges bulge by up to three quarters of a turn; quadrant points fall on vertices now and then."""
-    points = snapped(rng, [tuple(p) for p in rng.uniform(size / 4, size * 3 / 4, (int(rng.integers(2, 9)), 2)).tolist()])
+    points = snapped(
+        rng, [tuple(p) for p in rng.uniform(size / 4, size * 3 / 4, (int(rng.integers(2, 9)), 2)).tolist()]
+    )
     points = [p for k, p in enumerate(points) if p != points[k - 1]]
     if len(points) < 2:
         return circles(rng, size)
-    bulges = rng.choice([0.0, 1.0, -1.0, math.tan(math.pi / 8), -math.tan(math.pi / 8), rng.uniform(-2.4, 2.4)], len(points))
-    return [Contour(tuple(arc_through(a, b, float(g)) for a, b, g in zip(points, points[1:] + points[:1], bulges, strict=True)))]
+    bulges = rng.choice(
+        [0.0, 1.0, -1.0, math.tan(math.pi / 8), -math.tan(math.pi / 8), rng.uniform(-2.4, 2.4)], len(points)
+    )
+    return [
+        Contour(
+            tuple(arc_through(a, b, float(g)) for a, b, g in zip(points, points[1:] + points[:1], bulges, strict=True))
+        )
+    ]
 
 
 def circles(rng: Rng, size: float) -> Shape:
     """Rings of circles, some a pixel or less apart, some smaller than a pixel, some touching."""
     shape = []
     for _ in range(int(rng.integers(1, 8))):
-        (x, y), r = snapped(rng, [tuple(rng.uniform(size / 4, size * 3 / 4, 2).tolist())])[0], rng.uniform(0.05, size / 4)
+        (x, y), r = (
+            snapped(rng, [tuple(rng.uniform(size / 4, size * 3 / 4, 2).tolist())])[0],
+            rng.uniform(0.05, size / 4),
+        )
         r = round(r) + 0.5 if rng.random() < 0.4 else r
         shape.append(Contour((Circle((x, y), r, bool(rng.random() < 0.5)),)))
         if rng.random() < 0.5:
-            shape.append(Contour((Circle((x, y), max(0.02, r - rng.choice([0.3, 1.0, 1.5])),),)))
+            shape.append(
+                Contour(
+                    (
+                        Circle(
+                            (x, y),
+                            max(0.02, r - rng.choice([0.3, 1.0, 1.5])),
+                        ),
+                    )
+                )
+            )
     return shape
 
 
@@ -137,11 +190,20 @@ def stadiums(rng: Rng, size: float) -> Shape:
     """Round-ended slots, level, upright or aslant: tangent joints exactly on quadrant points."""
     shape = []
     for _ in range(int(rng.integers(1, 5))):
-        x, y, r, length = *rng.uniform(size / 3, size * 2 / 3, 2), rng.uniform(0.5, size / 8), rng.uniform(0.5, size / 4)
+        x, y, r, length = (
+            *rng.uniform(size / 3, size * 2 / 3, 2),
+            rng.uniform(0.5, size / 8),
+            rng.uniform(0.5, size / 4),
+        )
         x, y, r = (round(x * 2) / 2, round(y * 2) / 2, round(r * 2) / 2 or 0.5) if rng.random() < 0.6 else (x, y, r)
         turn = rng.choice([0.0, math.pi / 2, rng.uniform(0, math.pi)])
         c, s = math.cos(turn), math.sin(turn)
-        a, b, p, q = (x + s * r, y - c * r), (x + s * r + c * length, y - c * r + s * length), (x - s * r, y + c * r), (0.0, 0.0)
+        a, b, p, q = (
+            (x + s * r, y - c * r),
+            (x + s * r + c * length, y - c * r + s * length),
+            (x - s * r, y + c * r),
+            (0.0, 0.0),
+        )
         q = (p[0] + c * length, p[1] + s * length)
         shape.append(Contour((Line(a, b), Arc(b, q, (x + c * length, y + s * length)), Line(q, p), Arc(p, a, (x, y)))))
     return shape
@@ -150,10 +212,19 @@ def stadiums(rng: Rng, size: float) -> Shape:
 def beyond(rng: Rng, size: float) -> Shape:
     """A shape of another kind that reaches over the edges of the frame."""
     shift = rng.uniform(-size / 2, size / 2, 2)
-    return [Contour(tuple(Line((p.start[0] + shift[0], p.start[1] + shift[1]), (p.end[0] + shift[0], p.end[1] + shift[1]))
-                          for p in contour.primitives if isinstance(p, Line))) for contour in tangled(rng, size)]
+    return [
+        Contour(
+            tuple(
+                Line((p.start[0] + shift[0], p.start[1] + shift[1]), (p.end[0] + shift[0], p.end[1] + shift[1]))
+                for p in contour.primitives
+                if isinstance(p, Line)
+            )
+        )
+        for contour in tangled(rng, size)
+    ]
 
 
 KINDS: dict[str, Callable[[Rng, float], Shape]] = {
-    kind.__name__: kind for kind in (star, comb, slots, touching, spiral, rectilinear, tangled, arcs, circles, stadiums, beyond)
+    kind.__name__: kind
+    for kind in (star, comb, slots, touching, spiral, rectilinear, tangled, arcs, circles, stadiums, beyond)
 }

@@ -38,7 +38,9 @@ def test_where_two_lines_have_become_one_is_told() -> None:
 
 
 def test_lines_of_one_pixel_that_run_side_by_side_are_told() -> None:
-    ink = ink_of("............", ".##########.", ".##########.", ".#........#.", ".#........#.", ".##########.", "............")
+    ink = ink_of(
+        "............", ".##########.", ".##########.", ".#........#.", ".#........#.", ".##########.", "............"
+    )
     assert [each.doubt for each in ambiguities(ink)] == [Doubt.MERGED]
 
 

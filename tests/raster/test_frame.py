@@ -38,10 +38,16 @@ def test_around_a_point_keeps_a_pitch() -> None:
     assert Frame.around((5.0, 5.0, 5.0, 5.0)).pitch == 0.25
 
 
-@pytest.mark.parametrize("make", [
-    lambda: Frame(0, 400), lambda: Frame(400, 40000), lambda: Frame(pitch=0.0), lambda: Frame(pitch=float("nan")),
-    lambda: Frame.around((0, 0, 1, 1), 10, 5),
-])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Frame(0, 400),
+        lambda: Frame(400, 40000),
+        lambda: Frame(pitch=0.0),
+        lambda: Frame(pitch=float("nan")),
+        lambda: Frame.around((0, 0, 1, 1), 10, 5),
+    ],
+)
 def test_senseless_frames_are_refused(make: object) -> None:
     with pytest.raises(ParameterError):
         make()  # type: ignore[operator]

@@ -1,4 +1,6 @@
-"""Borders, peels and the circle's correction: literal peeling is the city block distance, step 307 makes it Euclidean."""
+"""Borders, peels and the circle's correction: literal peeling is the city block distance, step 307 makes it
+Euclidean.
+"""
 
 from itertools import pairwise
 
@@ -38,7 +40,9 @@ def squared_distance(area: np.ndarray, targets: np.ndarray) -> np.ndarray:
 def test_every_border_is_found_once_and_holds_every_border_pixel(seed: int) -> None:
     area = random_area(seed)
     borders = borders_of(area)
-    assert len(borders) == ndimage.label(area, EIGHT)[1] + ndimage.label(~np.pad(area, 1))[1] - 1, "one an area, one a hole"
+    assert len(borders) == ndimage.label(area, EIGHT)[1] + ndimage.label(~np.pad(area, 1))[1] - 1, (
+        "one an area, one a hole"
+    )
     marked = np.zeros(area.shape, np.uint8)
     mark(marked, borders, 1)
     padded = np.pad(area, 1)
@@ -120,8 +124,14 @@ def test_thresholds_are_reached_exactly(seed: int) -> None:
     expected = sum((square >= each).astype(int) for each in thresholds)
     assert np.array_equal(thresholds_reached(free, thresholds), expected)
     assert not thresholds_reached(np.zeros((3, 4), bool), [1]).any()
-    assert np.array_equal(thresholds_reached(np.ones((5, 9), bool), [1, 4, 9, 16]), np.minimum.reduce(
-        np.meshgrid(np.minimum(np.arange(1, 10), np.arange(9, 0, -1)), np.minimum(np.arange(1, 6), np.arange(5, 0, -1)))))
+    assert np.array_equal(
+        thresholds_reached(np.ones((5, 9), bool), [1, 4, 9, 16]),
+        np.minimum.reduce(
+            np.meshgrid(
+                np.minimum(np.arange(1, 10), np.arange(9, 0, -1)), np.minimum(np.arange(1, 6), np.arange(5, 0, -1))
+            )
+        ),
+    )
 
 
 def test_large_pictures_are_measured_in_bands_alike() -> None:
@@ -130,7 +140,9 @@ def test_large_pictures_are_measured_in_bands_alike() -> None:
     assert np.array_equal(thresholds_reached(area, [400, 2500]), (square >= 400) + 1 * (square >= 2500))
 
 
-@pytest.mark.parametrize(("rows", "cols", "free"), [(97, 700, 0.999), (33, 300, 0.99), (64, 129, 0.5), (1, 200, 0.99), (200, 1, 0.99)])
+@pytest.mark.parametrize(
+    ("rows", "cols", "free"), [(97, 700, 0.999), (33, 300, 0.99), (64, 129, 0.5), (1, 200, 0.99), (200, 1, 0.99)]
+)
 def test_long_runs_and_thin_pictures_are_measured_alike(rows: int, cols: int, free: float) -> None:
     area = np.random.default_rng(rows).random((rows, cols)) < free
     padded = np.pad(area, 1)
@@ -138,7 +150,9 @@ def test_long_runs_and_thin_pictures_are_measured_alike(rows: int, cols: int, fr
     assert np.array_equal(inner_pixels(area), inner)
     thresholds = [1, 2, 30, 31, 32, 400]
     square = squared_distance(padded, ~padded)[1:-1, 1:-1]
-    assert np.array_equal(thresholds_reached(area, thresholds), sum((square >= each).astype(int) for each in thresholds))
+    assert np.array_equal(
+        thresholds_reached(area, thresholds), sum((square >= each).astype(int) for each in thresholds)
+    )
 
 
 def test_noise_of_many_borders_is_traced_whole() -> None:

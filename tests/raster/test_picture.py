@@ -68,7 +68,14 @@ def test_the_pitch_comes_from_what_is_asked_then_from_the_file() -> None:
     gray, png = paper(), coded(paper())
     assert read_picture("a", png, PictureOptions(dpi=254)).pitch == pytest.approx(0.1)
     chunk = struct.pack(">IIB", 5000, 5000, 1)
-    sized = png[:33] + struct.pack(">I", 9) + b"pHYs" + chunk + struct.pack(">I", __import__("zlib").crc32(b"pHYs" + chunk)) + png[33:]
+    sized = (
+        png[:33]
+        + struct.pack(">I", 9)
+        + b"pHYs"
+        + chunk
+        + struct.pack(">I", __import__("zlib").crc32(b"pHYs" + chunk))
+        + png[33:]
+    )
     assert read_picture("a", sized, PictureOptions()).pitch == pytest.approx(0.2)
     assert read_picture("a", sized, SIZED).pitch == 0.2
     jpeg = coded(gray, ".jpg")
@@ -76,7 +83,9 @@ def test_the_pitch_comes_from_what_is_asked_then_from_the_file() -> None:
     at_150 = jpeg[: at + 7] + b"\x01" + struct.pack(">HH", 150, 150) + jpeg[at + 12 :]
     assert read_picture("a", at_150, PictureOptions()).pitch == pytest.approx(25.4 / 150)
     bmp = coded(gray, ".bmp")
-    assert read_picture("a", bmp[:38] + struct.pack("<i", 4000) + bmp[42:], PictureOptions()).pitch == pytest.approx(0.25)
+    assert read_picture("a", bmp[:38] + struct.pack("<i", 4000) + bmp[42:], PictureOptions()).pitch == pytest.approx(
+        0.25
+    )
     with pytest.raises(InputError, match="does not say how large it is"):
         read_picture("a", png, PictureOptions())
 
@@ -87,22 +96,33 @@ def test_two_points_make_a_pitch() -> None:
         pitch_of((1, 1), (1, 1), 10.0)
 
 
-@pytest.mark.parametrize(("data", "words"), [
-    (b"GIF89a", "no PNG, JPEG or BMP"), (b"\x89PNG\r\n\x1a\n", "header is damaged"), (b"\xff\xd8\xff", "header is damaged"),
-    (coded(paper())[:60], "cannot be decoded"),
-    (b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 50000, 50000), "50000 x 50000 px"),
-    (b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 12000, 12000), "100 million"),
-    (b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 0, 5), "header is damaged"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"GIF89a", "no PNG, JPEG or BMP"),
+        (b"\x89PNG\r\n\x1a\n", "header is damaged"),
+        (b"\xff\xd8\xff", "header is damaged"),
+        (coded(paper())[:60], "cannot be decoded"),
+        (b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 50000, 50000), "50000 x 50000 px"),
+        (b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 12000, 12000), "100 million"),
+        (b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 0, 5), "header is damaged"),
+    ],
+)
 def test_what_is_no_picture_is_refused(data: bytes, words: str) -> None:
     with pytest.raises(InputError, match=words):
         read_picture("a.png", data, SIZED)
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"threshold": 0}, "threshold is 0"), ({"despeckle": -1}, "Despeckle is -1"), ({"pitch": 0.0}, "pitch is 0 mm"),
-    ({"dpi": 1e6}, "resolution is"), ({"pitch": 1.0, "dpi": 1.0}, "give one of them"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"threshold": 0}, "threshold is 0"),
+        ({"despeckle": -1}, "Despeckle is -1"),
+        ({"pitch": 0.0}, "pitch is 0 mm"),
+        ({"dpi": 1e6}, "resolution is"),
+        ({"pitch": 1.0, "dpi": 1.0}, "give one of them"),
+    ],
+)
 def test_options_have_ranges(values: dict, words: str) -> None:
     with pytest.raises(ParameterError, match=words):
         PictureOptions(**values)
@@ -167,8 +187,11 @@ def test_what_can_be_seen_through_is_paper(kind: str) -> None:
         data = png((160, 120, 8, 3), (b"PLTE", bytes(6)), (b"tRNS", b"\0\xff"), (b"IDAT", zlib.compress(rows)))
     else:
         most = 255 if kind == "rgba" else 65535
-        data = coded(np.dstack([np.zeros((120, 160, 3), np.uint8 if most == 255 else np.uint16), drawn * most]).astype(
-            np.uint8 if most == 255 else np.uint16))
+        data = coded(
+            np.dstack([np.zeros((120, 160, 3), np.uint8 if most == 255 else np.uint16), drawn * most]).astype(
+                np.uint8 if most == 255 else np.uint16
+            )
+        )
     picture = read_picture("a.png", data, SIZED)
     assert np.array_equal(picture.ink, drawn)
     assert np.array_equal(picture.gray, np.where(drawn, 0, 255))
@@ -185,7 +208,9 @@ def png(header: tuple[int, int, int, int], *chunks: tuple[bytes, bytes]) -> byte
     cols, rows, bits, colour = header
     all_chunks = ((b"IHDR", struct.pack(">IIBBBBB", cols, rows, bits, colour, 0, 0, 0)), *chunks, (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in all_chunks)
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        for kind, body in all_chunks
+    )
 
 
 def grey_png(*before: tuple[bytes, bytes]) -> bytes:
@@ -195,8 +220,12 @@ def grey_png(*before: tuple[bytes, bytes]) -> bytes:
 
 
 def exif(across: int, down: int, turn: int = 1) -> bytes:
-    entries = [struct.pack(">HHIHH", 0x112, 3, 1, turn, 0), struct.pack(">HHII", 282, 5, 1, 62), struct.pack(">HHII", 283, 5, 1, 70),
-               struct.pack(">HHIHH", 296, 3, 1, 2, 0)]
+    entries = [
+        struct.pack(">HHIHH", 0x112, 3, 1, turn, 0),
+        struct.pack(">HHII", 282, 5, 1, 62),
+        struct.pack(">HHII", 283, 5, 1, 70),
+        struct.pack(">HHIHH", 296, 3, 1, 2, 0),
+    ]
     return b"MM\0*" + struct.pack(">IH", 8, 4) + b"".join(entries) + bytes(4) + struct.pack(">IIII", across, 1, down, 1)
 
 
@@ -212,7 +241,9 @@ def test_a_resolution_behind_long_chunks_is_found(capfd: pytest.CaptureFixture[s
 
 
 def test_a_resolution_in_exif_is_found() -> None:
-    assert read_picture("a.jpg", with_exif(coded(paper(), ".jpg"), exif(254, 254)), PictureOptions()).pitch == pytest.approx(0.1)
+    assert read_picture(
+        "a.jpg", with_exif(coded(paper(), ".jpg"), exif(254, 254)), PictureOptions()
+    ).pitch == pytest.approx(0.1)
     assert read_picture("a.png", grey_png((b"eXIf", exif(127, 127))), PictureOptions()).pitch == pytest.approx(0.2)
 
 
@@ -244,7 +275,9 @@ def test_a_turned_picture_s_resolutions_turn_with_it() -> None:
     assert picture.pitch == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize("per_metre", [(-10000, -10000), (10000, -10000), (1, 1), (2**31 - 1, 2**31 - 1), (0, 0), (10000, 10)])
+@pytest.mark.parametrize(
+    "per_metre", [(-10000, -10000), (10000, -10000), (1, 1), (2**31 - 1, 2**31 - 1), (0, 0), (10000, 10)]
+)
 def test_a_resolution_that_cannot_be_meant_is_none(per_metre: tuple[int, int]) -> None:
     bmp = coded(paper(), ".bmp")
     data = bmp[:38] + struct.pack("<ii", *per_metre) + bmp[46:]

@@ -1,4 +1,6 @@
-"""The fill as the text prints it goes wrong on many shapes, and where it does is counted; the settled one goes wrong nowhere."""
+"""The fill as the text prints it goes wrong on many shapes, and where it does is counted; the settled one goes wrong
+nowhere.
+"""
 
 import numpy as np
 
@@ -50,7 +52,16 @@ def test_it_errs_where_the_findings_say_and_the_settled_one_nowhere() -> None:
 
 
 WRONG_OF_12 = {
-    "star": 10, "comb": 6, "slots": 9, "touching": 9, "spiral": 11, "rectilinear": 4,
-    "tangled": 11, "arcs": 10, "circles": 10, "stadiums": 7, "beyond": 12,
+    "star": 10,
+    "comb": 6,
+    "slots": 9,
+    "touching": 9,
+    "spiral": 11,
+    "rectilinear": 4,
+    "tangled": 11,
+    "arcs": 10,
+    "circles": 10,
+    "stadiums": 7,
+    "beyond": 12,
 }
 """Shapes of each kind that the published rules fill wrongly."""

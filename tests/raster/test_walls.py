@@ -83,7 +83,9 @@ def test_a_contour_through_pixels_corners_takes_both_pixels_there(turned: bool) 
     taken = even_odd(FRAME, [triangle]) & ~free
     on_slants = {(row, col) for row, col in np.argwhere(taken).tolist() if col not in (12, 47)}
     assert len(on_slants) >= 38, "each pixel along both slants whose centre is inside or on them, and no other"
-    assert not free[FRAME.rows - 1 - np.arange(14, 30), (59 - np.arange(14, 30) + 3) if turned else np.arange(14, 30)].any()
+    assert not free[
+        FRAME.rows - 1 - np.arange(14, 30), (59 - np.arange(14, 30) + 3) if turned else np.arange(14, 30)
+    ].any()
 
 
 @pytest.mark.parametrize("radius", [2.0, 3.5, 11.0])

@@ -34,9 +34,16 @@ def motions_of(start: Floats, end: Floats, kind: int = MotionKind.LINE) -> Motio
     count = len(start)
     whole = np.zeros(count, np.int32)
     return Motions(
-        np.array(start, float), np.array(end, float), np.full((count, 3), np.nan), np.full(count, kind, np.uint8),
-        np.zeros(count, np.uint8), whole, np.full(count, 600.0), np.arange(1, count + 1, dtype=np.int32), whole,
-    )  # fmt: skip
+        np.array(start, float),
+        np.array(end, float),
+        np.full((count, 3), np.nan),
+        np.full(count, kind, np.uint8),
+        np.zeros(count, np.uint8),
+        whole,
+        np.full(count, 600.0),
+        np.arange(1, count + 1, dtype=np.int32),
+        whole,
+    )
 
 
 def polyline(points: Iterable[Sequence[float]]) -> Motions:
@@ -45,15 +52,27 @@ def polyline(points: Iterable[Sequence[float]]) -> Motions:
     return motions_of(places[:-1], places[1:])
 
 
-def arc(start: Sequence[float], end: Sequence[float], centre: Sequence[float], plane: Plane = Plane.XY, ccw: bool = True,
-        turns: int = 1) -> Motions:  # fmt: skip
+def arc(
+    start: Sequence[float],
+    end: Sequence[float],
+    centre: Sequence[float],
+    plane: Plane = Plane.XY,
+    ccw: bool = True,
+    turns: int = 1,
+) -> Motions:
     """One arc."""
     one = np.ones(1, np.int32)
     return Motions(
-        np.array([start], float), np.array([end], float), np.array([centre], float),
-        np.full(1, MotionKind.ARC_CCW if ccw else MotionKind.ARC_CW, np.uint8), np.full(1, plane, np.uint8), one * turns,
-        np.full(1, 600.0), one, one * 0,
-    )  # fmt: skip
+        np.array([start], float),
+        np.array([end], float),
+        np.array([centre], float),
+        np.full(1, MotionKind.ARC_CCW if ccw else MotionKind.ARC_CW, np.uint8),
+        np.full(1, plane, np.uint8),
+        one * turns,
+        np.full(1, 600.0),
+        one,
+        one * 0,
+    )
 
 
 def joined(parts: Sequence[Motions]) -> Motions:
@@ -77,8 +96,12 @@ def cut(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions
 
 
 def cut_apart(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions = PLAIN) -> Cut:
-    """Cut with two tools by turns, both of the same shape: no motion goes on from another, so all are evaluated wherever they sweep."""
-    return trim(piece, Course(motions, np.arange(len(motions), dtype=np.int32) % 2 + 1), {1: cutter, 2: cutter}, options)
+    """Cut with two tools by turns, both of the same shape: no motion goes on from another, so all are evaluated
+    wherever they sweep.
+    """
+    return trim(
+        piece, Course(motions, np.arange(len(motions), dtype=np.int32) % 2 + 1), {1: cutter, 2: cutter}, options
+    )
 
 
 def cells_of(piece: Workpiece) -> Floats:

@@ -24,7 +24,8 @@ def line(start: Iterable[float], end: Iterable[float]) -> Path:
 
 
 def swept(cutter: Cutter, path: Path, cells: Floats) -> Floats:
-    """Return the lowest height (n,) that the cutter reaches over cells (n, 2) on its way; infinite where it does not come.
+    """Return the lowest height (n,) that the cutter reaches over cells (n, 2) on its way; infinite where it does not
+    come.
 
     The best and the second best dense sample that is a local minimum are both followed: arcs may have two.
     """
@@ -65,7 +66,9 @@ def followed(cutter: Cutter, path: Path, cells: Floats, best: Floats) -> Floats:
 
 def over(cutter: Cutter, tips: Floats, cells: Floats) -> Floats:
     """Height of the cutter's profile over cells when its tip stands at `tips`."""
-    return np.asarray(tips[..., 2] + cutter.heights(np.hypot(tips[..., 0] - cells[..., 0], tips[..., 1] - cells[..., 1])))
+    return np.asarray(
+        tips[..., 2] + cutter.heights(np.hypot(tips[..., 0] - cells[..., 0], tips[..., 1] - cells[..., 1]))
+    )
 
 
 def field(moves: Iterable[tuple[Cutter, Path]], cells: Floats, top: float, floor: float = -np.inf) -> Floats:
@@ -83,5 +86,7 @@ def field(moves: Iterable[tuple[Cutter, Path]], cells: Floats, top: float, floor
 def slopes(moves: Sequence[tuple[Cutter, Path]], cells: Floats, heights: Floats, top: float, floor: float) -> Floats:
     """How steep (n,) the field of heights is: the greatest of four differences over 1 um."""
     step = 1e-3
-    beside = [field(moves, cells + shift, top, floor) for shift in ((step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step))]
+    beside = [
+        field(moves, cells + shift, top, floor) for shift in ((step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step))
+    ]
     return np.asarray(np.max(np.abs(np.array(beside) - heights), axis=0) / step)

@@ -1,7 +1,8 @@
 """The published method against the engine of record, and against brute force; what happens without its parts.
 
-Between which heights its own must lie is said by two other cutters: one slimmer and higher by all that facets, chords, overlaps
-and rounding may leave, one wider and deeper by what chords and rounding may take. So cells beside walls need no exception.
+Between which heights its own must lie is said by two other cutters: one slimmer and higher by all that facets, chords,
+overlaps and rounding may leave, one wider and deeper by what chords and rounding may take. So cells beside walls need
+no exception.
 """
 
 import threading
@@ -47,21 +48,33 @@ def context() -> moderngl.Context:
         pytest.skip(str(reason))
 
 
-def drawn(context: moderngl.Context, piece: Workpiece, course: Course | Motions, cutters: dict[int, Cutter] | Cutter,
-          how: Tessellation | None = None) -> Heights:  # fmt: skip
+def drawn(
+    context: moderngl.Context,
+    piece: Workpiece,
+    course: Course | Motions,
+    cutters: dict[int, Cutter] | Cutter,
+    how: Tessellation | None = None,
+) -> Heights:
     with context:
         engine = DepthBuffer(context, how)
-        heights = engine.heights(piece, course if isinstance(course, Course) else course_of(course),
-                                 cutters if isinstance(cutters, dict) else {1: cutters})  # fmt: skip
+        heights = engine.heights(
+            piece,
+            course if isinstance(course, Course) else course_of(course),
+            cutters if isinstance(cutters, dict) else {1: cutters},
+        )
         engine.release()
     return heights
 
 
 def allowed(cutter: Cutter, pitch: float, facet: float) -> tuple[Cutter, Cutter]:
-    """The cutters between which the method lies; the facet of a wall seen on edge, which may give any of its heights, is as wide as
+    """The cutters between which the method lies; the facet of a wall seen on edge, which may give any of its heights,
+    is as wide as
     twice the error."""
     error = facet_error(cutter, facet)
-    more, less = error * (1 + CHORD_SHARE) + pitch**2 / (2 * cutter.radius) + pitch * SUBPIXEL, 2 * error + pitch * SUBPIXEL
+    more, less = (
+        error * (1 + CHORD_SHARE) + pitch**2 / (2 * cutter.radius) + pitch * SUBPIXEL,
+        2 * error + pitch * SUBPIXEL,
+    )
     slim, wide = cutter.shrunk(more), cutter.grown(less)
     assert slim is not None
     deeper = error * CHORD_SHARE + pitch * SUBPIXEL
@@ -73,7 +86,9 @@ def astray(got: Heights, piece: Workpiece, motions: Motions, cutter: Cutter, fac
     return int(np.count_nonzero(stray(got, piece, motions, cutter, facet)))
 
 
-def stray(got: Heights, piece: Workpiece, motions: Motions, cutter: Cutter, facet: float | None = None) -> NDArray[np.bool_]:
+def stray(
+    got: Heights, piece: Workpiece, motions: Motions, cutter: Cutter, facet: float | None = None
+) -> NDArray[np.bool_]:
     """Which cells do."""
     slim, wide = allowed(cutter, piece.grid.pitch, facet or 2 * piece.grid.pitch)
     above, below = cut(piece, motions, slim).heights, cut(piece, motions, wide).heights
@@ -82,8 +97,11 @@ def stray(got: Heights, piece: Workpiece, motions: Motions, cutter: Cutter, face
     return np.asarray((got > above + 2e-5) | (got < below - 2e-5))
 
 
-SCENES = {**{name: polyline(places) for name, places in (WALKS | REDUCED).items()}, **ARCS,
-          **{f"spline, {name}": spline_motion(curve) for name, curve in SPLINES.items()}}  # fmt: skip
+SCENES = {
+    **{name: polyline(places) for name, places in (WALKS | REDUCED).items()},
+    **ARCS,
+    **{f"spline, {name}": spline_motion(curve) for name, curve in SPLINES.items()},
+}
 
 
 @pytest.mark.parametrize("cutter", CUTTERS)
@@ -108,7 +126,9 @@ def winding(seed: int, count: int, step: float, bend: float, steep: float) -> Fl
 @pytest.mark.parametrize("cutter", ["ball", "bull", "flat", "v"])
 @pytest.mark.parametrize("steep", [0.0, 0.9, 1.5])
 def test_nothing_stays_open_at_thousands_of_corners(context: moderngl.Context, steep: float, cutter: str) -> None:
-    """Nor does a facet that is seen on edge gouge, but for a cell in a million on a wall, which has a height of those beside it."""
+    """Nor does a facet that is seen on edge gouge, but for a cell in a million on a wall, which has a height of those
+    beside it.
+    """
     piece = box_piece(size=100, cells=1500)
     for seed, (step, bend) in enumerate(((0.5, 0.01), (0.33, 0.0057), (0.05, 0.02), (2.0, 0.05))):
         motions = polyline(winding(seed, 2000, step, bend, steep))
@@ -129,7 +149,9 @@ def test_the_error_of_a_level_pass_is_two_thirds_of_the_sagitta_on_average(conte
     piece = box_piece(size=4, cells=400)
     motions, ball = polyline([(-30, 0.0013, -3), (30, 0.0013, -3)]), CUTTERS["ball"]
     for facet in (0.2, 0.4):
-        over = drawn(context, piece, motions, ball, Tessellation(facet)) - cut(piece, motions, ball).heights.astype(float)
+        over = drawn(context, piece, motions, ball, Tessellation(facet)) - cut(piece, motions, ball).heights.astype(
+            float
+        )
         middle = over[150:250]
         sagitta = facet_error(ball, facet) / 2
         assert middle.min() > -2e-5
@@ -140,7 +162,10 @@ def test_the_error_of_a_level_pass_is_two_thirds_of_the_sagitta_on_average(conte
 @pytest.mark.parametrize("cutter", ["ball", "bull", "flat", "v"])
 def test_without_wedges_corners_stay_open(context: moderngl.Context, cutter: str) -> None:
     piece, motions = box_piece(cells=290), polyline(SHARP)
-    whole, open_ = (drawn(context, piece, motions, CUTTERS[cutter], replace(usual(piece.grid), wedges=wedges)) for wedges in (True, False))
+    whole, open_ = (
+        drawn(context, piece, motions, CUTTERS[cutter], replace(usual(piece.grid), wedges=wedges))
+        for wedges in (True, False)
+    )
     assert astray(whole, piece, motions, CUTTERS[cutter]) == 0
     left = np.argwhere(open_ > whole + 0.5)
     assert len(left) > 50
@@ -150,16 +175,27 @@ def test_without_wedges_corners_stay_open(context: moderngl.Context, cutter: str
 
 
 def test_on_a_smooth_path_too_wedges_are_missed(context: moderngl.Context) -> None:
-    piece, motions = box_piece(cells=600), polyline([(8 * np.cos(a), 8 * np.sin(a), -3 - a / 4) for a in np.arange(0, 6.0, 0.05)])
+    piece, motions = (
+        box_piece(cells=600),
+        polyline([(8 * np.cos(a), 8 * np.sin(a), -3 - a / 4) for a in np.arange(0, 6.0, 0.05)]),
+    )
     how = usual(piece.grid)
     assert astray(drawn(context, piece, motions, CUTTERS["ball"]), piece, motions, CUTTERS["ball"]) == 0
-    assert astray(drawn(context, piece, motions, CUTTERS["ball"], replace(how, wedges=False)), piece, motions, CUTTERS["ball"]) > 20
+    assert (
+        astray(
+            drawn(context, piece, motions, CUTTERS["ball"], replace(how, wedges=False)), piece, motions, CUTTERS["ball"]
+        )
+        > 20
+    )
 
 
 def test_facets_of_the_wrong_side_leave_all_the_metal_under_the_ball(context: moderngl.Context) -> None:
     piece, motions = box_piece(cells=290), polyline(SHARP)
     how = usual(piece.grid)
-    down, up, both = (drawn(context, piece, motions, CUTTERS["ball"], replace(how, side=side)) for side in (Side.DOWN, Side.UP, Side.BOTH))
+    down, up, both = (
+        drawn(context, piece, motions, CUTTERS["ball"], replace(how, side=side))
+        for side in (Side.DOWN, Side.UP, Side.BOTH)
+    )
     assert astray(down, piece, motions, CUTTERS["ball"]) == 0
     assert astray(up, piece, motions, CUTTERS["ball"]) > 1000
     assert np.count_nonzero(up > down + 1) > 1000
@@ -174,8 +210,10 @@ def test_brute_force_agrees(context: moderngl.Context, cutter: str) -> None:
     touched = np.flatnonzero(got < 0)
     chosen = touched[:: max(1, len(touched) // 60)]
     slim, wide = allowed(CUTTERS[cutter], piece.grid.pitch, facet)
-    above, below = (field([(tool, path) for path in lines(places + [0, 0, tool.lift])], cells_of(piece)[chosen], 0.0, piece.floor)
-                    for tool in (slim, wide))
+    above, below = (
+        field([(tool, path) for path in lines(places + [0, 0, tool.lift])], cells_of(piece)[chosen], 0.0, piece.floor)
+        for tool in (slim, wide)
+    )
     assert len(chosen) > 50
     assert np.all((got[chosen] <= above + 2e-5) & (got[chosen] >= below - 2e-5))
 
@@ -198,14 +236,20 @@ def test_tools_rapids_what_is_left_out_and_a_dwell(context: moderngl.Context) ->
     above, below = (trim(piece, course, {number: both[k] for number, both in bounds.items()}).heights for k in (0, 1))
     assert np.all((got <= above + 2e-5) & (got >= below - 2e-5))
     assert got[int((-7.02 + 10) / pitch), int((5.01 + 10) / pitch)] < -3.9
-    without = drawn(context, piece, Course(course.motions, course.tool, (*course.left_out, len(course.motions) - 1)), cutters)
+    without = drawn(
+        context, piece, Course(course.motions, course.tool, (*course.left_out, len(course.motions) - 1)), cutters
+    )
     assert np.count_nonzero(without > got + 0.1) > 100
 
 
 @pytest.mark.parametrize("way", ["nothing", "only rapids"])
 def test_what_does_not_cut_leaves_the_piece(context: moderngl.Context, way: str) -> None:
     piece = box_piece(cells=20)
-    motions = Motions.none() if way == "nothing" else motions_of(np.array([[0, 0, 0.0]]), np.array([[5, 0, -5.0]]), MotionKind.RAPID)
+    motions = (
+        Motions.none()
+        if way == "nothing"
+        else motions_of(np.array([[0, 0, 0.0]]), np.array([[5, 0, -5.0]]), MotionKind.RAPID)
+    )
     assert np.array_equal(drawn(context, piece, motions, CUTTERS["ball"]), piece.heights)
 
 

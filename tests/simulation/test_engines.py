@@ -1,4 +1,6 @@
-"""Which engine computes, and what happens when the graphics system is none, fails, or lies: liars are given, nothing is replaced."""
+"""Which engine computes, and what happens when the graphics system is none, fails, or lies: liars are given, nothing is
+replaced.
+"""
 
 from collections.abc import Callable
 
@@ -8,7 +10,7 @@ import pytest
 
 from app.core.errors import Cancelled, HitofudeError
 from app.core.progress import Progress
-from app.simulation.engines import (  # fmt: skip
+from app.simulation.engines import (
     Compute,
     Cutters,
     Engine,
@@ -37,7 +39,9 @@ JOB: Job = (box_piece(cells=120), course_of(polyline(walk(4, 60, 0.9, 0.6))), {1
 def spoiled(spoil: Callable[[Heights], None]) -> Compute:
     """A way to compute whose heights are spoiled."""
 
-    def compute(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    def compute(
+        ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+    ) -> Heights:
         heights = quads(ctx, workpiece, course, cutters, progress).copy()
         spoil(heights)
         return heights
@@ -71,7 +75,9 @@ def fails(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: 
 def later(job: Job, compute: Compute) -> Compute:
     """A way to compute that is right but for one job: it passes the trial."""
 
-    def chosen(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    def chosen(
+        ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+    ) -> Heights:
         return (compute if workpiece is job[0] else quads)(ctx, workpiece, course, cutters, progress)
 
     return chosen
@@ -191,7 +197,9 @@ def test_no_graphics_system_at_all() -> None:
 def test_an_error_that_nobody_raises_is_one() -> None:
     """Drivers keep errors until they are asked."""
 
-    def silent(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    def silent(
+        ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+    ) -> Heights:
         heights = quads(ctx, workpiece, course, cutters, progress)
         ctx.enable_direct(0xFFFF)
         return heights

@@ -1,4 +1,6 @@
-"""Every state that is reached is, bit for bit, what cutting from the start leaves; in whatever order, with whatever is kept."""
+"""Every state that is reached is, bit for bit, what cutting from the start leaves; in whatever order, with whatever is
+kept.
+"""
 
 import threading
 
@@ -39,7 +41,11 @@ def from_start(piece: Workpiece, courses: list[Course], motion: int) -> Field:
     for course in courses:
         cut = trim(piece, course, TOOLS, TrimOptions(trace=True, stop=motion - done))
         assert cut.owner is not None
-        owner, piece, done = np.where(cut.owner >= 0, cut.owner + np.int32(done), owner), cut.workpiece, done + len(course.motions)
+        owner, piece, done = (
+            np.where(cut.owner >= 0, cut.owner + np.int32(done), owner),
+            cut.workpiece,
+            done + len(course.motions),
+        )
     return Field(piece.heights, owner)
 
 
@@ -93,7 +99,9 @@ def test_the_end_is_what_the_whole_course_leaves() -> None:
 
 
 def test_a_state_is_what_a_shorter_course_leaves() -> None:
-    """Not bit for bit, for lines of cells may run the other way; but nothing is cut that the motions so far do not reach."""
+    """Not bit for bit, for lines of cells may run the other way; but nothing is cut that the motions so far do not
+    reach.
+    """
     piece, course = box_piece(cells=150), mixed(2)
     head = Playhead(History(piece, [course], TOOLS))
     head.move_to(23)

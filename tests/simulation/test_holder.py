@@ -53,7 +53,10 @@ def test_a_step_is_a_disc_and_what_is_wider_above_a_waist_goes_on_from_there() -
 
 
 OUTLINES = st.lists(st.tuples(st.floats(0, 20), st.floats(0, 20)), min_size=1, max_size=6).map(
-    lambda points: tuple((height - min(h for h, _ in points), radius) for height, radius in sorted(points, key=lambda point: point[0])))
+    lambda points: tuple(
+        (height - min(h for h, _ in points), radius) for height, radius in sorted(points, key=lambda point: point[0])
+    )
+)
 
 
 @given(OUTLINES.filter(lambda outline: len(outline) > 1), st.floats(0, 20))
@@ -114,5 +117,11 @@ def test_the_pyramid_finds_the_deepest_place(seed: int) -> None:
 
 def test_where_there_is_no_metal_nothing_is_met() -> None:
     pyramid = Pyramid.of(Workpiece(Grid(0.0, 0.0, 1.0, 4, 4), np.full((4, 4), -5.0, np.float32), -5.0))
-    led = Led(np.array([[2.0, 2, -9, 2, 2, -9]]), np.array([[3.0, 3, 0, 0]]), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    led = Led(
+        np.array([[2.0, 2, -9, 2, 2, -9]]),
+        np.array([[3.0, 3, 0, 0]]),
+        np.zeros(1, np.int64),
+        np.zeros(1, np.int64),
+        np.zeros(1),
+    )
     assert pyramid.deeper(led, np.zeros(1))[1][0] == -1

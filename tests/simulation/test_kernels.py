@@ -19,14 +19,17 @@ runs = [getattr(run_kernels, name) for name in dir(run_kernels) if name.endswith
 for run in (*runs, trace_kernels.ball_trace):
     name, code = run.__name__, next(iter(run.for_callers().inspect_asm().values()))
     own = code.split("cpython")[0]
-    print(name, len(re.findall(r"v?sqrtps", own)) + len(re.findall(r"vrsqrt14ps", own)), len(re.findall(r"v?sqrtss", own)))
+    packed = len(re.findall(r"v?sqrtps", own)) + len(re.findall(r"vrsqrt14ps", own))
+    print(name, packed, len(re.findall(r"v?sqrtss", own)))
 """
 
 
 @pytest.mark.exhaustive
 def test_runs_take_roots_of_vectors(tmp_path: Path) -> None:
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
-    done = subprocess.run([sys.executable, "-c", LOOK], cwd=ROOT, env=environment, capture_output=True, text=True, check=True, timeout=200)
+    done = subprocess.run(
+        [sys.executable, "-c", LOOK], cwd=ROOT, env=environment, capture_output=True, text=True, check=True, timeout=200
+    )
     assert "no vectors" not in done.stdout
     for line in done.stdout.splitlines():
         name, of_vectors, of_numbers = line.split()

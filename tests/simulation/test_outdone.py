@@ -77,13 +77,17 @@ def test_nothing_of_nothing() -> None:
     assert _outdone(Motions.none()) == []
 
 
-_PLACES = st.tuples(st.integers(-2, 2), st.integers(-2, 2), st.integers(-4, 1)).map(lambda at: (2.0 * at[0], 2.0 * at[1], 0.5 * at[2]))
+_PLACES = st.tuples(st.integers(-2, 2), st.integers(-2, 2), st.integers(-4, 1)).map(
+    lambda at: (2.0 * at[0], 2.0 * at[1], 0.5 * at[2])
+)
 
 
 @pytest.mark.parametrize("kind", ["flat", "ball", "v"])
 @given(places=st.lists(_PLACES, min_size=2, max_size=20), rapid=st.integers(0, 19))
 @settings(max_examples=examples(60), deadline=None)
-def test_heights_and_rapids_in_metal_are_the_same_without_them(kind: str, places: list[tuple[float, float, float]], rapid: int) -> None:
+def test_heights_and_rapids_in_metal_are_the_same_without_them(
+    kind: str, places: list[tuple[float, float, float]], rapid: int
+) -> None:
     motions = polyline(places)
     kinds = motions.kind.copy()
     kinds[rapid % len(kinds)] = MotionKind.RAPID

@@ -16,16 +16,28 @@ from app.simulation.sweeps.pieces import CHORD, Pieces, Splitter, Window
 from tests.simulation.courses import CUTTERS, arc, box_piece, cut, joined, polyline
 from tests.simulation.test_sweep import excess, walk
 
-QUARTER = Nurbs(np.array([[6.0, 0, -3], [6, 6, -3], [0, 6, -3]]), np.array([1, np.sqrt(0.5), 1]), np.array([0, 0, 0, 1.0, 1, 1]), 2)
-CORNER = Nurbs(np.array([[-6.0, 0, -2], [-3, 4, -3], [0.0123, -4, -4], [3, 4, -3], [6, 0, -2]]), np.ones(5),
-               np.array([0, 0, 0, 0.3, 0.3, 1, 1, 1.0]), 2)  # fmt: skip
-HEAVY = Nurbs(np.array([[-6.0, 0, -2], [-6, 9, -4], [6, -9, -4], [6, 0, -2], [7, 3, -2]]), np.array([1, 0.02, 50, 1, 3]),
-              np.array([0, 0, 0, 0, 0.9, 1, 1, 1, 1]), 3)  # fmt: skip
+QUARTER = Nurbs(
+    np.array([[6.0, 0, -3], [6, 6, -3], [0, 6, -3]]), np.array([1, np.sqrt(0.5), 1]), np.array([0, 0, 0, 1.0, 1, 1]), 2
+)
+CORNER = Nurbs(
+    np.array([[-6.0, 0, -2], [-3, 4, -3], [0.0123, -4, -4], [3, 4, -3], [6, 0, -2]]),
+    np.ones(5),
+    np.array([0, 0, 0, 0.3, 0.3, 1, 1, 1.0]),
+    2,
+)
+HEAVY = Nurbs(
+    np.array([[-6.0, 0, -2], [-6, 9, -4], [6, -9, -4], [6, 0, -2], [7, 3, -2]]),
+    np.array([1, 0.02, 50, 1, 3]),
+    np.array([0, 0, 0, 0, 0.9, 1, 1, 1, 1]),
+    3,
+)
 SPLINES = {"quarter": QUARTER, "corner within": CORNER, "heavy": HEAVY}
 CURVES = {
-    "helix": arc((4, 0, 0), (4, 0, -6), (0, 0, 0), turns=2), "G18": arc((-5, 1, -6), (5, 2, -6), (0, 1, -6), Plane.ZX, ccw=False),
-    "G19": arc((1, -5, -1), (2, 5, -1), (1, 0, -1), Plane.YZ), "widening": arc((1, 0, 0), (-4, 0, -1), (0, 0, 0)),
-}  # fmt: skip
+    "helix": arc((4, 0, 0), (4, 0, -6), (0, 0, 0), turns=2),
+    "G18": arc((-5, 1, -6), (5, 2, -6), (0, 1, -6), Plane.ZX, ccw=False),
+    "G19": arc((1, -5, -1), (2, 5, -1), (1, 0, -1), Plane.YZ),
+    "widening": arc((1, 0, 0), (-4, 0, -1), (0, 0, 0)),
+}
 
 
 def spline_motion(curve: Nurbs) -> Motions:
@@ -43,7 +55,9 @@ def from_chords(pieces: Pieces, points: Floats) -> Floats:
     way = pieces.end - pieces.start
     square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-300)
     distances = np.full(len(points), np.inf)
-    nearest = np.array([np.argmin(np.einsum("ij,ij->i", d, d)) for d in ((pieces.start + pieces.end) / 2 - point for point in points)])
+    nearest = np.array(
+        [np.argmin(np.einsum("ij,ij->i", d, d)) for d in ((pieces.start + pieces.end) / 2 - point for point in points)]
+    )
     for beside in range(-2, 3):
         k = np.clip(nearest + beside, 0, len(way) - 1)
         share = np.clip(np.einsum("ij,ij->i", points - pieces.start[k], way[k]) / square[k], 0, 1)
@@ -74,7 +88,10 @@ def test_no_point_of_a_curve_is_far_from_its_chords(name: str) -> None:
 @pytest.mark.parametrize("cutter", ["ball", "flat", "bull", "v"])
 @pytest.mark.parametrize("name", ["quarter", "corner within"])
 def test_a_spline_is_cut_like_brute_force(cutter: str, name: str) -> None:
-    assert excess(box_piece(cells=48), spline_motion(SPLINES[name]), [along(SPLINES[name])], CUTTERS[cutter], 40).max() <= 1
+    assert (
+        excess(box_piece(cells=48), spline_motion(SPLINES[name]), [along(SPLINES[name])], CUTTERS[cutter], 40).max()
+        <= 1
+    )
 
 
 def winding(count: int) -> Motions:
@@ -83,7 +100,11 @@ def winding(count: int) -> Motions:
     parts, at = [], np.array([0.0, 0.0, 1.0])
     for x, y in rng.uniform(-24, 24, (count, 2)):
         start = np.array([x, y, 0.0])
-        parts += [polyline([at, start]), arc(start, start - [0, 0, 3], start + [2, 0, 0], turns=3), polyline(walk(7, 5, 0.5, 0.5) + start)]
+        parts += [
+            polyline([at, start]),
+            arc(start, start - [0, 0, 3], start + [2, 0, 0], turns=3),
+            polyline(walk(7, 5, 0.5, 0.5) + start),
+        ]
         at = parts[-1].end[-1]
     chain = joined(parts)
     curve = replace(QUARTER, points=QUARTER.points + [20, 20, 0])
@@ -113,8 +134,11 @@ def test_a_window_leaves_curves_out_and_changes_no_bit(cutter: str, monkeypatch:
 
 @pytest.mark.parametrize("chord", [1e-5, 1e-3, 0.05])
 def test_chords_are_as_near_as_the_caller_wants(chord: float) -> None:
-    for motions, along_it in [*((curve, lambda t, c=curve: arc_paths(c).points(t)[0]) for curve in CURVES.values()),
-                              (spline_motion(QUARTER), along(QUARTER)), (spline_motion(HEAVY), along(HEAVY))]:  # fmt: skip
+    for motions, along_it in [
+        *((curve, lambda t, c=curve: arc_paths(c).points(t)[0]) for curve in CURVES.values()),
+        (spline_motion(QUARTER), along(QUARTER)),
+        (spline_motion(HEAVY), along(HEAVY)),
+    ]:
         pieces = Splitter(motions, arcs_stay=False, chord=chord).pieces(0, 1)
         assert 0.05 * chord < from_chords(pieces, along_it(np.linspace(0, 1, 3001))).max() <= chord
         assert len(pieces) < len(Splitter(motions, arcs_stay=False).pieces(0, 1))

@@ -40,7 +40,9 @@ def test_upright_ways_and_standing_still() -> None:
 @pytest.mark.parametrize("name", CUTTERS)
 def test_the_cells_of_the_engine_are_met(name: str) -> None:
     rng = np.random.default_rng(5)
-    motions = joined([polyline(rng.uniform((-9, -9, -3), (9, 9, -0.5), (30, 3))), arc((5, 0, -2), (-5, 0, -1), (0, 0, -2))])
+    motions = joined(
+        [polyline(rng.uniform((-9, -9, -3), (9, 9, -0.5), (30, 3))), arc((5, 0, -2), (-5, 0, -1), (0, 0, -2))]
+    )
     course, grid = Course(motions, np.ones(len(motions), np.int32)), Grid.over((-10, -10, 10, 10), 60)
     cut = trim(BoxStock(StockBox(-10, -10, -20, 10, 10, 0)).over(grid), course, {1: CUTTERS[name]}, TrimOptions())
     points = np.column_stack([each.ravel() for each in np.meshgrid(grid.xs(), grid.ys())])
@@ -74,9 +76,13 @@ def test_a_point_is_met_by_few_of_many_pieces_and_by_the_lowest() -> None:
     """Passes beside one another in both directions: each point against all motions, one by one."""
     rng = np.random.default_rng(11)
     xs = np.linspace(-9, 9, 40)
-    motions = polyline([(x, y, float(rng.uniform(-2, 0))) for k, x in enumerate(xs) for y in ((-9, 9) if k % 2 else (9, -9))])
+    motions = polyline(
+        [(x, y, float(rng.uniform(-2, 0))) for k, x in enumerate(xs) for y in ((-9, 9) if k % 2 else (9, -9))]
+    )
     points = rng.uniform(-9, 9, (40, 2))
     heights, rows = asked(motions, "bull", points)
-    single = np.array([swept(CUTTERS["bull"], line(a, b), points) for a, b in zip(motions.start, motions.end, strict=True)])
+    single = np.array(
+        [swept(CUTTERS["bull"], line(a, b), points) for a, b in zip(motions.start, motions.end, strict=True)]
+    )
     assert heights == pytest.approx(single.min(axis=0), abs=2e-5)
     assert single[rows, np.arange(len(points))] == pytest.approx(single.min(axis=0), abs=2e-5)

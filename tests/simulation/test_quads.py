@@ -1,4 +1,6 @@
-"""Heights by graphics hardware against the engine of record and against brute force; a real OpenGL context draws them."""
+"""Heights by graphics hardware against the engine of record and against brute force; a real OpenGL context draws
+them.
+"""
 
 import threading
 from collections.abc import Iterator, Mapping
@@ -42,7 +44,9 @@ def drawn(ctx: moderngl.Context, piece: Workpiece, course: Course, cutters: Mapp
     return heights
 
 
-def agree(ctx: moderngl.Context, piece: Workpiece, course: Course, cutters: Mapping[int, Cutter], rims: float = 1e-3) -> Heights:
+def agree(
+    ctx: moderngl.Context, piece: Workpiece, course: Course, cutters: Mapping[int, Cutter], rims: float = 1e-3
+) -> Heights:
     """Compare with the engine of record: within 1e-4 mm, but for few cells that lie on walls."""
     want, got = trim(piece, course, cutters).heights, drawn(ctx, piece, course, cutters)
     found = apart(want, got)
@@ -59,12 +63,17 @@ def test_chains_agree_with_the_engine_of_record(ctx: moderngl.Context, name: str
     agree(ctx, box_piece(cells=290), course_of(polyline(REDUCED[name])), {1: CUTTERS[cutter]})
 
 
-ARCS = joined([
-    arc((5, 0, -3), (5, 0, -4), (0, 0, -3), turns=2), arc((2, 0, -5), (2, 0, -5), (0, 0, -5)),
-    arc((0.4, 0.1, -6), (0.2, 0.3, -6), (0.2, 0.1, -6)),
-    arc((-6, 3, -2), (-3, 6, -2), (-3, 3, -2), ccw=False), arc((-200, -9, -7), (0, 191, -7), (-200, 191, -7)),
-    arc((7, -6, -2), (6, -7, -2), (6, -6, -2)), arc((-7, -7, -1), (-3, -7, -1), (-5, -7, -1), Plane.ZX),
-])  # fmt: skip
+ARCS = joined(
+    [
+        arc((5, 0, -3), (5, 0, -4), (0, 0, -3), turns=2),
+        arc((2, 0, -5), (2, 0, -5), (0, 0, -5)),
+        arc((0.4, 0.1, -6), (0.2, 0.3, -6), (0.2, 0.1, -6)),
+        arc((-6, 3, -2), (-3, 6, -2), (-3, 3, -2), ccw=False),
+        arc((-200, -9, -7), (0, 191, -7), (-200, 191, -7)),
+        arc((7, -6, -2), (6, -7, -2), (6, -6, -2)),
+        arc((-7, -7, -1), (-3, -7, -1), (-5, -7, -1), Plane.ZX),
+    ]
+)
 
 
 @pytest.mark.parametrize("cutter", CUTTERS)
@@ -106,7 +115,9 @@ place = st.tuples(st.floats(-8, 8), st.floats(-8, 8), st.floats(-9, 1))
 @given(st.lists(place, min_size=2, max_size=7), st.sampled_from(sorted(CUTTERS)))
 def test_any_polyline_agrees(ctx: moderngl.Context, places: list[tuple[float, float, float]], cutter: str) -> None:
     piece, course = box_piece(cells=64), course_of(polyline(places))
-    assert apart(trim(piece, course, {1: CUTTERS[cutter]}).heights, drawn(ctx, piece, course, {1: CUTTERS[cutter]})).agrees
+    assert apart(
+        trim(piece, course, {1: CUTTERS[cutter]}).heights, drawn(ctx, piece, course, {1: CUTTERS[cutter]})
+    ).agrees
 
 
 def far_away(motions: Motions, by: Floats) -> Motions:
@@ -116,8 +127,17 @@ def far_away(motions: Motions, by: Floats) -> Motions:
 @pytest.mark.parametrize("cutter", CUTTERS)
 def test_large_stock_far_from_the_zero(ctx: moderngl.Context, cutter: str) -> None:
     """300 mm at X 5000, with ways as long as the stock and longer, and steep ones."""
-    places = np.array([[-400, -120, -3], [420, 130, -6.5], [-140, 140, -8], [-140, -140, -2], [140, -139, -30], [141, -138, 8],
-                       [30, 20, -9.0]])  # fmt: skip
+    places = np.array(
+        [
+            [-400, -120, -3],
+            [420, 130, -6.5],
+            [-140, 140, -8],
+            [-140, -140, -2],
+            [140, -139, -30],
+            [141, -138, 8],
+            [30, 20, -9.0],
+        ]
+    )
     by, box = np.array([5000.0, -3000, 0]), (4850.0, -3150.0, 5150.0, -2850.0)
     motions = far_away(joined([polyline(places), arc((100, 0, -4), (-100, 0, -4), (0, 0, -4))]), by)
     piece = BoxStock(StockBox(*box[:2], -40, *box[2:], 0)).over(Grid.over(box, 1024))
@@ -128,8 +148,13 @@ def test_large_stock_far_from_the_zero(ctx: moderngl.Context, cutter: str) -> No
 @pytest.mark.parametrize("cutter", ["ball", "bull", "flat"])
 @pytest.mark.parametrize("pitch", [1e-3, 0.02])
 def test_small_windows_of_long_ways(ctx: moderngl.Context, cutter: str, pitch: float) -> None:
-    motions = joined([polyline([(-400, -3, -2), (500, 3, -3.1), (0.1, 0.3, -3)]), arc((50, 0, -2.5), (-50, 0, -2.5), (0, 0, -2.5)),
-                      arc((0, -50, -2.9), (50, 0, -2.9), (0, 0, -2.9))])  # fmt: skip
+    motions = joined(
+        [
+            polyline([(-400, -3, -2), (500, 3, -3.1), (0.1, 0.3, -3)]),
+            arc((50, 0, -2.5), (-50, 0, -2.5), (0, 0, -2.5)),
+            arc((0, -50, -2.9), (50, 0, -2.9), (0, 0, -2.9)),
+        ]
+    )
     stock = BoxStock(StockBox(-100, -100, -30, 100, 100))
     for x, y in ((2.0, 0.4), (-49, 6), (34, -35)):
         agree(ctx, stock.over(Grid(x, y, pitch, 200, 256)), course_of(motions), {1: CUTTERS[cutter]}, 0.01)
@@ -172,15 +197,19 @@ def test_nothing_to_do_and_nothing_below_the_floor(ctx: moderngl.Context) -> Non
     piece = box_piece(cells=40, depth=2.0)
     none = course_of(motions_of(np.zeros((0, 3)), np.zeros((0, 3))))
     assert np.array_equal(drawn(ctx, piece, none, {}), piece.heights)
-    assert np.array_equal(drawn(ctx, piece, course_of(polyline([(90, 0, -1), (99, 0, -1)])), {1: CUTTERS["ball"]}), piece.heights)
+    assert np.array_equal(
+        drawn(ctx, piece, course_of(polyline([(90, 0, -1), (99, 0, -1)])), {1: CUTTERS["ball"]}), piece.heights
+    )
     assert drawn(ctx, piece, course_of(polyline([(0, 0, 5), (0, 0, -7)])), {1: CUTTERS["flat"]}).min() == -2
 
 
 def assert_adds(ctx: moderngl.Context) -> None:
     """Blending does what it does in a new context."""
-    brush = ctx.program(vertex_shader="""#version 330
+    brush = ctx.program(
+        vertex_shader="""#version 330
         void main() { gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1); }""",
-                        fragment_shader="#version 330\nout float told; void main() { told = 2.0; }")  # fmt: skip
+        fragment_shader="#version 330\nout float told; void main() { told = 2.0; }",
+    )
     target = ctx.framebuffer([ctx.texture((1, 1), 1, np.full(1, 3, np.float32), dtype="f4")])
     with ctx.scope(target, enable_only=ctx.BLEND):
         ctx.blend_func = ctx.ONE, ctx.ONE

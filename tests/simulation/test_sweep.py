@@ -58,10 +58,26 @@ def arc_path(motions: Motions) -> Path:
     return lambda t: arcs.points(np.ravel(t))[0].reshape(*np.shape(t), 3)
 
 
-PLUNGES = np.array([[-5, -5, 2], [-5, -5, -3], [5, -5, -3], [5, -5, -3], [5, 5, -3],
-                    [-5, 5, -6], [-5, 5, 3], [0, 0, 3], [0, 0, -9], [0.3, 0, -2]])  # fmt: skip
-WALKS = {"gentle walk": walk(1, 12, 2.0, 0.3), "steep walk": walk(2, 12, 2.0, 3.0), "short steps": walk(3, 24, 0.2, 0.5),
-         "plunges": PLUNGES}  # fmt: skip
+PLUNGES = np.array(
+    [
+        [-5, -5, 2],
+        [-5, -5, -3],
+        [5, -5, -3],
+        [5, -5, -3],
+        [5, 5, -3],
+        [-5, 5, -6],
+        [-5, 5, 3],
+        [0, 0, 3],
+        [0, 0, -9],
+        [0.3, 0, -2],
+    ]
+)
+WALKS = {
+    "gentle walk": walk(1, 12, 2.0, 0.3),
+    "steep walk": walk(2, 12, 2.0, 3.0),
+    "short steps": walk(3, 24, 0.2, 0.5),
+    "plunges": PLUNGES,
+}
 
 
 @pytest.mark.parametrize("cutter", CUTTERS)
@@ -126,10 +142,18 @@ def raster(degrees: float) -> Floats:
     return np.column_stack([turned, -4 + 1.5 * np.sin(turned[:, 0] / 2) * np.cos(turned[:, 1] / 3)])
 
 
-SHARP = np.random.default_rng(8).uniform((-9, -9, -9), (9, 9, 0), (60, 3)).round(1)[np.random.default_rng(9).integers(0, 60, 300)]
-REDUCED = {"rough walk": walk(5, 400, 0.8, 1.0), "smooth walk": np.repeat(walk(6, 200, 0.3, 0.2), 2, axis=0)[1:], "sharp": SHARP,
-           "valley": np.array([[k * 0.05 - 5.0117, 0.2 * k % 0.3 + 0.0071, -5 + abs(k - 100) * 0.03] for k in range(200)]),
-           **{f"raster {a}": raster(a) for a in (0.0, 30.0, 45.0, 90.0)}}  # fmt: skip
+SHARP = (
+    np.random.default_rng(8)
+    .uniform((-9, -9, -9), (9, 9, 0), (60, 3))
+    .round(1)[np.random.default_rng(9).integers(0, 60, 300)]
+)
+REDUCED = {
+    "rough walk": walk(5, 400, 0.8, 1.0),
+    "smooth walk": np.repeat(walk(6, 200, 0.3, 0.2), 2, axis=0)[1:],
+    "sharp": SHARP,
+    "valley": np.array([[k * 0.05 - 5.0117, 0.2 * k % 0.3 + 0.0071, -5 + abs(k - 100) * 0.03] for k in range(200)]),
+    **{f"raster {a}": raster(a) for a in (0.0, 30.0, 45.0, 90.0)},
+}
 
 
 @pytest.mark.parametrize("cutter", CUTTERS)

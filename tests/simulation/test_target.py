@@ -38,7 +38,9 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> np
 def test_cells_are_inside_where_the_polygon_holds_their_centre(corners: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
     outer, hole = rng.uniform((-2, 1), (6, 7), (corners, 2)), rng.uniform((0, 3), (3, 5), (3, 2))
-    shape = shapely.symmetric_difference(*(shapely.make_valid(shapely.Polygon(ring), method="linework") for ring in (outer, hole)))
+    shape = shapely.symmetric_difference(
+        *(shapely.make_valid(shapely.Polygon(ring), method="linework") for ring in (outer, hole))
+    )
     if not shapely.is_simple(shapely.LinearRing(outer)):
         return
     expected = shapely.contains_xy(shape, *centres(GRID))
@@ -68,17 +70,23 @@ def test_dilation_is_the_plain_maximum(name: str) -> None:
 
 @pytest.mark.parametrize("name", CUTTERS)
 @pytest.mark.parametrize("by", [0.01, 0.3, 0.99, 1.4, 2.5])
-def test_a_wider_cutter_is_the_lowest_of_all_that_are_moved_aside_and_a_slimmer_one_is_above_the_highest(name: str, by: float) -> None:
+def test_a_wider_cutter_is_the_lowest_of_all_that_are_moved_aside_and_a_slimmer_one_is_above_the_highest(
+    name: str, by: float
+) -> None:
     cutter = CUTTERS[name]
     radii = np.linspace(0.0, cutter.radius + by, 4001)
     nearest, farthest = np.maximum(radii - by, 0.0), radii + by
     wide = cutter.grown(by)
     inner = radii <= wide.radius - 1e-9
-    assert np.allclose((wide.lift + wide.heights(radii))[inner], cutter.heights(np.minimum(nearest, cutter.radius))[inner], atol=1e-9)
+    assert np.allclose(
+        (wide.lift + wide.heights(radii))[inner], cutter.heights(np.minimum(nearest, cutter.radius))[inner], atol=1e-9
+    )
     slim = cutter.shrunk(by)
     assert slim is not None and slim.radius == pytest.approx(cutter.radius - by)
     inner = radii <= slim.radius
-    assert np.all((slim.lift + slim.heights(radii))[inner] >= cutter.heights(np.minimum(farthest, cutter.radius))[inner] - 1e-9)
+    assert np.all(
+        (slim.lift + slim.heights(radii))[inner] >= cutter.heights(np.minimum(farthest, cutter.radius))[inner] - 1e-9
+    )
     assert cutter.shrunk(cutter.radius) is None
 
 
@@ -110,7 +118,9 @@ def test_a_slot_is_within_reach_from_the_width_of_the_tool_on(width: float, reac
     sure, possible = (each <= target.high + np.float32(0.01) for each in heights)
     within = reachable(left, sure, possible, over_part <= 0.01, 3)
     xs, ys = centres(grid)
-    assert np.all(within[(np.abs(ys - 20) < width / 2 - 0.2) & (np.abs(xs - 30) < 25)] == reached)  # a little way in it always gets
+    assert np.all(
+        within[(np.abs(ys - 20) < width / 2 - 0.2) & (np.abs(xs - 30) < 25)] == reached
+    )  # a little way in it always gets
     assert np.all(within[(ys > 38.2) & (ys < 39.9)])  # the rabbet: from beside the stock
 
 
@@ -137,7 +147,10 @@ def test_a_solid_is_wanted_as_it_is_and_its_walls_may_fall_to_either_side() -> N
 def test_stock_to_leave_lies_on_the_solid_along_its_normal() -> None:
     grid = Grid(0.0, 0.0, 0.05, 200, 200)
     solid = SolidStock(box((0, 0, -5), (10, 5, 0)) @ np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]]).T)
-    slope = SolidStock(solid.triangles + np.stack([np.zeros(solid.triangles.shape[:2])] * 2 + [0.75 * solid.triangles[..., 0]], axis=-1))
+    slope = SolidStock(
+        solid.triangles
+        + np.stack([np.zeros(solid.triangles.shape[:2])] * 2 + [0.75 * solid.triangles[..., 0]], axis=-1)
+    )
     target = solid_target(slope, grid, leave=0.4)
     xs, ys = centres(grid)
     middle = (xs > 3) & (xs < 7) & (ys > 1) & (ys < 4)

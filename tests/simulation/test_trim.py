@@ -58,13 +58,17 @@ def test_a_ramp_of_a_flat_mill_is_cut_by_its_rear_rim() -> None:
 
 def test_two_passes_leave_the_scallop() -> None:
     piece = box_piece(size=8, cells=801)
-    heights = cut(piece, polyline([(-20, -0.5, -1), (20, -0.5, -1), (20, 0.5, -1), (-20, 0.5, -1)]), CUTTERS["ball"]).heights
+    heights = cut(
+        piece, polyline([(-20, -0.5, -1), (20, -0.5, -1), (20, 0.5, -1), (-20, 0.5, -1)]), CUTTERS["ball"]
+    ).heights
     assert heights[400, 400] + 1 == pytest.approx(3 - np.sqrt(3**2 - 0.5**2), abs=1e-6)
 
 
 @pytest.mark.parametrize(("degrees", "tip"), [(30, 0.0), (50, 0.0959), (60, 0.3660), (75, 1.3660)])
 def test_a_cone_on_a_plane(degrees: float, tip: float) -> None:
-    """A cone of diameter 1 and 90 degrees that touches a plane through the origin stands at these heights: published figures."""
+    """A cone of diameter 1 and 90 degrees that touches a plane through the origin stands at these heights: published
+    figures.
+    """
     cutter, slope = Cutter(0.5, slope=1.0), np.tan(np.radians(degrees))
     piece = box_piece(size=0.02, cells=1)
     steep = [(-1, 0, tip - slope), (1, 0, tip + slope)]
@@ -81,7 +85,11 @@ def test_nothing_is_below_the_floor_and_volume_ends_there() -> None:
 
 def test_each_motion_has_its_volume_and_each_cell_its_motion() -> None:
     piece = box_piece(cells=150)
-    parts = [polyline(walk(21, 30, 0.8, 0.5)), arc((5, 0, -3), (5, 0, -4), (0, 0, -3), turns=2), arc((2, 0, -5), (2, 0, -5), (0, 0, -5))]
+    parts = [
+        polyline(walk(21, 30, 0.8, 0.5)),
+        arc((5, 0, -3), (5, 0, -4), (0, 0, -3), turns=2),
+        arc((2, 0, -5), (2, 0, -5), (0, 0, -5)),
+    ]
     motions = joined(parts)
     done = cut(piece, motions, CUTTERS["bull"], TRACED)
     assert done.owner is not None
@@ -159,8 +167,12 @@ def test_a_second_setup_begins_with_what_the_first_has_left() -> None:
     first = cut(box_piece(cells=100), polyline([(-5, 0, -2), (5, 0, -2)]), CUTTERS["ball"])
     again = HeightStock(first.workpiece).over(first.workpiece.grid)
     both = cut(again, polyline([(0, -5, -3), (0, 5, -3)]), CUTTERS["flat"])
-    assert np.array_equal(both.heights, np.minimum(first.heights, cut(box_piece(cells=100), polyline([(0, -5, -3), (0, 5, -3)]),
-                                                                      CUTTERS["flat"]).heights))  # fmt: skip
+    assert np.array_equal(
+        both.heights,
+        np.minimum(
+            first.heights, cut(box_piece(cells=100), polyline([(0, -5, -3), (0, 5, -3)]), CUTTERS["flat"]).heights
+        ),
+    )
 
 
 def test_a_tool_that_nobody_has_described_is_named_with_its_line() -> None:
@@ -172,7 +184,9 @@ def test_a_tool_that_nobody_has_described_is_named_with_its_line() -> None:
 
 def test_no_motion_cuts_nothing() -> None:
     piece = box_piece()
-    assert np.array_equal(trim(piece, course_of(motions_of(np.zeros((0, 3)), np.zeros((0, 3)))), {}).heights, piece.heights)
+    assert np.array_equal(
+        trim(piece, course_of(motions_of(np.zeros((0, 3)), np.zeros((0, 3)))), {}).heights, piece.heights
+    )
 
 
 def test_a_job_stops_when_asked_and_tells_how_far_it_is() -> None:
@@ -183,7 +197,13 @@ def test_a_job_stops_when_asked_and_tells_how_far_it_is() -> None:
     stop = threading.Event()
     stop.set()
     with pytest.raises(Cancelled):
-        trim(box_piece(cells=300), course_of(polyline(walk(61, 50, 1.0, 0.5))), {1: CUTTERS["ball"]}, TRACED, Progress(cancelled=stop))
+        trim(
+            box_piece(cells=300),
+            course_of(polyline(walk(61, 50, 1.0, 0.5))),
+            {1: CUTTERS["ball"]},
+            TRACED,
+            Progress(cancelled=stop),
+        )
 
 
 def test_the_way_to_a_place_that_nobody_knows_cuts_nothing() -> None:

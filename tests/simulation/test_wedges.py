@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 from app.model.motion import Floats, MotionKind
 from app.simulation.cutter import Cutter
 from app.simulation.gpu.polyhedron import circle_corners
-from app.simulation.gpu.wedges import ROOM, FacetKind, Side, SweepFacets, Tessellation, facets_in, polygon_counts, sweep_facets
+from app.simulation.gpu.wedges import (
+    ROOM,
+    FacetKind,
+    Side,
+    SweepFacets,
+    Tessellation,
+    facets_in,
+    polygon_counts,
+    sweep_facets,
+)
 from app.simulation.sweeps.chains import Chains, chains_of
 from tests.examples import examples
 from tests.simulation.courses import CUTTERS, arc, course_of, joined, motions_of, polyline
@@ -97,7 +106,9 @@ def test_upright_moves_and_ways_back(steps: list[tuple[float, float, float]]) ->
 
 def test_kept_facets_look_down_and_the_others_up() -> None:
     places = walk(4, 60, 1.0, 0.7)
-    all_, down, up = (sweep_facets(places, 1.5, Tessellation(0.2, side=side)) for side in (Side.BOTH, Side.DOWN, Side.UP))
+    all_, down, up = (
+        sweep_facets(places, 1.5, Tessellation(0.2, side=side)) for side in (Side.BOTH, Side.DOWN, Side.UP)
+    )
     assert normals(down.quads.astype(float))[:, 2].min() > -0.05
     assert normals(up.quads.astype(float))[:, 2].max() < 0.05
     assert len(all_.quads) <= len(down.quads) + len(up.quads) <= 1.02 * len(all_.quads)
@@ -107,8 +118,15 @@ place = st.tuples(*[st.floats(-9, 9)] * 3)
 
 
 @settings(max_examples=examples(60), deadline=None)
-@given(st.lists(place, min_size=2, max_size=7), st.floats(0.2, 4.0), st.floats(0.05, 3.0), st.sampled_from([0.0, 0.02, 0.5]))
-def test_no_corner_leaves_what_is_swept(places: list[tuple[float, float, float]], radius: float, facet: float, overlap: float) -> None:
+@given(
+    st.lists(place, min_size=2, max_size=7),
+    st.floats(0.2, 4.0),
+    st.floats(0.05, 3.0),
+    st.sampled_from([0.0, 0.02, 0.5]),
+)
+def test_no_corner_leaves_what_is_swept(
+    places: list[tuple[float, float, float]], radius: float, facet: float, overlap: float
+) -> None:
     corners = np.array([*places, places[-1]])
     quads = sweep_facets(corners, radius, Tessellation(facet, overlap=overlap)).quads
     assert len(quads)
@@ -153,7 +171,9 @@ def test_chains_break_at_rapids_tools_and_jumps() -> None:
     places = walk(5, 7, 1.0, 0.2)
     rapid = motions_of(places[-1:], places[-1:] + 1, MotionKind.RAPID)
     jump = polyline([places[-1] + 1, places[-1] + 2, places[-1] + 2])
-    course = course_of(joined([polyline(places), rapid, jump, polyline([(0, 0, 0), (0, 0, 0)]), arc((3, 0, 0), (0, 3, 0), (0, 0, 0))]))
+    course = course_of(
+        joined([polyline(places), rapid, jump, polyline([(0, 0, 0), (0, 0, 0)]), arc((3, 0, 0), (0, 3, 0), (0, 0, 0))])
+    )
     ((cutter, chains),) = chains_of(course, {1: CUTTERS["v"]}, 0.01)
     assert cutter is CUTTERS["v"]
     assert np.flatnonzero(chains.joins == 0).tolist() == [0, 6, 7, 8]

@@ -30,8 +30,13 @@ def test_cells_are_square_and_cover_the_box() -> None:
     assert uneven.rows == 33 and uneven.cols == 10 and uneven.box[2] >= 3 - 1e-9
 
 
-NO_GRIDS = [((0, 0, 0, 5), 10, "empty"), ((3, 0, 1, 5), 10, "empty"), ((0, 0, 1, 1), 0, "1 to 30000"),
-            ((0, 0, 1, 1), 40_000, "1 to 30000"), ((0, 0, math.nan, 1), 10, "empty")]  # fmt: skip
+NO_GRIDS = [
+    ((0, 0, 0, 5), 10, "empty"),
+    ((3, 0, 1, 5), 10, "empty"),
+    ((0, 0, 1, 1), 0, "1 to 30000"),
+    ((0, 0, 1, 1), 40_000, "1 to 30000"),
+    ((0, 0, math.nan, 1), 10, "empty"),
+]
 
 
 @pytest.mark.parametrize(("box", "cells", "said"), NO_GRIDS)
@@ -49,7 +54,10 @@ def test_cells_beside_a_box_have_no_metal() -> None:
 
 
 def test_what_does_not_fit_into_memory_is_told_before() -> None:
-    with within(4_000_000), pytest.raises(MemoryShortError, match=r"2000 x 2000 cells would take 16 MB of memory.*--grid (\d+)") as told:
+    with (
+        within(4_000_000),
+        pytest.raises(MemoryShortError, match=r"2000 x 2000 cells would take 16 MB of memory.*--grid (\d+)") as told,
+    ):
         BoxStock(StockBox(0, 0, -1, 1, 1)).over(Grid.over((0, 0, 1, 1), 2000))
     fits = int(str(told.value).rpartition("--grid ")[2].split(")")[0])
     assert 800 <= fits <= 1000  # 1000 x 1000 cells of 4 bytes are 4 MB
@@ -114,7 +122,10 @@ def test_files_that_hold_no_solid(data: bytes, said: str) -> None:
 @pytest.mark.parametrize("name", ["Gehäuse".encode("latin-1"), "Gehäuse".encode(), bytes(range(128, 256)), b""])
 def test_a_solid_in_letters_may_have_any_name(name: bytes) -> None:
     text = trimesh.creation.box(extents=(4, 6, 8)).export(file_type="stl_ascii").split("\n", 1)[1].encode("ascii")
-    low, high = (getattr(read_solid("s.stl", b"solid " + name + b"\r\n" + text).triangles, side)(axis=(0, 1)) for side in ("min", "max"))
+    low, high = (
+        getattr(read_solid("s.stl", b"solid " + name + b"\r\n" + text).triangles, side)(axis=(0, 1))
+        for side in ("min", "max")
+    )
     assert (low.tolist(), high.tolist()) == ([-2, -3, -4], [2, 3, 4])
 
 
@@ -138,7 +149,9 @@ def test_profiles() -> None:
     assert CUTTERS["flat"].heights(radii).tolist() == [0, 0, 0, 0, math.inf]
     assert CUTTERS["bull"].heights(radii).tolist() == pytest.approx([0, 0, 1 - 0.75**0.5, 1, math.inf])
     assert CUTTERS["v"].heights(radii).tolist() == pytest.approx([0, 1, 2.5, 3, math.inf])
-    assert CUTTERS["blunt v"].heights(radii).tolist() == pytest.approx([0, 3**0.5 / 2, 2 * 3**0.5, 2.5 * 3**0.5, math.inf])
+    assert CUTTERS["blunt v"].heights(radii).tolist() == pytest.approx(
+        [0, 3**0.5 / 2, 2 * 3**0.5, 2.5 * 3**0.5, math.inf]
+    )
 
 
 def test_a_tapered_mill_is_smooth_where_ball_and_cone_meet() -> None:
@@ -161,14 +174,18 @@ def test_who_cuts_at_the_centre() -> None:
     assert not cutter_of(Tool(1, 6.0, flutes=4)).centre_cutting
 
 
-@pytest.mark.parametrize("numbers", [(0.0, 0.0, 0.0), (3.0, 4.0, 0.0), (3.0, 2.0, 2.0), (3.0, 1.0, 1.0), (math.nan, 0.0, 0.0)])
+@pytest.mark.parametrize(
+    "numbers", [(0.0, 0.0, 0.0), (3.0, 4.0, 0.0), (3.0, 2.0, 2.0), (3.0, 1.0, 1.0), (math.nan, 0.0, 0.0)]
+)
 def test_numbers_that_make_no_cutter(numbers: tuple[float, float, float]) -> None:
     with pytest.raises(ParameterError, match=r"cutter|corner"):
         Cutter(*numbers)
 
 
 def test_heights_come_back_from_their_files() -> None:
-    piece = workpiece.Workpiece(Grid(-1.5, 2.25, 0.1, 3, 5), np.linspace(-2, 0, 15, dtype=np.float32).reshape(3, 5), -7.0)
+    piece = workpiece.Workpiece(
+        Grid(-1.5, 2.25, 0.1, 3, 5), np.linspace(-2, 0, 15, dtype=np.float32).reshape(3, 5), -7.0
+    )
     again = read_heights("left.npy", *heights_files(piece)).workpiece
     assert (again.grid, again.floor) == (piece.grid, piece.floor)
     assert np.array_equal(again.heights, piece.heights)
@@ -177,8 +194,14 @@ def test_heights_come_back_from_their_files() -> None:
 GOOD = heights_files(workpiece.Workpiece(Grid(0, 0, 1, 2, 2), np.zeros((2, 2), np.float32), -1.0))
 
 
-BAD = [(b"", GOOD[1]), (GOOD[0], b"{}"), (GOOD[0], b"[1]"), (GOOD[0], b"no"), (GOOD[0][:-3], GOOD[1]),
-       (GOOD[0], b'{"x0": 0, "y0": 0, "pitch": -1}')]  # fmt: skip
+BAD = [
+    (b"", GOOD[1]),
+    (GOOD[0], b"{}"),
+    (GOOD[0], b"[1]"),
+    (GOOD[0], b"no"),
+    (GOOD[0][:-3], GOOD[1]),
+    (GOOD[0], b'{"x0": 0, "y0": 0, "pitch": -1}'),
+]
 
 
 @pytest.mark.parametrize(("heights", "where"), BAD)

@@ -1,6 +1,8 @@
-"""What a ball leaves of what it reaches, in plain float64: closing of a height function, and balls set along the moves of the NC text.
+"""What a ball leaves of what it reaches, in plain float64: closing of a height function, and balls set along the moves
+of the NC text.
 
-Nothing is shared with the program but the reader of NC: heights are functions, closing is scipy's, the cut is a minimum over balls.
+Nothing is shared with the program but the reader of NC: heights are functions, closing is scipy's, the cut is a minimum
+over balls.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ class Window:
     def places(self, more: float = 0.0) -> tuple[Floats, Floats]:
         """Return x and y (rows, cols) of the window and so much round it, a whole number of steps."""
         steps = round(more / self.pitch)
-        cols, rows = (round((high - low) / self.pitch) + 2 * steps for low, high in ((self.x0, self.x1), (self.y0, self.y1)))
+        cols, rows = (
+            round((high - low) / self.pitch) + 2 * steps for low, high in ((self.x0, self.x1), (self.y0, self.y1))
+        )
         x = self.x0 + (np.arange(cols) + 0.5 - steps) * self.pitch
         y = self.y0 + (np.arange(rows) + 0.5 - steps) * self.pitch
         return np.meshgrid(x, y)
@@ -61,8 +65,14 @@ def cut(nc: bytes, radius: float, window: Window, top: float) -> Floats:
             continue
         count = max(int(np.linalg.norm(end - start) / (window.pitch / 2)), 1) + 1
         for cx, cy, cz in start + np.linspace(0, 1, count)[:, None] * (end - start):
-            c0, c1 = (np.clip(int((cx + far - window.x0) / window.pitch) + (far > 0), 0, x.shape[1]) for far in (-radius, radius))
-            r0, r1 = (np.clip(int((cy + far - window.y0) / window.pitch) + (far > 0), 0, x.shape[0]) for far in (-radius, radius))
+            c0, c1 = (
+                np.clip(int((cx + far - window.x0) / window.pitch) + (far > 0), 0, x.shape[1])
+                for far in (-radius, radius)
+            )
+            r0, r1 = (
+                np.clip(int((cy + far - window.y0) / window.pitch) + (far > 0), 0, x.shape[0])
+                for far in (-radius, radius)
+            )
             part = heights[r0:r1, c0:c1]
             square = radius**2 - (x[r0:r1, c0:c1] - cx) ** 2 - (y[r0:r1, c0:c1] - cy) ** 2
             np.minimum(part, np.where(square >= 0, cz + radius - np.sqrt(np.maximum(square, 0.0)), np.inf), out=part)

@@ -24,7 +24,12 @@ def _ring(x0: float, y0: float, x1: float, y1: float, z: float) -> list[Point]:
 
 def pocketed_block() -> np.ndarray:
     """Its triangles (28, 3, 3), right side out: Z -10 to 0, the pocket at X 10 to 30, Y 7 to 23."""
-    low, high, mouth, floor = _ring(0, 0, 40, 30, -10), _ring(0, 0, 40, 30, 0), _ring(10, 7, 30, 23, 0), _ring(10, 7, 30, 23, -4)
+    low, high, mouth, floor = (
+        _ring(0, 0, 40, 30, -10),
+        _ring(0, 0, 40, 30, 0),
+        _ring(10, 7, 30, 23, 0),
+        _ring(10, 7, 30, 23, -4),
+    )
     found = _quad(*low[3::-1])
     for (a, b), (c, d) in zip(pairwise(high), pairwise(mouth), strict=True):
         found += _quad(a, b, d, c)

@@ -31,7 +31,9 @@ def anywhere(surface: BsplineSurface, count: int = 300) -> Floats:
 
 
 def curve_places(curve: Nurbs, at: Floats) -> Floats:
-    made = BSpline(curve.knots, np.column_stack([curve.points * curve.weights[:, None], curve.weights]), curve.degree)(at)
+    made = BSpline(curve.knots, np.column_stack([curve.points * curve.weights[:, None], curve.weights]), curve.degree)(
+        at
+    )
     return made[:, :3] / made[:, 3:]
 
 
@@ -46,7 +48,9 @@ def no_part(name: str) -> Part:
 NO_FILES = Sources(no_data, no_part)
 
 
-def built(shape: Shape, turn: Point3 = (0.0, 0.0, 0.0), move: Point3 = (0.0, 0.0, 0.0), sources: Sources = NO_FILES) -> Built:
+def built(
+    shape: Shape, turn: Point3 = (0.0, 0.0, 0.0), move: Point3 = (0.0, 0.0, 0.0), sources: Sources = NO_FILES
+) -> Built:
     return build_surface(Surface("one", shape, rotate_deg=turn, move=move), sources)
 
 

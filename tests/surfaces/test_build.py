@@ -25,8 +25,10 @@ endfacet
 endsolid one
 """
 OBJ = b"v 0 0 1\nv 2 0 1\nv 0 3 1\nf 1 2 3\n"
-PLY = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
-      b"property list uchar int vertex_indices\nend_header\n0 0 1\n2 0 1\n0 3 1\n3 0 1 2\n"  # fmt: skip
+PLY = (
+    b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    b"property list uchar int vertex_indices\nend_header\n0 0 1\n2 0 1\n0 3 1\n3 0 1 2\n"
+)
 FRAME = b"rect 0,0 40,30\ncircle 20,15 5\nline 60,0 70,0\n"
 
 
@@ -52,10 +54,14 @@ def test_a_missing_file_is_told_by_who_reads_it() -> None:
 
 def test_trims_are_regions_with_exact_arcs() -> None:
     trims = (
-        Trim(circle=(50.0, 25.0, 10.0)), Trim(rectangle=(0.0, 0.0, 20.0, 10.0), keep=Side.OUTSIDE),
-        Trim(outline=((0.0, 0.0), (0.0, 9.0), (9.0, 0.0))), Trim(drawing="frame.draw"),
-    )  # fmt: skip
-    circle, rectangle, outline, drawn = build_surface(Surface("a", PLANE, trims=trims), sources_of(lambda _: FRAME)).trims
+        Trim(circle=(50.0, 25.0, 10.0)),
+        Trim(rectangle=(0.0, 0.0, 20.0, 10.0), keep=Side.OUTSIDE),
+        Trim(outline=((0.0, 0.0), (0.0, 9.0), (9.0, 0.0))),
+        Trim(drawing="frame.draw"),
+    )
+    circle, rectangle, outline, drawn = build_surface(
+        Surface("a", PLANE, trims=trims), sources_of(lambda _: FRAME)
+    ).trims
     assert circle.regions[0].boundary.primitives == (Circle((50.0, 25.0), 10.0),)
     assert [each.keep for each in (circle, rectangle)] == [Side.INSIDE, Side.OUTSIDE]
     assert len(rectangle.regions[0].boundary.primitives) == 4
@@ -67,7 +73,10 @@ def test_trims_are_regions_with_exact_arcs() -> None:
 
 def test_a_layer_without_a_closed_contour_cannot_trim() -> None:
     surface = Surface("lid", PLANE, trims=(Trim(drawing="frame.draw"),))
-    with pytest.raises(GeometryError, match=r"^Surface lid: frame\.draw has no closed contour there; close one, or name another layer\.$"):
+    with pytest.raises(
+        GeometryError,
+        match=r"^Surface lid: frame\.draw has no closed contour there; close one, or name another layer\.$",
+    ):
         build_surface(surface, sources_of(lambda _: b"line 0,0 10,0\n"))
 
 

@@ -68,7 +68,9 @@ def ball_height(x: np.ndarray, y: float, radius: float, leave: float = 0.0) -> n
 
 
 @pytest.mark.parametrize(("leave", "tolerance", "grid"), [(0.0, 0.01, 0.0), (0.3, 0.002, 0.0), (0.0, 0.05, 1e-3)])
-def test_a_ball_over_spheres_goes_in_nowhere_and_is_not_needlessly_high(leave: float, tolerance: float, grid: float) -> None:
+def test_a_ball_over_spheres_goes_in_nowhere_and_is_not_needlessly_high(
+    leave: float, tolerance: float, grid: float
+) -> None:
     follower = Follower(spheres(), BALL, FollowOptions(leave, tolerance, grid))
     path = cutter_path(follower, along_x(-4.0, 0.0, 1.7, 7.0))
     ways = chords(path)
@@ -104,7 +106,9 @@ def test_boundary_points_touch_both() -> None:
     assert len(marks) == 9  # plane, first, second, plane on each: at each of three planes
 
 
-@pytest.mark.parametrize("tool", [Tool(1, 4.0), Tool(1, 4.0, ToolKind.BULL, corner_radius=0.5), BALL], ids=["flat", "bull", "ball"])
+@pytest.mark.parametrize(
+    "tool", [Tool(1, 4.0), Tool(1, 4.0, ToolKind.BULL, corner_radius=0.5), BALL], ids=["flat", "bull", "ball"]
+)
 def test_points_over_a_sphere_in_closed_form(tool: Tool) -> None:
     corner = {ToolKind.FLAT: 0.0, ToolKind.BULL: 0.5, ToolKind.BALL: 2.0}[tool.kind]
     follower = Follower(facets_of(ball(0, 0, 0, 10)), tool, FollowOptions(0.0, 0.02))
@@ -118,7 +122,11 @@ def test_points_over_a_sphere_in_closed_form(tool: Tool) -> None:
     inside = np.hypot(followed[:, 0], followed[:, 1]) < 9.4
     assert followed[inside, 2] == pytest.approx(true(followed)[inside], abs=1e-6)
     near = points[np.hypot(points[:, 0], points[:, 1]) < 8]
-    for share in (0.0, 0.25, 0.5):  # no chord that is kept is lower than the way that was followed, which goes under it by less than GOUGE
+    for share in (
+        0.0,
+        0.25,
+        0.5,
+    ):  # no chord that is kept is lower than the way that was followed, which goes under it by less than GOUGE
         at = near[:-1] + share * np.diff(near, axis=0)
         assert (at[:, 2] - true(at)).min() >= -2e-4
     assert len(points) < len(followed) / 8
@@ -189,8 +197,11 @@ def test_where_surfaces_coincide_the_path_stays_on_the_one_it_came_on() -> None:
     assert len(changes) == 1 and run.points[changes[0] + 1, 0] == pytest.approx(10.0, abs=0.01)
 
 
-@pytest.mark.parametrize("tool", [Tool(1, 6.0), Tool(1, 6.0, ToolKind.BULL, corner_radius=0.5), Tool(1, 6.0, ToolKind.BALL)],
-                         ids=["flat", "bull", "ball"])  # fmt: skip
+@pytest.mark.parametrize(
+    "tool",
+    [Tool(1, 6.0), Tool(1, 6.0, ToolKind.BULL, corner_radius=0.5), Tool(1, 6.0, ToolKind.BALL)],
+    ids=["flat", "bull", "ball"],
+)
 def test_a_spike_beside_a_way_is_met_wherever_it_stands_along_it(tool: Tool) -> None:
     """The cutter's side goes into it by less than a chord of the places that are looked at is off its rim."""
     ways = np.array([[float(k), 0.0, 0.0, k + 1.0, 0.0, 0.0] for k in range(8)])
@@ -208,10 +219,15 @@ def test_planes_that_meet_nothing_have_no_runs() -> None:
 
 def test_a_flat_over_a_smooth_sheet_needs_few_points_and_its_way_is_proven() -> None:
     """Its rim leaves the middle between two places that it touches by a hair."""
-    profile, guide = ((0.0, 0.0, 0.0), (0.0, 10.0, 5.5), (0.0, 20.0, 0.0)), ((0.0, 5.0, 0.0), (20.0, 8.0, 1.83), (40.0, 12.0, 1.0))
+    profile, guide = (
+        ((0.0, 0.0, 0.0), (0.0, 10.0, 5.5), (0.0, 20.0, 0.0)),
+        ((0.0, 5.0, 0.0), (20.0, 8.0, 1.83), (40.0, 12.0, 1.0)),
+    )
     sheet = SweptShape(SectionCurve(profile), SectionCurve(guide))
     follower = Follower(facets_of(sheet), Tool(1, 6.0), FollowOptions(0.0, 0.05, 1e-4))
-    path = cutter_path(follower, even_planes((0.0, 0.0), math.radians(158.3), 5.4, follower.facets.triangles[:, :, :2].reshape(-1, 2)))
+    path = cutter_path(
+        follower, even_planes((0.0, 0.0), math.radians(158.3), 5.4, follower.facets.triangles[:, :, :2].reshape(-1, 2))
+    )
     assert sum(len(run.points) for run in path.runs) < 4_000
     assert follower.proven(chords(path)).all()
 
@@ -235,14 +251,20 @@ def test_a_pass_through_the_pole_of_a_sphere_is_as_short_and_as_well_proven_as_a
 def test_round_a_convex_bend_chords_are_as_long_as_the_tolerance_allows(tolerance: float) -> None:
     """Between circles of r and r + h a chord that touches the inner one is sqrt(8 h r) long."""
     radius = 30 + BALL.radius
-    run = cutter_path(Follower(facets_of(ball(0, 0, 0, 30)), BALL, FollowOptions(0.0, tolerance)), along_x(0.0)).runs[0].points
+    run = (
+        cutter_path(Follower(facets_of(ball(0, 0, 0, 30)), BALL, FollowOptions(0.0, tolerance)), along_x(0.0))
+        .runs[0]
+        .points
+    )
     inside = run[np.abs(run[:, 0]) < 20]
     long = np.hypot(*np.diff(inside[:, [0, 2]], axis=0).T)
     assert 0.75 * math.sqrt(8 * tolerance * radius) < np.median(long) <= math.sqrt(8 * tolerance * radius) * 1.001
 
 
 def test_a_flat_is_one_chord_and_a_roof_two() -> None:
-    assert [len(run.points) for run in cutter_path(Follower(facets_of(plane(0, 0, 80, 10)), BALL), along_x(2.0, 5.0)).runs] == [2, 2]
+    assert [
+        len(run.points) for run in cutter_path(Follower(facets_of(plane(0, 0, 80, 10)), BALL), along_x(2.0, 5.0)).runs
+    ] == [2, 2]
     roof = facets_of(plane(0, 0, 40, 10, rise=20.0), plane(40, 0, 80, 10, z=20.0, rise=-20.0))
     (run,) = cutter_path(Follower(roof, BALL, FollowOptions(0.0, 0.01)), along_x(5.0)).runs
     turn = 2 * math.atan(0.5)  # round the ridge the ball rolls by so much
@@ -251,7 +273,9 @@ def test_a_flat_is_one_chord_and_a_roof_two() -> None:
 
 @pytest.mark.parametrize("angle", [30.0, 60.0, 80.0])
 def test_the_tolerance_is_kept_in_concave_corners(angle: float) -> None:
-    """A groove whose flanks are one mesh: its bottom is no boundary of surfaces, and the path bends there at one place."""
+    """A groove whose flanks are one mesh: its bottom is no boundary of surfaces, and the path bends there at one
+    place.
+    """
     rise = 20 * math.tan(math.radians(angle))
     corners = np.array([[x, y, z] for x, z in ((-20, rise), (0, 0), (20, rise)) for y in (-10, 10)], float)
     groove = Facets.of_mesh(corners[[[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]]])

@@ -36,7 +36,11 @@ def rise(tool: Tool, r: np.ndarray) -> np.ndarray:
         up = tool.corner_radius - np.sqrt(np.maximum(tool.corner_radius**2 - out**2, 0))
     elif tool.kind is ToolKind.TAPER:
         end = tip * math.cos(half)
-        up = np.where(r <= end, tip - np.sqrt(np.maximum(tip**2 - r**2, 0)), tip - tip * math.sin(half) + (r - end) / math.tan(half))
+        up = np.where(
+            r <= end,
+            tip - np.sqrt(np.maximum(tip**2 - r**2, 0)),
+            tip - tip * math.sin(half) + (r - end) / math.tan(half),
+        )
     elif tool.kind is ToolKind.FLAT:
         up = 0 * r
     else:

@@ -12,7 +12,9 @@ from app.surfaces.patches.nurbs_curve import unit_knots
 from app.surfaces.patches.section_curve import resolve, resolve_all
 from tests.surfaces.surface_places import NO_FILES, built, curve, curve_places, places, spline_of
 
-EVEN = tuple(curve((0.0, y, 0.0), (5.0, y, 3.0 + y / 4), (9.0, y, 3.0), (14.0, y, 0.0)) for y in (0.0, 4.0, 9.0, 12.0, 20.0))
+EVEN = tuple(
+    curve((0.0, y, 0.0), (5.0, y, 3.0 + y / 4), (9.0, y, 3.0), (14.0, y, 0.0)) for y in (0.0, 4.0, 9.0, 12.0, 20.0)
+)
 MIXED = (
     curve((0.0, 0.0, 0.0), (6.0, 0.0, 3.0), (12.0, 0.0, 0.0)),
     curve((0.0, 5.0, 0.0), (3.0, 5.0, 4.0), (8.0, 5.0, 1.0), (12.0, 5.0, 2.0), (14.0, 5.0, 0.0)),
@@ -60,14 +62,20 @@ def test_tables_of_as_many_points_add_no_knots() -> None:
 
 def test_closed_sections_and_closed_lofts_are_smooth_at_their_seams() -> None:
     rings = tuple(
-        curve(*((np.cos(a) * (30 + 5 * np.cos(b)), np.sin(a) * (30 + 5 * np.cos(b)), 5 * np.sin(b)) for b in np.arange(6)), closed=True)
+        curve(
+            *(
+                (np.cos(a) * (30 + 5 * np.cos(b)), np.sin(a) * (30 + 5 * np.cos(b)), 5 * np.sin(b))
+                for b in np.arange(6)
+            ),
+            closed=True,
+        )
         for a in np.arange(8) * np.pi / 4
     )
     surface = spline_of(LoftShape(rings, closed=True))
     at, step = np.linspace(0, 1, 30), 1e-5
     for u, v in ((0 * at, at), (at, 0 * at)):
         turned = u.any()
-        across = (np.array([0.0, step, -step, -2 * step]) % 1.0)
+        across = np.array([0.0, step, -step, -2 * step]) % 1.0
         rows = [places(surface, u if turned else 0 * at + c, 0 * at + c if turned else v) for c in across]
         first, last = rows[1] - rows[0], rows[2] - rows[3]
         size = np.linalg.norm(first, axis=1).max()
@@ -97,7 +105,6 @@ def test_knots_go_from_0_to_1() -> None:
         assert np.array_equal(knots, unit_knots(knots))
 
 
-
 def test_sources_read_drawings_by_name() -> None:
     asked = []
 
@@ -114,8 +121,12 @@ def test_sources_read_drawings_by_name() -> None:
 @pytest.mark.parametrize("count", [3, 4, 5, 12])
 @pytest.mark.parametrize("form", CurveForm)
 def test_closed_curves_close_whatever_their_degree(degree: int, count: int, form: CurveForm) -> None:
-    ring = curve(*((9 * np.cos(a), 5 * np.sin(a), np.sin(2 * a)) for a in np.arange(count) * 2 * np.pi / count),
-                 closed=True, degree=degree, form=form)  # fmt: skip
+    ring = curve(
+        *((9 * np.cos(a), 5 * np.sin(a), np.sin(2 * a)) for a in np.arange(count) * 2 * np.pi / count),
+        closed=True,
+        degree=degree,
+        form=form,
+    )
     made = resolve(ring, NO_FILES).curve
     assert (made.degree > 1) == (degree > 1)
     found = curve_places(made, np.array([0.0, 1e-6, 1 - 1e-6, 1.0]))
@@ -129,7 +140,15 @@ def test_closed_curves_close_whatever_their_degree(degree: int, count: int, form
 
 def test_a_closed_control_polygon_of_degree_2_is_the_even_spline() -> None:
     """A square of control points makes a closed curve that touches the middles of its sides."""
-    square = curve((0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 2.0, 0.0), (0.0, 2.0, 0.0), closed=True, degree=2, form=CurveForm.CONTROL)
+    square = curve(
+        (0.0, 0.0, 0.0),
+        (2.0, 0.0, 0.0),
+        (2.0, 2.0, 0.0),
+        (0.0, 2.0, 0.0),
+        closed=True,
+        degree=2,
+        form=CurveForm.CONTROL,
+    )
     found = curve_places(resolve(square, NO_FILES).curve, np.array([0.0, 0.25, 0.5, 0.75]))
     assert sorted(map(tuple, found.round(12).tolist())) == [(0, 1, 0), (1, 0, 0), (1, 2, 0), (2, 1, 0)]
 

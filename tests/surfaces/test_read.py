@@ -1,4 +1,6 @@
-"""Files of triangles: binary and text STL to the last bit, and whatever is cut off or no file is told in one sentence."""
+"""Files of triangles: binary and text STL to the last bit, and whatever is cut off or no file is told in one
+sentence.
+"""
 
 import numpy as np
 import pytest
@@ -17,7 +19,13 @@ DATA = stl(BLOCK)
 def text(triangles: np.ndarray) -> bytes:
     lines = ["solid block"]
     for triangle in triangles.tolist():
-        lines += ["facet normal 0 0 0", "outer loop", *(f"vertex {x} {y} {z}" for x, y, z in triangle), "endloop", "endfacet"]
+        lines += [
+            "facet normal 0 0 0",
+            "outer loop",
+            *(f"vertex {x} {y} {z}" for x, y, z in triangle),
+            "endloop",
+            "endfacet",
+        ]
     return "\n".join([*lines, "endsolid block", ""]).encode()
 
 

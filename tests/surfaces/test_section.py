@@ -1,4 +1,6 @@
-"""Sections and the topmost of them, against closed forms: crossings, edges, jumps, contacts; nothing else changes them."""
+"""Sections and the topmost of them, against closed forms: crossings, edges, jumps, contacts; nothing else changes
+them.
+"""
 
 import math
 
@@ -45,7 +47,9 @@ def test_spheres_on_a_plane_are_met_on_circles() -> None:
 
 
 def test_a_sphere_that_overhangs_is_left_by_a_jump() -> None:
-    marks = compound_surface(facets_of(plane(0, -10, 30, 10), ball(15, 0, 3, 5)), along_x(0.0, 3.0), TOLERANCE).boundaries
+    marks = compound_surface(
+        facets_of(plane(0, -10, 30, 10), ball(15, 0, 3, 5)), along_x(0.0, 3.0), TOLERANCE
+    ).boundaries
     assert kinds(marks) == ["JUMP"] * 4
     assert np.sort(marks.place[:, 0]) == pytest.approx([10, 11, 19, 20], abs=1e-9)
     assert np.minimum(marks.place[:, 2], marks.end[:, 2]) == pytest.approx(0.0, abs=1e-9)
@@ -53,7 +57,9 @@ def test_a_sphere_that_overhangs_is_left_by_a_jump() -> None:
 
 
 def test_the_topmost_is_the_maximum_and_within_the_tolerance() -> None:
-    facets = facets_of(plane(0, -10, 60, 10), ball(15, 0, -1, 6), ball(24, 2, -3, 9), half_cylinder((30, -10, -1), (45, 10, -1), 4))
+    facets = facets_of(
+        plane(0, -10, 60, 10), ball(15, 0, -1, 6), ball(24, 2, -3, 9), half_cylinder((30, -10, -1), (45, 10, -1), 4)
+    )
     compound = compound_surface(facets, along_x(1.0), TOLERANCE)
     x = np.linspace(0.5, 59.5, 4001)
 
@@ -71,13 +77,17 @@ def test_the_topmost_is_the_maximum_and_within_the_tolerance() -> None:
 
 
 def test_one_that_ends_at_the_height_of_another_is_an_edge() -> None:
-    marks = compound_surface(facets_of(plane(0, 0, 10, 10), plane(10, 0, 20, 10, rise=7)), along_x(5.0), TOLERANCE).boundaries
+    marks = compound_surface(
+        facets_of(plane(0, 0, 10, 10), plane(10, 0, 20, 10, rise=7)), along_x(5.0), TOLERANCE
+    ).boundaries
     assert kinds(marks) == ["EDGE"] and pairs(marks) == [(0, 1)]
     assert marks.place[0] == pytest.approx([10, 5, 0], abs=1e-9)
 
 
 def test_one_that_ends_above_another_is_a_jump_to_it() -> None:
-    marks = compound_surface(facets_of(plane(0, 0, 10, 10, z=5), plane(0, 0, 20, 10)), along_x(5.0), TOLERANCE).boundaries
+    marks = compound_surface(
+        facets_of(plane(0, 0, 10, 10, z=5), plane(0, 0, 20, 10)), along_x(5.0), TOLERANCE
+    ).boundaries
     assert kinds(marks) == ["JUMP"] and pairs(marks) == [(0, 1)]
     assert (marks.place[0, 2], marks.end[0, 2]) == pytest.approx((5.0, 0.0), abs=1e-12)
 
@@ -97,7 +107,9 @@ def test_a_cylinder_that_touches_a_plane_along_a_line_is_left_where_it_ends() ->
 
 
 def test_parameters_of_a_boundary_point_give_its_place() -> None:
-    marks = compound_surface(facets_of(plane(0, 0, 20, 10), plane(0, 0, 20, 10, z=-3, rise=10)), along_x(2.0), TOLERANCE).boundaries
+    marks = compound_surface(
+        facets_of(plane(0, 0, 20, 10), plane(0, 0, 20, 10, z=-3, rise=10)), along_x(2.0), TOLERANCE
+    ).boundaries
     assert pairs(marks) == [(0, 1)] and marks.place[0] == pytest.approx([6, 2, 0], abs=1e-9)
     for at in (marks.before_at[0], marks.after_at[0]):
         assert at == pytest.approx([0.3, 0.2], abs=1e-9)
@@ -119,7 +131,9 @@ def scene() -> list[Surface]:
 def test_what_lies_far_below_changes_nothing() -> None:
     planes = along_x(-4.0, 0.0, 3.3)
     below = plane(-5, -20, 90, 20, z=-400.0, rise=30)
-    one, both = (compound_surface(facets_of(*each, tolerance=0.01), planes, TOLERANCE) for each in (scene(), [*scene(), below]))
+    one, both = (
+        compound_surface(facets_of(*each, tolerance=0.01), planes, TOLERANCE) for each in (scene(), [*scene(), below])
+    )
     seen = [run.points for run in both.runs if run.points[:, 2].max() > -100]
     assert [run.points.tolist() for run in one.runs] == [points.tolist() for points in seen]
     assert np.array_equal(one.boundaries.place, both.boundaries.place[both.boundaries.kind != BoundaryKind.JUMP])

@@ -28,10 +28,17 @@ def single(triangles: np.ndarray) -> np.ndarray:
     return np.asarray(triangles.astype(np.float32).astype(np.float64))
 
 
-@given(st.integers(0, 27), st.integers(0, 2), st.lists(st.floats(0.05, 0.95), min_size=1, max_size=4, unique=True),
-       st.floats(-200, 200), st.booleans())  # fmt: skip
+@given(
+    st.integers(0, 27),
+    st.integers(0, 2),
+    st.lists(st.floats(0.05, 0.95), min_size=1, max_size=4, unique=True),
+    st.floats(-200, 200),
+    st.booleans(),
+)
 @settings(max_examples=examples(60), deadline=None)
-def test_a_corner_on_an_edge_opens_nothing(triangle: int, side: int, shares: list[float], away: float, reverse: bool) -> None:
+def test_a_corner_on_an_edge_opens_nothing(
+    triangle: int, side: int, shares: list[float], away: float, reverse: bool
+) -> None:
     torn = single(parted(triangle, side, shares) * 0.7 + away)
     wound = right_side_out(torn[:, ::-1] if reverse else torn)
     assert wound.fault == ""

@@ -5,7 +5,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.model.scene_shapes import BicubicShape, BilinearShape, BsplineShape, ConeShape, CylinderShape, PlaneShape, SphereShape, TorusShape
+from app.model.scene_shapes import (
+    BicubicShape,
+    BilinearShape,
+    BsplineShape,
+    ConeShape,
+    CylinderShape,
+    PlaneShape,
+    SphereShape,
+    TorusShape,
+)
 from tests.examples import examples
 from tests.surfaces.surface_places import anywhere, built, places, spline_of
 
@@ -71,7 +80,9 @@ def test_weights_and_knots_of_a_bspline_count() -> None:
     """A quarter of a cylinder, as a B-spline that is given whole."""
     rows = tuple(tuple((x, y, z) for z in (0.0, 5.0)) for x, y in ((1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
     root = 0.5**0.5
-    shape = BsplineShape(rows, 2, 1, knots_u=(3.0, 3.0, 3.0, 7.0, 7.0, 7.0), weights=((1.0, 1.0), (root, root), (1.0, 1.0)))
+    shape = BsplineShape(
+        rows, 2, 1, knots_u=(3.0, 3.0, 3.0, 7.0, 7.0, 7.0), weights=((1.0, 1.0), (root, root), (1.0, 1.0))
+    )
     surface = spline_of(shape)
     found = places(surface, 3 + 4 * np.linspace(0, 1, 50), np.linspace(0, 1, 50))
     assert np.abs(np.hypot(found[:, 0], found[:, 1]) - 1).max() <= CLOSE
@@ -94,7 +105,9 @@ def test_placing_keeps_lengths(turn: tuple[float, float, float], move: tuple[flo
     shape = TorusShape((5.0, 0.0, 0.0), 10.0, 3.0)
     before, after = spline_of(shape).points.reshape(-1, 3), built(shape, turn, move).splines[0].points.reshape(-1, 3)
     middle = before.mean(axis=0)
-    assert np.linalg.norm(after - after.mean(axis=0), axis=1) == pytest.approx(np.linalg.norm(before - middle, axis=1), abs=1e-9)
+    assert np.linalg.norm(after - after.mean(axis=0), axis=1) == pytest.approx(
+        np.linalg.norm(before - middle, axis=1), abs=1e-9
+    )
 
 
 @given(turns)

@@ -53,7 +53,10 @@ def test_every_corner_is_on_the_body_and_every_triangle_as_near_as_asked(occ, to
     shares = np.random.default_rng(1).dirichlet([1, 1, 1], 40)
     inner = np.einsum("kc,ncd->nkd", shares, ball).reshape(-1, 3)
     assert (10 - np.linalg.norm(inner - [20, 15, 5], axis=1)).max() <= tolerance * 1.05
-    area = 0.5 * np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1).sum()
+    area = (
+        0.5
+        * np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1).sum()
+    )
     assert area == pytest.approx(2 * 40 * 30 + 2 * (40 + 30) * 5 - np.pi * 100 + 2 * np.pi * 100, rel=tolerance / 5)
 
 

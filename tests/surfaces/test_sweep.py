@@ -18,10 +18,23 @@ from tests.surfaces.surface_places import NO_FILES, anywhere, built, curve, curv
 PROFILE = curve((0.0, -5.0, 0.0), (0.0, 0.0, 5.0), (0.0, 5.0, 0.0))
 GUIDE = curve((0.0, 0.0, 0.0), (20.0, 5.0, 2.0), (40.0, 0.0, 5.0), (60.0, -8.0, 0.0), (70.0, -8.0, 4.0))
 ROOT = 0.5**0.5
-QUARTER = SectionCurve(((30.0, 0.0, 0.0), (30.0, 30.0, 0.0), (0.0, 30.0, 0.0)), CurveForm.CONTROL, 2, weights=(1.0, ROOT, 1.0))
-SLOT = Part(tuple(Entity(n, each) for n, each in enumerate((
-    Line((0.0, 10.0), (0.0, 20.0)), Arc((0.0, 20.0), (5.0, 25.0), (5.0, 20.0), False), Line((5.0, 25.0), (8.0, 25.0)),
-    Circle((50.0, 50.0), 4.0)), 1)))  # fmt: skip
+QUARTER = SectionCurve(
+    ((30.0, 0.0, 0.0), (30.0, 30.0, 0.0), (0.0, 30.0, 0.0)), CurveForm.CONTROL, 2, weights=(1.0, ROOT, 1.0)
+)
+SLOT = Part(
+    tuple(
+        Entity(n, each)
+        for n, each in enumerate(
+            (
+                Line((0.0, 10.0), (0.0, 20.0)),
+                Arc((0.0, 20.0), (5.0, 25.0), (5.0, 20.0), False),
+                Line((5.0, 25.0), (8.0, 25.0)),
+                Circle((50.0, 50.0), 4.0),
+            ),
+            1,
+        )
+    )
+)
 
 
 def drawn(_: str) -> Part:

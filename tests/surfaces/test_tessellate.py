@@ -21,8 +21,12 @@ def places(patches: Patches, patch: np.ndarray, at: np.ndarray) -> np.ndarray:
     return rows[:, 0, :3] / rows[:, 0, 3:]
 
 
-SHAPES = {"sphere": ball(1, 2, 3, 10), "torus": TorusShape((0.0, 0.0, 0.0), 8.0, 3.0), "wave": WAVE,
-          "cone": ConeShape((0.0, 0.0, 0.0), (0.0, 5.0, 9.0), 4.0, 0.0)}  # fmt: skip
+SHAPES = {
+    "sphere": ball(1, 2, 3, 10),
+    "torus": TorusShape((0.0, 0.0, 0.0), 8.0, 3.0),
+    "wave": WAVE,
+    "cone": ConeShape((0.0, 0.0, 0.0), (0.0, 5.0, 9.0), 4.0, 0.0),
+}
 
 
 @pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)

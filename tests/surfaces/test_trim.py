@@ -89,7 +89,10 @@ def bumps(seed: int) -> BsplineShape:
     """Return a surface without any symmetry over about 40 x 40 mm."""
     random = np.random.default_rng(seed)
     u, v = np.meshgrid(np.linspace(0, 40, 7), np.linspace(0, 40, 7), indexing="ij")
-    points = np.stack([u + random.uniform(-1, 1, u.shape), v + random.uniform(-1, 1, u.shape), random.uniform(0, 12, u.shape)], axis=-1)
+    points = np.stack(
+        [u + random.uniform(-1, 1, u.shape), v + random.uniform(-1, 1, u.shape), random.uniform(0, 12, u.shape)],
+        axis=-1,
+    )
     return BsplineShape(tuple(tuple((*map(float, place),) for place in row) for row in points.tolist()))
 
 
@@ -106,13 +109,22 @@ def test_cutters_over_what_is_left_of_a_bumpy_surface_against_dense_sampling(see
     found = drop(facets, BALL, where).height
     for (x, y), height in zip(where.tolist(), found.tolist(), strict=True):
         square = BALL.radius**2 - (samples[:, 0] - x) ** 2 - (samples[:, 1] - y) ** 2
-        low, high = ((samples[near, 2] + np.sqrt(square[near])).max(initial=-np.inf) - BALL.radius
-                     for near in ((square > 0) & (out <= off) for off in (0.0, 0.1)))  # samples are less than 0.1 mm apart
+        low, high = (
+            (samples[near, 2] + np.sqrt(square[near])).max(initial=-np.inf) - BALL.radius
+            for near in ((square > 0) & (out <= off) for off in (0.0, 0.1))
+        )  # samples are less than 0.1 mm apart
         assert low - 1e-6 - AT_OUTLINES <= height <= high + 0.02
 
 
-@pytest.mark.parametrize("trim", [Trim(circle=(3.0, -2.0, 9.0)), Trim(outline=((-8.0, -8.0), (9.0, -3.0), (-2.0, 11.0))),
-                                  Trim(circle=(0.0, 0.0, 7.0), keep=Side.OUTSIDE)], ids=["circle", "triangle", "hole"])  # fmt: skip
+@pytest.mark.parametrize(
+    "trim",
+    [
+        Trim(circle=(3.0, -2.0, 9.0)),
+        Trim(outline=((-8.0, -8.0), (9.0, -3.0), (-2.0, 11.0))),
+        Trim(circle=(0.0, 0.0, 7.0), keep=Side.OUTSIDE),
+    ],
+    ids=["circle", "triangle", "hole"],
+)
 def test_what_is_left_covers_the_area_once(trim: Trim) -> None:
     """Seen from above a ball has two sides."""
     inside = math.pi * trim.circle[2] ** 2 if trim.circle else shapely.Polygon(trim.outline).area
@@ -146,7 +158,12 @@ def test_divided_patches_know_their_own_parameters() -> None:
 def test_an_upright_wall_of_a_mesh_is_cut_across() -> None:
     wall = np.array([[[0, 0, 0], [20, 0, 0], [20, 0, 10]], [[0, 0, 0], [20, 0, 10], [0, 0, 10]]], float)
     left = trimmed_mesh(Facets.of_mesh(wall), shapely.box(-1, -1, 13, 1))
-    size = np.linalg.norm(np.cross(left.triangles[:, 1] - left.triangles[:, 0], left.triangles[:, 2] - left.triangles[:, 0]), axis=1) / 2
+    size = (
+        np.linalg.norm(
+            np.cross(left.triangles[:, 1] - left.triangles[:, 0], left.triangles[:, 2] - left.triangles[:, 0]), axis=1
+        )
+        / 2
+    )
     assert size.sum() == pytest.approx(130)
     assert left.triangles[:, :, 0].max() == pytest.approx(13) and not np.abs(left.triangles[:, :, 1]).any()
     assert len(trimmed_mesh(Facets.of_mesh(wall), shapely.box(-1, 1, 30, 2))) == 0
@@ -154,7 +171,9 @@ def test_an_upright_wall_of_a_mesh_is_cut_across() -> None:
 
 def test_trims_that_leave_nothing_are_told_by_name() -> None:
     away = trimmed(plane(0, 0, 10, 10), Trim(circle=(50.0, 50.0, 3.0)))
-    with pytest.raises(GeometryError, match=r"^Surface trimmed: its trims leave nothing of it; check their outlines\.$"):
+    with pytest.raises(
+        GeometryError, match=r"^Surface trimmed: its trims leave nothing of it; check their outlines\.$"
+    ):
         facets_of(away, plane(0, 0, 9, 9))
 
 

@@ -42,7 +42,9 @@ def test_a_hollow_keeps_its_turn_to_what_it_is_in() -> None:
 def test_what_is_wholly_in_a_shell_is_a_hollow_and_what_is_in_that_is_metal(wound_as: tuple[int, int, int]) -> None:
     """Boxes of 10, 6 and 2 within one another, wound any way: 1000 - 216 + 8 mm3 of metal."""
     shells = (box((0, 0, 0), (10, 10, 10)), box((2, 2, 2), (8, 8, 8)), box((4, 4, 4), (6, 6, 6)))
-    given_ = np.concatenate([shell if sign > 0 else shell[:, ::-1] for shell, sign in zip(shells, wound_as, strict=True)])
+    given_ = np.concatenate(
+        [shell if sign > 0 else shell[:, ::-1] for shell, sign in zip(shells, wound_as, strict=True)]
+    )
     wound = right_side_out(given_)
     assert wound.fault == "" and volume(wound.triangles) == pytest.approx(1000 - 216 + 8)
     assert int(wound.turned.sum()) == 12 * sum(sign != right for sign, right in zip(wound_as, (1, -1, 1), strict=True))
@@ -60,8 +62,12 @@ def test_bodies_that_go_through_one_another_are_each_metal() -> None:
     assert right_side_out(np.concatenate([around, boss])).turned.sum() == 12
 
 
-@pytest.mark.parametrize("second", [((10, 10, 0), (20, 20, 10)), ((30, 0, 0), (40, 10, 10))], ids=["touch in an edge", "apart"])
-def test_bodies_that_touch_or_not_are_each_turned_alone(second: tuple[tuple[float, float, float], tuple[float, float, float]]) -> None:
+@pytest.mark.parametrize(
+    "second", [((10, 10, 0), (20, 20, 10)), ((30, 0, 0), (40, 10, 10))], ids=["touch in an edge", "apart"]
+)
+def test_bodies_that_touch_or_not_are_each_turned_alone(
+    second: tuple[tuple[float, float, float], tuple[float, float, float]],
+) -> None:
     one, other = box((0, 0, 0), (10, 10, 10)), box(*second)
     wound = right_side_out(np.concatenate([one, other[:, ::-1]]))
     assert wound.fault == "" and int(wound.turned.sum()) == 12
@@ -84,7 +90,9 @@ LIKE_LEFT = other_diagonal(LEFT, 10.0)
 
 @given(st.sampled_from([LEFT, LIKE_LEFT]), st.integers(0, 10_000), st.sampled_from([1.0, 1 / 3, 25.4]))
 @settings(max_examples=examples(40), deadline=None)
-def test_bodies_that_share_a_side_are_one_whatever_its_diagonals_and_turns(left: Floats, seed: int, scale: float) -> None:
+def test_bodies_that_share_a_side_are_one_whatever_its_diagonals_and_turns(
+    left: Floats, seed: int, scale: float
+) -> None:
     rng = np.random.default_rng(seed)
     given_ = np.concatenate([left, RIGHT]) * scale + scale / 7
     reversed_ = rng.random(len(given_)) < rng.random()
@@ -122,7 +130,10 @@ def test_a_strip_with_one_side_only_has_no_inside() -> None:
     n, m = 12, 8
 
     def place(i: int, j: int) -> tuple[float, float, float]:
-        a, b = 2 * math.pi * i / n, 2 * math.pi * ((m - j if i >= n else j) % m) / m  # the last ring meets the first one mirrored
+        a, b = (
+            2 * math.pi * i / n,
+            2 * math.pi * ((m - j if i >= n else j) % m) / m,
+        )  # the last ring meets the first one mirrored
         a = 0.0 if i >= n else a
         return ((3 + math.cos(b)) * math.cos(a), (3 + math.cos(b)) * math.sin(a), math.sin(b))
 

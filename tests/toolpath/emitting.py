@@ -25,7 +25,9 @@ from tests.part_shapes import square
 TOOL = Tool(1, 6.0, feed_rate=600.0, plunge_rate=200.0)
 
 
-def setting_of(contours: Sequence[Contour] = (square(100),), operation: Operation | None = None, **changes: object) -> Setting:
+def setting_of(
+    contours: Sequence[Contour] = (square(100),), operation: Operation | None = None, **changes: object
+) -> Setting:
     """A setting of one operation by T1, a flat mill of 6 mm."""
     curves = [curve for contour in contours for curve in contour.primitives]
     part = Part().with_entities(tuple(Entity(k, curve) for k, curve in enumerate(curves, 1)))

@@ -1,4 +1,6 @@
-"""Which tool? Widths, corners and reaches in closed form, against independent shapes, and times against programs that were made."""
+"""Which tool? Widths, corners and reaches in closed form, against independent shapes, and times against programs that
+were made.
+"""
 
 from __future__ import annotations
 
@@ -78,7 +80,9 @@ def keyhole(radius: float, width: float, length: float) -> list[Contour]:
     mouth = math.sqrt(radius**2 - half**2)
     sweep = math.tau - 2 * math.asin(half / radius)
     middle = math.tan(sweep / 8)
-    return [bulged([(mouth, half, middle), (-radius, 0, middle), (mouth, -half, 0), (length, -half, 0), (length, half, 0)])]
+    return [
+        bulged([(mouth, half, middle), (-radius, 0, middle), (mouth, -half, 0), (length, -half, 0), (length, half, 0)])
+    ]
 
 
 def test_a_keyhole_has_the_passage_of_its_slot_and_the_disc_of_its_hole() -> None:
@@ -126,8 +130,15 @@ def gear(teeth: int, width: float, root: float, tip: float) -> list[Contour]:
         angle = math.tau * k / teeth
         along, across = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
         inner = math.sqrt(root**2 - width**2 / 4)
-        points += [tuple(p) for p in (inner * along - width / 2 * across, tip * along - width / 2 * across,
-                                      tip * along + width / 2 * across, inner * along + width / 2 * across)]
+        points += [
+            tuple(p)
+            for p in (
+                inner * along - width / 2 * across,
+                tip * along - width / 2 * across,
+                tip * along + width / 2 * across,
+                inner * along + width / 2 * across,
+            )
+        ]
     return [polygon_contour([(float(x), float(y)) for x, y in points])]
 
 
@@ -140,8 +151,20 @@ def test_a_gear_asks_for_the_width_of_its_gaps() -> None:
 
 
 def rounded(width: float, height: float, r: float) -> list[Contour]:
-    return [bulged([(r, 0, 0), (width - r, 0, QUARTER), (width, r, 0), (width, height - r, QUARTER), (width - r, height, 0),
-                    (r, height, QUARTER), (0, height - r, 0), (0, r, QUARTER)])]
+    return [
+        bulged(
+            [
+                (r, 0, 0),
+                (width - r, 0, QUARTER),
+                (width, r, 0),
+                (width, height - r, QUARTER),
+                (width - r, height, 0),
+                (r, height, QUARTER),
+                (0, height - r, 0),
+                (0, r, QUARTER),
+            ]
+        )
+    ]
 
 
 def test_a_rectangle_with_fillets_asks_for_their_radius() -> None:
@@ -322,8 +345,10 @@ def made_and_estimated(path: Path, pocket: Tool, contour: Tool) -> tuple[tuple[f
     return (moving[0], moving[1]), (told.pocket, told.contour)
 
 
-@pytest.mark.parametrize(("name", "pocket", "contour"), [("fig2", 12, 3), ("gear", 2, 1), ("apu-mount", 6, 3), ("genshi", 4, 2),
-                                                         ("insert", 20, 10), ("LM2", 20, 4)])
+@pytest.mark.parametrize(
+    ("name", "pocket", "contour"),
+    [("fig2", 12, 3), ("gear", 2, 1), ("apu-mount", 6, 3), ("genshi", 4, 2), ("insert", 20, 10), ("LM2", 20, 4)],
+)
 def test_times_are_those_of_programs(data: Path, name: str, pocket: float, contour: float) -> None:
     made, told = made_and_estimated(data / "dxf" / f"{name}.dxf", Tool(1, pocket), Tool(2, contour))
     print(f"{name}: made {made[0]:.0f} + {made[1]:.0f} s, estimated {told[0]:.0f} + {told[1]:.0f} s")

@@ -43,7 +43,7 @@ def scattered(chunks: Chunks, count: int, seed: int) -> list[Run]:
 
 
 def check(strokes: tuple[Stroke, ...], chunks: Chunks, runs: list[Run], contours: list[Contour], radius: float) -> None:
-    asked = sum(float(chunks.size[run.chunk:run.chunk + run.count].sum()) for run in runs)
+    asked = sum(float(chunks.size[run.chunk : run.chunk + run.count].sum()) for run in runs)
     cut = sum(float(lengths(stroke.rows)[stroke.purpose == Purpose.POCKET].sum()) for stroke in strokes)
     assert cut == pytest.approx(asked, rel=1e-9)
     for stroke in strokes:

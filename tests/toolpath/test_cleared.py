@@ -61,7 +61,9 @@ def test_the_deepest_cut_that_holds_the_whole_cutter_counts() -> None:
     cleared.add(TOOL, line((0, 0), (10, 0)), at(-2.0))
     assert cleared.floor(TOOL, (5, 0)) == -2.0 and cleared.floor(TOOL, (12, 0)) == -1.0
     assert cleared.is_clear(TOOL, (2, 0), (9, 0), -2.0) and not cleared.is_clear(TOOL, (2, 0), (12, 0), -2.0)
-    assert cleared.is_clear(Tool(2, 2.0), (2, 1.9), (9, -1.9), -2.0) and not cleared.is_clear(Tool(2, 2.0), (2, 2.2), (9, 2.2), -2.0)
+    assert cleared.is_clear(Tool(2, 2.0), (2, 1.9), (9, -1.9), -2.0) and not cleared.is_clear(
+        Tool(2, 2.0), (2, 2.2), (9, 2.2), -2.0
+    )
 
 
 def test_two_slots_side_by_side_clear_what_neither_clears_alone() -> None:
@@ -84,7 +86,11 @@ def test_what_stays_inside_a_ring_is_not_clear() -> None:
 
 def test_a_tab_is_not_clear_below_its_top() -> None:
     cleared = Cleared()
-    cleared.add(TOOL, np.concatenate([line((0, 0), (10, 0)), line((10, 0), (14, 0)), line((14, 0), (30, 0))]), at(-5.0, -3.5, -5.0))
+    cleared.add(
+        TOOL,
+        np.concatenate([line((0, 0), (10, 0)), line((10, 0), (14, 0)), line((14, 0), (30, 0))]),
+        at(-5.0, -3.5, -5.0),
+    )
     assert not cleared.is_clear(TOOL, (5, 0), (20, 0), -5.0) and cleared.is_clear(TOOL, (5, 0), (20, 0), -3.5)
 
 
@@ -94,7 +100,11 @@ def test_a_ball_clears_only_where_it_was() -> None:
     cleared.add(ball, line((0, 0), (20, 0)), at(-1.0))
     assert cleared.floor(ball, (5, 0)) == -1.0 and cleared.floor(ball, (5, 0.1)) == 0.0
     assert cleared.floor(Tool(2, 1.0), (5, 0)) == 0.0 and not cleared.is_clear(ball, (5, 0), (10, 0), -1.0)
-    assert [flat_radius(tool) for tool in (TOOL, ball, Tool(4, 6.0, ToolKind.BULL, corner_radius=1.0))] == [3.0, 0.0, 2.0]
+    assert [flat_radius(tool) for tool in (TOOL, ball, Tool(4, 6.0, ToolKind.BULL, corner_radius=1.0))] == [
+        3.0,
+        0.0,
+        2.0,
+    ]
 
 
 def test_nothing_above_the_stock_is_kept() -> None:

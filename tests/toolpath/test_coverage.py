@@ -81,7 +81,9 @@ def test_corners_are_out_of_reach_and_no_finding_that_counts() -> None:
 
 def test_a_smaller_tool_of_the_job_reaches_the_corners_so_what_it_leaves_counts() -> None:
     path = rings(7.0, 4.0, 1.0)
-    task = Job(Part(), tools=(Tool(1, 6.0), Tool(2, 1.0)), operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2))))
+    task = Job(
+        Part(), tools=(Tool(1, 6.0), Tool(2, 1.0)), operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2)))
+    )
     region = replace(square(-10, -10, 10, 10), islands=())
     found = measure(path.program(region), task)
     assert found.unreachable_mm2 == pytest.approx((4 - math.pi) * 0.25, abs=0.005)
@@ -97,7 +99,9 @@ def test_stock_to_leave_is_not_left_by_mistake() -> None:
 def test_a_contour_alone_is_asked_for_its_band_only() -> None:
     task = Job(Part(), tools=(Tool(1, 6.0),), operations=(ContourOperation(Cut(1)),))
     assert measure(rings(7.0).program(DISC), task).reachable_left_mm2 == 0
-    assert measure(rings(6.8).program(DISC), task).reachable_left_mm2 == pytest.approx(math.pi * (100 - 9.8**2), rel=1e-2)
+    assert measure(rings(6.8).program(DISC), task).reachable_left_mm2 == pytest.approx(
+        math.pi * (100 - 9.8**2), rel=1e-2
+    )
 
 
 def test_a_region_too_small_for_every_tool_is_out_of_reach_whole() -> None:
@@ -132,10 +136,17 @@ def test_no_operation_no_region_no_moves() -> None:
 def test_what_is_proven_covered_changes_nothing(radii: tuple[float, ...], monkeypatch: pytest.MonkeyPatch) -> None:
     """Every tile taken as uncertain gives the same answer, also for an area of several parts with holes."""
     island = Contour((Circle((30.0, 0.0), 1.5, ccw=False),))
-    regions = (DISC, Region(2, Contour((Circle((30.0, 0.0), 9.0),)), (island,)), Region(3, Contour((Circle((0.0, 25.0), 9.0),))))
+    regions = (
+        DISC,
+        Region(2, Contour((Circle((30.0, 0.0), 9.0),)), (island,)),
+        Region(3, Contour((Circle((0.0, 25.0), 9.0),))),
+    )
     program = rings(*radii).program(*regions)
     quick = measure(program, one_tool())
-    monkeypatch.setattr("app.toolpath.coverage.coverage.uncertain", lambda wanted, paths, progress: np.array([shapely.box(*wanted.bounds)]))
+    monkeypatch.setattr(
+        "app.toolpath.coverage.coverage.uncertain",
+        lambda wanted, paths, progress: np.array([shapely.box(*wanted.bounds)]),
+    )
     full = measure(program, one_tool())
     assert quick.reachable_left_mm2 == pytest.approx(full.reachable_left_mm2, abs=1e-3)
     assert quick.reachable_left_mm2 > 300
@@ -154,7 +165,16 @@ def test_an_uncertain_tile_lies_wherever_the_floor_is_not_cut() -> None:
 
 
 def test_ramps_and_rapids_do_not_clear_the_floor() -> None:
-    ramp = Path().into_work(-7, 0, 0).line(7, 0, -2).out_of_work().rapid(0, 7, 5).rapid(0, 7, -2).rapid(0, -7, -2).rapid(0, -7, 5)
+    ramp = (
+        Path()
+        .into_work(-7, 0, 0)
+        .line(7, 0, -2)
+        .out_of_work()
+        .rapid(0, 7, 5)
+        .rapid(0, 7, -2)
+        .rapid(0, -7, -2)
+        .rapid(0, -7, 5)
+    )
     assert measure(ramp.program(DISC), one_tool()).reachable_left_mm2 == pytest.approx(math.pi * 100, rel=1e-3)
 
 
@@ -162,7 +182,9 @@ def test_regions_that_touch_have_a_wall_between_them() -> None:
     """Two slots side by side, each cut along its walls: the tool must not be asked to cross the wall between them."""
     path = Path()
     for low in (0, 7):
-        path.into_work(3, low + 3, -2).line(27, low + 3, -2).line(27, low + 4, -2).line(3, low + 4, -2).line(3, low + 3, -2).out_of_work()
+        path.into_work(3, low + 3, -2).line(27, low + 3, -2).line(27, low + 4, -2).line(3, low + 4, -2).line(
+            3, low + 3, -2
+        ).out_of_work()
     slots = (square(0, 0, 30, 7), replace(square(0, 7, 30, 14), number=2))
     found = measure(path.program(*slots), one_tool())
     assert found.reachable_left_mm2 == 0

@@ -36,12 +36,18 @@ def test_layers_of_a_job() -> None:
     assert layers_of(Job(part, operations=asked)) == {"a", "b", "c"}
 
 
-@pytest.mark.parametrize(("changes", "words"), [
-    ({"keep_out_layers": ("d",)}, "no layer 'd'; it has a, b, c"),
-    ({"operations": (PocketOperation(Cut(1, layers=("A",))),)}, "no layer 'A'"),
-    ({"layer_names": ("a",), "keep_out_layers": ("a",)}, "Layer 'a' is to be machined and to be kept off"),
-    ({"operations": (PocketOperation(Cut(1, layers=("b",))),), "keep_out_layers": ("b",)}, "Layer 'b' is to be machined and to be kept"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"keep_out_layers": ("d",)}, "no layer 'd'; it has a, b, c"),
+        ({"operations": (PocketOperation(Cut(1, layers=("A",))),)}, "no layer 'A'"),
+        ({"layer_names": ("a",), "keep_out_layers": ("a",)}, "Layer 'a' is to be machined and to be kept off"),
+        (
+            {"operations": (PocketOperation(Cut(1, layers=("b",))),), "keep_out_layers": ("b",)},
+            "Layer 'b' is to be machined and to be kept",
+        ),
+    ],
+)
 def test_layers_that_cannot_be(changes: dict[str, object], words: str) -> None:
     part = layered_part({"a": [square()], "b": [square(5, 50)], "c": []})
     with pytest.raises(ParameterError, match=words):
@@ -105,10 +111,18 @@ def test_copies_are_moved_and_clamps_are_not() -> None:
     assert centres == {(5.0 + 20 * i, 5.0 - 30 * j) for i in range(3) for j in range(2)}
 
 
-@pytest.mark.parametrize(("copies", "meet"), [
-    (Copies(2, 1, 10.0), True), (Copies(2, 1, 9.0), True), (Copies(2, 1, 10.1), False), (Copies(1, 2, 0.0, -10.0), True),
-    (Copies(1, 2, 0.0, -10.1), False), (Copies(2, 2, 11.0, 11.0), False), (Copies(3, 1, 4.0), True),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("copies", "meet"),
+    [
+        (Copies(2, 1, 10.0), True),
+        (Copies(2, 1, 9.0), True),
+        (Copies(2, 1, 10.1), False),
+        (Copies(1, 2, 0.0, -10.0), True),
+        (Copies(1, 2, 0.0, -10.1), False),
+        (Copies(2, 2, 11.0, 11.0), False),
+        (Copies(3, 1, 4.0), True),
+    ],
+)
 def test_copies_that_meet_are_told(copies: Copies, meet: bool) -> None:
     parts = drawn(Job(layered_part({"a": [square(10)]}), copies=copies))
     assert parts.crossing is meet

@@ -38,18 +38,29 @@ def heights(moves: Moves, purpose: Purpose = Purpose.POCKET) -> list[float]:
     return list(dict.fromkeys(moves.end[moves.purpose == purpose, 2].round(9).tolist()))
 
 
-@pytest.mark.parametrize(("depth", "step", "finish", "expected"), [
-    (6.0, 2.0, 0.0, (-2, -4, -6)), (5.0, 2.0, 0.0, (-5 / 3, -10 / 3, -5)), (6.0, 2.0, 0.3, (-1.9, -3.8, -5.7, -6)),
-    (2.0, 5.0, 0.0, (-2,)), (2.0, 5.0, 0.5, (-1.5, -2)), (0.3, 0.1, 0.0, (-0.1, -0.2, -0.3)),
-])  # fmt: skip
-def test_passes_are_equal_but_for_the_one_that_finishes(depth: float, step: float, finish: float, expected: tuple[float, ...]) -> None:
+@pytest.mark.parametrize(
+    ("depth", "step", "finish", "expected"),
+    [
+        (6.0, 2.0, 0.0, (-2, -4, -6)),
+        (5.0, 2.0, 0.0, (-5 / 3, -10 / 3, -5)),
+        (6.0, 2.0, 0.3, (-1.9, -3.8, -5.7, -6)),
+        (2.0, 5.0, 0.0, (-2,)),
+        (2.0, 5.0, 0.5, (-1.5, -2)),
+        (0.3, 0.1, 0.0, (-0.1, -0.2, -0.3)),
+    ],
+)
+def test_passes_are_equal_but_for_the_one_that_finishes(
+    depth: float, step: float, finish: float, expected: tuple[float, ...]
+) -> None:
     found = pass_heights(depth, step, finish)
     assert found == pytest.approx(expected) and found[-1] == -depth
     assert max(np.diff((0.0, *(-z for z in found)))) <= step + 1e-9
 
 
 def test_the_floor_is_left_as_thick_as_asked() -> None:
-    moves = emitted(setting_of(operation=deep(6.0, 3.0, floor_to_leave=0.5, finish_depth=0.25)), [path([(20, 20), (60, 20)])])
+    moves = emitted(
+        setting_of(operation=deep(6.0, 3.0, floor_to_leave=0.5, finish_depth=0.25)), [path([(20, 20), (60, 20)])]
+    )
     assert heights(moves) == pytest.approx([-2.625, -5.25, -5.5])
 
 
@@ -90,8 +101,12 @@ def test_no_way_leads_past_a_wall_nearer_than_a_path() -> None:
     sheet = setting.sheets.of(setting.job.operations[0])
     assert sheet is not None
     ground = Ground(TOOL, Entry(), sheet.distances, 3.0, True, Direction.CLIMB, setting.cleared)
-    assert not keeps_off_walls((10.0, 25.0), (30.0, 25.0), ground) and not keeps_off_walls((10.0, 28.0), (30.0, 28.0), ground)
-    assert keeps_off_walls((10.0, 28.02), (30.0, 28.02), ground) and not keeps_off_walls((4.0, 4.0), (4.0, 62.0), ground)
+    assert not keeps_off_walls((10.0, 25.0), (30.0, 25.0), ground) and not keeps_off_walls(
+        (10.0, 28.0), (30.0, 28.0), ground
+    )
+    assert keeps_off_walls((10.0, 28.02), (30.0, 28.02), ground) and not keeps_off_walls(
+        (4.0, 4.0), (4.0, 62.0), ground
+    )
 
 
 def test_strokes_side_by_side_are_joined_over_cut_ground() -> None:
@@ -105,7 +120,10 @@ def test_strokes_side_by_side_are_joined_over_cut_ground() -> None:
 def test_a_lead_in_is_gone_back_to_along_the_path_that_passes_it_again() -> None:
     ring = [(50.0, 20.0), (80.0, 20.0), (80.0, 80.0), (20.0, 80.0), (20.0, 20.0), (50.5, 20.0)]
     body = path(ring, Purpose.CONTOUR)
-    lead_in, lead_out = path([(47.0, 23.0), (50.0, 20.0)], Purpose.LEAD), path([(50.5, 20.0), (58.0, 27.0)], Purpose.LEAD)
+    lead_in, lead_out = (
+        path([(47.0, 23.0), (50.0, 20.0)], Purpose.LEAD),
+        path([(50.5, 20.0), (58.0, 27.0)], Purpose.LEAD),
+    )
     stroke = lead_in.and_then(body).and_then(lead_out)
     moves = emitted(setting_of(operation=contour_operation(depth=6.0, stepdown=2.0)), [stroke])
     assert lifts(moves) == 1
@@ -125,7 +143,10 @@ def test_tabs_are_gone_over_and_stepped_straight() -> None:
     assert not np.any(low & over)
     steps = (moves.end[:, 2] != moves.start[:, 2]) & (moves.kind == MoveKind.LINE)
     assert np.all(moves.end[steps, :2] == moves.start[steps, :2])
-    assert moves.feed[steps & (moves.end[:, 2] < moves.start[:, 2]) & (moves.start[:, 0] == 46)].tolist() == [200.0, 200.0]
+    assert moves.feed[steps & (moves.end[:, 2] < moves.start[:, 2]) & (moves.start[:, 0] == 46)].tolist() == [
+        200.0,
+        200.0,
+    ]
 
 
 def test_arcs_under_a_tab_stay_apart_and_others_become_one() -> None:
@@ -142,7 +163,9 @@ def test_arcs_under_a_tab_stay_apart_and_others_become_one() -> None:
 def test_what_is_for_the_floor_is_cut_there_alone_and_what_follows_stays_behind() -> None:
     rough, finish = path([(20, 20), (60, 20)], Purpose.CONTOUR), path([(20, 21), (60, 21)], Purpose.LEAD)
     far = path([(20, 80), (60, 80)], Purpose.TAB)
-    moves = emitted(setting_of(operation=deep()), [rough, replace(finish, at_floor=True, follows=True), replace(far, rank=-1)])
+    moves = emitted(
+        setting_of(operation=deep()), [rough, replace(finish, at_floor=True, follows=True), replace(far, rank=-1)]
+    )
     cuts = [Purpose(p) for p in moves.purpose.tolist() if p in (Purpose.CONTOUR, Purpose.LEAD, Purpose.TAB)]
     assert cuts == [Purpose.TAB] * 3 + [Purpose.CONTOUR] * 3 + [Purpose.LEAD]
     assert heights(moves, Purpose.LEAD) == [-6]
@@ -155,7 +178,9 @@ def test_where_everything_is_cut_no_metal_is_entered() -> None:
     again = emitted(setting, [loop(square(40, 20, 20), Purpose.POCKET)]).part(count, 10_000)
     assert not np.any((again.purpose == Purpose.PLUNGE) & (np.hypot(*(again.end - again.start)[:, :2].T) > 0))
     fast = (again.purpose == Purpose.PLUNGE) & (again.start[:, 2] > -1)
-    assert again.feed[fast].tolist() == [600.0] and again.end[fast, 2].tolist() == [-1.0]  # slowly only over the last 1 mm
+    assert again.feed[fast].tolist() == [600.0] and again.end[fast, 2].tolist() == [
+        -1.0
+    ]  # slowly only over the last 1 mm
     low = again.kind == MoveKind.RAPID
     assert np.all((again.end[low, 2] >= 1.0) | (again.end[low, 2] > again.start[low, 2]))
 
@@ -163,7 +188,9 @@ def test_where_everything_is_cut_no_metal_is_entered() -> None:
 def test_every_pass_cuts_all_of_every_stroke() -> None:
     strokes = [loop(square(20, 10 + 25 * i, 10 + 25 * j), Purpose.POCKET) for i in range(3) for j in range(3)]
     moves = emitted(setting_of(operation=deep()), strokes)
-    assert moves.lengths()[moves.purpose == Purpose.POCKET].sum() == pytest.approx(3 * sum(lengths(s.rows).sum() for s in strokes))
+    assert moves.lengths()[moves.purpose == Purpose.POCKET].sum() == pytest.approx(
+        3 * sum(lengths(s.rows).sum() for s in strokes)
+    )
 
 
 @pytest.mark.exhaustive

@@ -1,4 +1,6 @@
-"""Engagement against closed forms, against one-dimensional arithmetic, and against exact distances to every earlier move."""
+"""Engagement against closed forms, against one-dimensional arithmetic, and against exact distances to every earlier
+move.
+"""
 
 from __future__ import annotations
 
@@ -114,7 +116,9 @@ def test_a_ring_outside_of_one_and_inside_of_one(ccw: bool) -> None:
         angle = math.acos(cosine) if second > first else math.acos(-cosine)
         seen = look(path.program(PLATE), JOB)
         inside = seen.share[(seen.first > seen.begin[8] + R) & (seen.last < seen.end[8] - 2.5 * R)]
-        curved = seen.pitches[1] / (2 * second)  # the rim is looked at a little inside, where it meets the round edge elsewhere
+        curved = seen.pitches[1] / (
+            2 * second
+        )  # the rim is looked at a little inside, where it meets the round edge elsewhere
         assert np.abs(inside - share_of(angle)).max() <= seen.bound(1) + curved
 
 
@@ -138,7 +142,16 @@ def test_cuts_above_the_stock_and_straight_down_take_nothing() -> None:
 
 
 def test_ramps_and_helices_are_slots_until_they_run_in_their_own_way() -> None:
-    path = Path().rapid(0, 0, 5).rapid(0, 0, 0.5).line(10, 0, -1).line(0, 0, -2).line(10, 0, -2).line(0, 0, -2).out_of_work()
+    path = (
+        Path()
+        .rapid(0, 0, 5)
+        .rapid(0, 0, 0.5)
+        .line(10, 0, -1)
+        .line(0, 0, -2)
+        .line(10, 0, -2)
+        .line(0, 0, -2)
+        .out_of_work()
+    )
     assert shares(path)[[2, 3, 4, 5]] == pytest.approx([1, 1, 1, 0], abs=bound(path))
     path = Path().rapid(2, 0, 5).rapid(2, 0, 0)
     for z in (-1, -2, -2, -2):
@@ -175,7 +188,11 @@ def test_passes_side_by_side_against_intervals_on_a_line() -> None:
 def fig2_program() -> tuple[Program, Job]:
     from tests.operations.test_compute import job_of
 
-    made = job_of(fig2(), operations=(PocketOperation(Cut(1, 2.0, 1.0), stepover=4.8), ContourOperation(Cut(2))), stock=Stock(1.0, 10.0))
+    made = job_of(
+        fig2(),
+        operations=(PocketOperation(Cut(1, 2.0, 1.0), stepover=4.8), ContourOperation(Cut(2))),
+        stock=Stock(1.0, 10.0),
+    )
     return compute(made), made
 
 
@@ -183,7 +200,9 @@ def test_a_job_against_exact_distances_to_every_earlier_move() -> None:
     program, made = fig2_program()
     moves, rows = program.moves, move_rows(program.moves)
     seen, box = look(program, made), stock_box(made, program.regions, program.lines)
-    owner = np.repeat(np.arange(len(moves)), np.maximum(2, moves.lengths() / 0.05).astype(int) * (moves.kind != MoveKind.RAPID))
+    owner = np.repeat(
+        np.arange(len(moves)), np.maximum(2, moves.lengths() / 0.05).astype(int) * (moves.kind != MoveKind.RAPID)
+    )
     when = np.concatenate([np.linspace(0, 1 - 1e-9, n) for n in np.unique(owner, return_counts=True)[1]])
     spots, deep = points_at(rows[owner], when), (moves.start[owner, 2] * (1 - when) + moves.end[owner, 2] * when)
     radius = np.array([made.tool(int(number)).radius for number in moves.tool[owner]])
@@ -195,7 +214,8 @@ def test_a_job_against_exact_distances_to_every_earlier_move() -> None:
         here, on = points_at(rows[[move, move]], np.array([at, min(at + 1e-4, 1.0) if at < 0.9 else at - 1e-4]))
         ahead = (on - here) * (1 if at < 0.9 else -1)
         rim = here + made.tool(int(moves.tool[move])).radius * 1.0001 * np.column_stack(
-            [np.cos(angle + math.atan2(ahead[1], ahead[0])), np.sin(angle + math.atan2(ahead[1], ahead[0]))])
+            [np.cos(angle + math.atan2(ahead[1], ahead[0])), np.sin(angle + math.atan2(ahead[1], ahead[0]))]
+        )
         near = np.array(tree.query_ball_point(here, 6.1))
         z = moves.start[move, 2] * (1 - at) + moves.end[move, 2] * at
         earlier = near[(owner[near] + when[near] < move + at) & (deep[near] <= z + 1e-3)]
@@ -229,7 +249,16 @@ def test_what_is_seen_does_not_depend_on_how_moves_are_cut_in_pieces() -> None:
 
 def test_corners_ends_and_what_goes_straight_down_are_cut_where_they_are() -> None:
     """Cells are looked at in their middles only; there alone the field would lack the tips of the path."""
-    path = Path().into_work(0, 0).line(10, 0, -1).line(2, 1, -2).line(4, 1, -2).arc((4, 5, -2), (4, 3)).out_of_work().into_work(9, 9, -3)
+    path = (
+        Path()
+        .into_work(0, 0)
+        .line(10, 0, -1)
+        .line(2, 1, -2)
+        .line(4, 1, -2)
+        .arc((4, 5, -2), (4, 3))
+        .out_of_work()
+        .into_work(9, 9, -3)
+    )
     found = places(path.moves(), np.array([2, 3, 4, 5, 6, 10]), R)
     still = found.rows[:-1][~found.rows[:-1, 4:].any(axis=1)]
     assert still[:, :3].tolist() == [[0, 0, -1], [0, 0, -1], [10, 0, -1], [2, 1, -2], [4, 5, -2], [9, 9, -3]]
@@ -249,7 +278,9 @@ def test_long_paths_are_looked_at_in_runs(monkeypatch: pytest.MonkeyPatch) -> No
     parts = look(program, made)
     assert len(list(engagement_places.runs(program.moves, {1: R / 8, 2: R / 16}))) > 4
     assert np.array_equal(whole.share, parts.share) and np.array_equal(whole.owner, parts.owner)
-    assert np.array_equal(np.diff(whole.block), np.diff(parts.block)) and np.allclose(whole.last - whole.first, parts.last - parts.first)
+    assert np.array_equal(np.diff(whole.block), np.diff(parts.block)) and np.allclose(
+        whole.last - whole.first, parts.last - parts.first
+    )
 
 
 def test_little_memory_makes_it_coarser_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -313,8 +344,11 @@ def test_a_real_drawing(data: object) -> None:
     from pathlib import Path as FilePath
 
     path = FilePath(str(data)) / "dxf" / "gear.dxf"
-    made = Job(read_drawing(path.name, path.read_bytes(), None, ()).part, (Tool(1, 2.0), Tool(2, 1.0)),
-               (PocketOperation(Cut(1), stepover=1.0), ContourOperation(Cut(2))))
+    made = Job(
+        read_drawing(path.name, path.read_bytes(), None, ()).part,
+        (Tool(1, 2.0), Tool(2, 1.0)),
+        (PocketOperation(Cut(1), stepover=1.0), ContourOperation(Cut(2))),
+    )
     program = compute(made)
     found = engagement(program, made)
     assert found.most == 1 and 0 < found.above(0.9, 0) < 0.8

@@ -39,7 +39,10 @@ def slot(x0: float = -20.0, x1: float = 20.0, y: float = 0.0, path: Path | None 
 
 
 def same(a: Moves, b: Moves) -> bool:
-    return all(np.array_equal(one, other, equal_nan=True) for one, other in zip(a.columns().values(), b.columns().values(), strict=True))
+    return all(
+        np.array_equal(one, other, equal_nan=True)
+        for one, other in zip(a.columns().values(), b.columns().values(), strict=True)
+    )
 
 
 def origin(before: Moves, after: Moves) -> np.ndarray:
@@ -179,13 +182,18 @@ def test_many_short_places_of_metal_make_no_crumbs() -> None:
     assert len(after) - len(path.rows) < 12
 
 
-steps = st.lists(st.tuples(st.floats(-30, 30), st.floats(-30, 30), st.floats(-3, -0.5), st.sampled_from(["line", "arc", "lift"])),
-                 min_size=3, max_size=12)
+steps = st.lists(
+    st.tuples(st.floats(-30, 30), st.floats(-30, 30), st.floats(-3, -0.5), st.sampled_from(["line", "arc", "lift"])),
+    min_size=3,
+    max_size=12,
+)
 
 
 @settings(max_examples=examples(60), deadline=None)
 @given(steps, st.floats(0.1, 0.9), st.sampled_from([0.7, 2.0, 6.0]))
-def test_whatever_the_path_it_stays_and_is_slowed_once(steps: list[tuple[float, float, float, str]], limit: float, diameter: float) -> None:
+def test_whatever_the_path_it_stays_and_is_slowed_once(
+    steps: list[tuple[float, float, float, str]], limit: float, diameter: float
+) -> None:
     path = Path().into_work(0, 0)
     x = y = 0.0
     for to_x, to_y, z, kind in steps:
@@ -205,8 +213,14 @@ def test_whatever_the_path_it_stays_and_is_slowed_once(steps: list[tuple[float, 
 def test_real_drawings(data: FilePath, name: str) -> None:
     path = data / "dxf" / f"{name}.dxf"
     small = 3.0 if name == "fig2" else 1.0
-    made = Job(read_drawing(path.name, path.read_bytes(), None, ()).part, (Tool(1, 2 * small), Tool(2, small)),
-               (PocketOperation(Cut(1, 2.0, 1.0), stepover=1.5 * small, most_engaged=0.5), ContourOperation(Cut(2), most_engaged=0.4)))
+    made = Job(
+        read_drawing(path.name, path.read_bytes(), None, ()).part,
+        (Tool(1, 2 * small), Tool(2, small)),
+        (
+            PocketOperation(Cut(1, 2.0, 1.0), stepover=1.5 * small, most_engaged=0.5),
+            ContourOperation(Cut(2), most_engaged=0.4),
+        ),
+    )
     program = compute(made)
     after = check(program, made)
     assert 0 < len(after.moves) - len(program.moves) < len(program.moves)

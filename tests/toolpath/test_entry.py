@@ -27,13 +27,17 @@ STEEP = math.radians(3)
 INNER = [(30.0, 50.0), (70.0, 50.0)]
 
 
-def cutting(kind: EntryKind, contours: Sequence[Contour] = (square(100),), angle: float = STEEP, **cut: object) -> Setting:
+def cutting(
+    kind: EntryKind, contours: Sequence[Contour] = (square(100),), angle: float = STEEP, **cut: object
+) -> Setting:
     return setting_of(contours, PocketOperation(Cut(1, entry=Entry(kind, angle), **cut)))  # type: ignore[arg-type]
 
 
 def ways_in(moves: Moves) -> np.ndarray:
     """Moves of entries that go sideways too."""
-    return (moves.purpose == Purpose.PLUNGE) & ((moves.kind >= MoveKind.ARC_CW) | (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0))
+    return (moves.purpose == Purpose.PLUNGE) & (
+        (moves.kind >= MoveKind.ARC_CW) | (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0)
+    )
 
 
 def steepness(moves: Moves) -> np.ndarray:
@@ -114,7 +118,9 @@ def test_a_ramp_on_an_open_path_returns_to_its_beginning() -> None:
     chosen = np.flatnonzero(ways_in(moves))
     assert len(chosen) == 2 and moves.end[chosen[-1]].tolist() == [30.0, 50.0, -2.0]
     assert np.all(moves.end[chosen, 1] == 50.0) and not told(setting)
-    assert steepness(moves) == pytest.approx([math.tan(STEEP)] * 2, rel=2e-2)  # the turning point may be a crumb farther
+    assert steepness(moves) == pytest.approx(
+        [math.tan(STEEP)] * 2, rel=2e-2
+    )  # the turning point may be a crumb farther
     assert moves.end[chosen[-1] + 1].tolist() == [70.0, 50.0, -2.0]  # the ramp's ground is cut again, level
 
 
@@ -124,14 +130,18 @@ def test_a_short_path_is_ramped_to_and_fro_and_one_shorter_than_the_cutter_plung
     assert int(ways_in(moves).sum()) == 2 * math.ceil(2.2 / math.tan(STEEP) / 8)
     short = cutting(EntryKind.RAMP)
     moves = emitted(short, [path([(30, 50), (31, 50)])])
-    assert not ways_in(moves).any() and "1 entry is straight down as no ramp fits, at (30.000, 50.000)" in told(short)[0]
+    assert (
+        not ways_in(moves).any() and "1 entry is straight down as no ramp fits, at (30.000, 50.000)" in told(short)[0]
+    )
 
 
 def test_a_ramp_round_a_closed_path_ends_where_the_level_cut_begins() -> None:
     setting = cutting(EntryKind.RAMP, depth=4.0, stepdown=2.0)
     moves = emitted(setting, [loop(circle(4, 50, 50), Purpose.POCKET)])
     chosen = ways_in(moves)
-    assert np.allclose(np.hypot(*(moves.end[chosen, :2] - 50).T), 4.0) and np.all(moves.kind[chosen] == MoveKind.ARC_CCW)
+    assert np.allclose(np.hypot(*(moves.end[chosen, :2] - 50).T), 4.0) and np.all(
+        moves.kind[chosen] == MoveKind.ARC_CCW
+    )
     level = np.abs(moves.sweeps()[moves.purpose == Purpose.POCKET])
     assert level.sum() == pytest.approx(2 * math.tau)  # all round at both depths
     assert int(((moves.kind == MoveKind.RAPID) & (moves.start[:, 2] < 0)).sum()) == 1

@@ -1,4 +1,6 @@
-"""Leads: tangent, clear of everything along all of their length, smaller where there is no room, and away from corners."""
+"""Leads: tangent, clear of everything along all of their length, smaller where there is no room, and away from
+corners.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ from tests.operations.contour_jobs import about, contour_job, outside, rows_of, 
 from tests.part_shapes import circle, fig2, random_part, square
 
 
-def runs_of(job: Job, lead: Lead = Lead(), taken: list[tuple[float, float]] | None = None) -> tuple[tuple[Run, ...], Around]:
+def runs_of(
+    job: Job, lead: Lead = Lead(), taken: list[tuple[float, float]] | None = None
+) -> tuple[tuple[Run, ...], Around]:
     sheet, tool = sheet_of(job), job.tools[0]
     cut = job.operations[0].cut
     need = tool.radius + cut.stock_to_leave
@@ -53,7 +57,9 @@ def test_quarter_arcs_are_tangent_and_half_the_diameter_wide(direction: Directio
     for way in (run.way_in, run.way_out):
         assert lengths(way).sum() == pytest.approx(1.5 * math.pi / 2) and way[0, 6] == pytest.approx(1.5)
     at = run.path.headings(np.array([run.start, run.stop]))
-    assert ends(run.way_in)[1][0] == pytest.approx(at[0], abs=1e-9) and ends(run.way_out)[0][0] == pytest.approx(at[1], abs=1e-9)
+    assert ends(run.way_in)[1][0] == pytest.approx(at[0], abs=1e-9) and ends(run.way_out)[0][0] == pytest.approx(
+        at[1], abs=1e-9
+    )
     assert run.way_in[0, 2:4] == pytest.approx(run.path.points(np.array([run.start]))[0], abs=1e-12)
     assert run.stop - run.start == pytest.approx(run.path.length + 0.5)
     assert ends(run.way_in)[0][0] @ at[0] == pytest.approx(0, abs=1e-9)
@@ -95,7 +101,10 @@ def test_leads_keep_off_clamps_on_both_sides_of_the_wall() -> None:
     assert made
     for run in made:
         for way in (run.way_in, run.way_out):
-            assert plain_distance.distance(np.concatenate([sample(way, 1e-6), way[:, 2:4]]), clamps).min() >= around.need - 2e-6
+            assert (
+                plain_distance.distance(np.concatenate([sample(way, 1e-6), way[:, 2:4]]), clamps).min()
+                >= around.need - 2e-6
+            )
 
 
 def test_where_a_quarter_arc_does_not_fit_it_is_smaller_then_straight_then_left_out() -> None:
@@ -105,7 +114,9 @@ def test_where_a_quarter_arc_does_not_fit_it_is_smaller_then_straight_then_left_
     assert only([circle(2.2)], Lead()).share == 0.25 and only([circle(2.2)], Lead()).bent  # in a path of 0.7 mm
     assert only([circle(1.6)], Lead()).share == 0.125 and not only([circle(1.6)], Lead()).bent
     assert only([circle(1.51)], Lead()).share == 0  # the path is a circle of 0.01 mm
-    assert only([square(40)], Lead(radius=500.0)).share * 500 == 15.625  # the largest half of a half that a square of 37 mm holds
+    assert (
+        only([square(40)], Lead(radius=500.0)).share * 500 == 15.625
+    )  # the largest half of a half that a square of 37 mm holds
     line = only([square(40)], Lead(LeadKind.LINE, 36.9))
     assert not line.bent and line.share == 1 and lengths(line.way_in).sum() == pytest.approx(36.9)
     assert only([square(40)], Lead(LeadKind.NONE)).share == 0
@@ -114,7 +125,12 @@ def test_where_a_quarter_arc_does_not_fit_it_is_smaller_then_straight_then_left_
 def test_what_does_not_fit_is_told_once() -> None:
     made, around = runs_of(contour_job([circle(1.51), circle(1.51, 20, 0), circle(2.2, 40, 0), square(40, 60, 0)]))
     (finding,) = about_leads(made, around)
-    assert "Of 4 paths" in finding.text and " 1 has smaller" in finding.text and "2 have no leads" in finding.text and not finding.counts
+    assert (
+        "Of 4 paths" in finding.text
+        and " 1 has smaller" in finding.text
+        and "2 have no leads" in finding.text
+        and not finding.counts
+    )
     assert about_leads(made[3:], around) == []
     assert about_leads(made, replace(around, lead=Lead(LeadKind.NONE))) == []
 
@@ -136,7 +152,11 @@ def test_leads_of_any_length_fit_outside_where_no_wall_or_clamp_is(kind: LeadKin
 def test_an_overlap_longer_than_half_the_path_is_told() -> None:
     made, around = runs_of(contour_job([circle(2.5), square(40, 20, 0)]), Lead(overlap=4.0))
     (finding,) = about_overlaps(made, around)
-    assert "Of 2 paths" in finding.text and "1 goes on over the beginning by half the length" in finding.text and not finding.counts
+    assert (
+        "Of 2 paths" in finding.text
+        and "1 goes on over the beginning by half the length" in finding.text
+        and not finding.counts
+    )
     assert about_overlaps(*runs_of(contour_job([circle(2.5)]), Lead(overlap=3.0))) == []
     inner = replace(outside(lead=Lead(overlap=4.0)), side=Side.INSIDE)
     assert about(compute(contour_job([circle(2.5)], inner)), "less than the 4 mm asked for")
@@ -154,7 +174,11 @@ def test_keep_clear_agrees_with_dense_sampling(need: float, reach: float, angle:
     sheet = sheet_of(contour_job(contours))
     begin = np.array([30.0, 10.0 + off])
     row = np.array([[*begin, *(begin + reach * np.array([math.cos(angle), math.sin(angle)])), 0, 0, 0, 0]])
-    least = float(plain_distance.distance(row[:, :2] + np.linspace(0, 1, 4001)[:, None] * (row[:, 2:4] - row[:, :2]), contours).min())
+    least = float(
+        plain_distance.distance(
+            row[:, :2] + np.linspace(0, 1, 4001)[:, None] * (row[:, 2:4] - row[:, :2]), contours
+        ).min()
+    )
     told = bool(keep_clear(sheet.distances, row, np.array([need]))[0])
     assert told == (least >= need) or abs(least - need) < 1e-2
     assert not told or least >= need - 1e-5

@@ -27,7 +27,9 @@ def job(letters: str, *operations: Operation) -> Job:
 
 @pytest.mark.parametrize("letters", ["O", "ABO8&%", "".join(sorted(engraving().glyphs))])
 def test_no_letter_changes_what_is_cleared(letters: str) -> None:
-    """Letters close, cross and meet in threes, and all the same the plate is whole; one remark says that nobody follows them."""
+    """Letters close, cross and meet in threes, and all the same the plate is whole; one remark says that nobody follows
+    them.
+    """
     written, plain = (job(words, PocketOperation(Cut(1))) for words in (letters, ""))
     parts = drawn(written)
     assert machined(parts).regions == machined(drawn(plain)).regions
@@ -53,13 +55,17 @@ def test_closed_strokes_are_open_lines_that_end_where_they_begin() -> None:
     ((right, left),) = (line.primitives for line in lines)
     assert isinstance(right, Arc) and isinstance(left, Arc) and not lines[0].closed and not right.ccw
     assert right.start == left.end == (5.0, 2.0) and right.end == left.start == (-3.0, 2.0)
-    assert [f.text for f in findings] == ["Layer words has 1 stroke of a letter, which bounds nothing and that no operation follows; "
-                                          "--side on engraves along them."]
+    assert [f.text for f in findings] == [
+        "Layer words has 1 stroke of a letter, which bounds nothing and that no operation follows; "
+        "--side on engraves along them."
+    ]
     assert strokes_of([], 0.01) == ((), [])
 
 
 def test_letters_on_a_layer_of_clamps_keep_nothing_off() -> None:
     written = job("O", PocketOperation(Cut(1)))
-    part = replace(written.part, entities=tuple(replace(e, layer="clamps") if e.lettering else e for e in written.part.entities))
+    part = replace(
+        written.part, entities=tuple(replace(e, layer="clamps") if e.lettering else e for e in written.part.entities)
+    )
     part = replace(part, layers=(*part.layers, replace(part.layers[0], name="clamps")))
     assert drawn(replace(written, part=part, keep_out_layers=("clamps",), keep_out_height=5.0)).clamps == ()

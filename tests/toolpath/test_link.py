@@ -24,8 +24,13 @@ from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
 
 
-def pocket(contours: list[Contour], outermost: float, step: float, direction: Direction = Direction.CLIMB,
-           crossing: bool = False) -> tuple[tuple[Level, ...], tuple[Stroke, ...]]:
+def pocket(
+    contours: list[Contour],
+    outermost: float,
+    step: float,
+    direction: Direction = Direction.CLIMB,
+    crossing: bool = False,
+) -> tuple[tuple[Level, ...], tuple[Stroke, ...]]:
     primitives = pack(nest(without_crossings(contours).contours if crossing else contours))
     field = DistanceField.of(primitives.rows)
     distances = pocket_distances(outermost, step, field)
@@ -67,7 +72,10 @@ def test_rings_round_many_islands_are_one_stroke() -> None:
 
 
 def test_a_narrow_neck_makes_two_strokes() -> None:
-    right, left = [(20, 0), (20, 9), (30, 9), (30, 0), (50, 0)], [(50, 20), (30, 20), (30, 11), (20, 11), (20, 20), (0, 20)]
+    right, left = (
+        [(20, 0), (20, 9), (30, 9), (30, 0), (50, 0)],
+        [(50, 20), (30, 20), (30, 11), (20, 11), (20, 20), (0, 20)],
+    )
     bone = [polygon_contour([(0, 0), *right, *left])]
     levels, strokes = pocket(bone, 2.0, 1.5)
     check(levels, strokes, bone)
@@ -109,4 +117,6 @@ def test_a_closed_path_started_elsewhere_is_the_same_path() -> None:
     rows = pocket([square(20), circle(2, 10, 10)], 2.0, 1.0)[0][0].rings[0].rows
     for index, fraction in ((0, 0.5), (len(rows) - 1, 0.25), (2, 0.0), (1, 1.0)):
         moved = started_at(rows, index, fraction)
-        assert signed_area(moved) == pytest.approx(signed_area(rows)) and np.allclose(moved[0, :2], moved[-1, 2:4], atol=1e-12)
+        assert signed_area(moved) == pytest.approx(signed_area(rows)) and np.allclose(
+            moved[0, :2], moved[-1, 2:4], atol=1e-12
+        )

@@ -1,4 +1,6 @@
-"""Slants: excursions that leave a piece of a ring out cut all of it themselves, and make the path no longer than its rings need."""
+"""Slants: excursions that leave a piece of a ring out cut all of it themselves, and make the path no longer than its
+rings need.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +91,9 @@ def test_rings_farther_apart_than_the_radius_are_all_cut_whole() -> None:
     assert cut >= rings(made) - 1e-6
 
 
-@pytest.mark.parametrize(("end", "step", "good"), [((0.0, 1.0), 1.0, True), ((0.0, 1.0), 0.2, False), ((0.0, 3.0), 1.0, False)])
+@pytest.mark.parametrize(
+    ("end", "step", "good"), [((0.0, 1.0), 1.0, True), ((0.0, 1.0), 0.2, False), ((0.0, 3.0), 1.0, False)]
+)
 def test_a_slant_covers_what_it_comes_near_to_all_of(end: tuple[float, float], step: float, good: bool) -> None:
     left = np.array([[-1.5, 0.0, 0.0, 0.0, 0, 0, 0, 0]])
     assert covers(np.array([-1.5, 0.0]), np.array(end), left, step) == good
@@ -101,11 +105,26 @@ def test_the_strip_beside_an_arc_is_covered_or_not_as_points_of_it_tell(turn: fl
     for radius in (0.3, 1.0, 4.0, 20.0):
         for part in (0.02, 0.1, 0.4):
             low, high = (0.0, part) if turn > 0 else (part, 0.0)
-            row = np.array([[radius * np.cos(low), radius * np.sin(low), radius * np.cos(high), radius * np.sin(high), 0, 0, radius, turn]])
+            row = np.array(
+                [
+                    [
+                        radius * np.cos(low),
+                        radius * np.sin(low),
+                        radius * np.cos(high),
+                        radius * np.sin(high),
+                        0,
+                        0,
+                        radius,
+                        turn,
+                    ]
+                ]
+            )
             inward = min(1.0, radius) if turn > 0 else 1.0
             start, end = row[0, :2], row[0, 2:4] * (1 - turn * inward / radius)
             angles, heights = np.meshgrid(np.linspace(0, part, 40), np.linspace(0, inward, 40))
-            points = np.stack([(radius - turn * heights) * np.cos(angles), (radius - turn * heights) * np.sin(angles)], -1).reshape(-1, 2)
+            points = np.stack(
+                [(radius - turn * heights) * np.cos(angles), (radius - turn * heights) * np.sin(angles)], -1
+            ).reshape(-1, 2)
             t = np.clip((points - start) @ (end - start) / ((end - start) @ (end - start)), 0, 1)
             worst = np.hypot(*(points - start - t[:, None] * (end - start)).T).max()
             if covers(start, end, row, 1.0):

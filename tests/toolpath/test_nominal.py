@@ -36,7 +36,14 @@ def outline(angle: float, corners: Sequence[tuple[float, float]], off: float = 0
 
 def slot(angle: float, off: float = 0.0) -> str:
     """A slot 20 mm from centre to centre."""
-    corners = [(-10, -WIDTH / 2), (10, -WIDTH / 2), (10 + WIDTH / 2, 0), (10, WIDTH / 2), (-10, WIDTH / 2), (-10 - WIDTH / 2, 0)]
+    corners = [
+        (-10, -WIDTH / 2),
+        (10, -WIDTH / 2),
+        (10 + WIDTH / 2, 0),
+        (10, WIDTH / 2),
+        (-10, WIDTH / 2),
+        (-10 - WIDTH / 2, 0),
+    ]
     a, b, c, d, e, f = (turned(angle, x, y, off) for x, y in corners)
     return f"line {a} {b}\narc {b} {c} {d}\nline {d} {e}\narc {e} {f} {a}\n"
 
@@ -67,10 +74,14 @@ def test_a_slot_as_wide_as_its_tool_far_from_zero(angle: float) -> None:
 
 @pytest.mark.parametrize(("angle", "off"), [(17.0, 0.0), (30.0, 500.0)])
 def test_rest_machining_goes_into_a_neck_as_wide_as_its_tool(angle: float, off: float) -> None:
-    """The larger tool clears the square; the neck is the smaller one's. What stays are six corners: four of the square, two of the neck."""
+    """The larger tool clears the square; the neck is the smaller one's. What stays are six corners: four of the square,
+    two of the neck.
+    """
     half = WIDTH / 2
     neck = [(0, 0), (20, 0), (20, 10 - half), (32, 10 - half), (32, 10 + half), (20, 10 + half), (20, 20), (0, 20)]
-    made = make("words.draw", outline(angle, neck, off).encode(), MakeOptions(pocket_diameter=6.0, contour_diameter=WIDTH))
+    made = make(
+        "words.draw", outline(angle, neck, off).encode(), MakeOptions(pocket_diameter=6.0, contour_diameter=WIDTH)
+    )
     assert made.coverage.reachable_left_mm2 == 0
     assert made.coverage.unreachable_mm2 == pytest.approx(6 * (1 - math.pi / 4) * half**2, abs=0.02)
     assert made.clean, [finding.text for finding in made.findings if finding.counts]
@@ -110,7 +121,11 @@ def test_a_tool_that_is_wider_by_more_does_not_fit() -> None:
 
 
 def narrow_words(made: Made) -> list[str]:
-    return [finding.text for finding in made.findings if finding.kind in (FindingKind.REGION_TOO_SMALL, FindingKind.NECK_TOO_NARROW)]
+    return [
+        finding.text
+        for finding in made.findings
+        if finding.kind in (FindingKind.REGION_TOO_SMALL, FindingKind.NECK_TOO_NARROW)
+    ]
 
 
 @pytest.mark.parametrize("width", [5.999, 5.9989, 5.998, 5.996])
@@ -124,7 +139,9 @@ def test_a_hole_that_is_too_small_is_told_to_be_smaller_than_the_tool_and_out_of
 def test_what_no_path_enters_is_out_of_reach_at_the_very_limit() -> None:
     """0.5 um of radius too large, to the last digit: the ring at that distance is one point, and nothing."""
     made = made_with(f"circle 0,0 10\ncircle 30,0 {3 - NOMINAL!r}\n", 6.0)
-    assert made.coverage.reachable_left_mm2 == 0 and made.coverage.unreachable_mm2 == pytest.approx(math.pi * 9, abs=0.05)
+    assert made.coverage.reachable_left_mm2 == 0 and made.coverage.unreachable_mm2 == pytest.approx(
+        math.pi * 9, abs=0.05
+    )
 
 
 @pytest.mark.parametrize("width", [6.0, 10.0])

@@ -1,4 +1,6 @@
-"""What is proven covered: against distances at many points, and that nothing stays in doubt where a path along the walls covers all."""
+"""What is proven covered: against distances at many points, and that nothing stays in doubt where a path along the
+walls covers all.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,10 @@ def test_next_to_nothing_is_in_doubt_along_walls_and_at_joints_of_lines(angle: f
     """But the inner corners, which no one line covers all round."""
     frame = affinity.rotate(shapely.LinearRing([(0, 0), (30, 0), (30, 20), (0, 20)]), angle, origin=(3.0, 5.0))
     rows = np.array(_line(*frame.coords))
-    assert shapely.union_all(uncertain(shapely.buffer(frame, RADIUS, quad_segs=200), [(rows, RADIUS)])).area < 4 * 4 * (RADIUS / 64) ** 2
+    assert (
+        shapely.union_all(uncertain(shapely.buffer(frame, RADIUS, quad_segs=200), [(rows, RADIUS)])).area
+        < 4 * 4 * (RADIUS / 64) ** 2
+    )
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3, 7])
@@ -79,10 +84,12 @@ def test_nothing_is_in_doubt_along_the_rim_at_a_corner_of_two_arcs() -> None:
     rows = np.array([_arc(0.0, 1.5, 6.0), _arc(1.5, 3.0, 6.0)])
     joint, turn = rows[0, 2:4], np.array([[0.0, 1.0], [-1.0, 0.0]])
     for k in (0, 2, 4):
-        rows[1, k:k + 2] = joint + turn @ (rows[1, k:k + 2] - joint)
+        rows[1, k : k + 2] = joint + turn @ (rows[1, k : k + 2] - joint)
     wanted = _swath(rows, RADIUS)
     squares = uncertain(wanted, [(rows, RADIUS)])
-    beyond = shapely.distance(squares, shapely.Point(joint)) < RADIUS - 0.5  # the bend inside of the corner, which two arcs cover together
+    beyond = (
+        shapely.distance(squares, shapely.Point(joint)) < RADIUS - 0.5
+    )  # the bend inside of the corner, which two arcs cover together
     assert shapely.area(squares[~beyond]).sum() < 0.002
 
 
@@ -111,16 +118,23 @@ def test_without_a_path_all_is_in_doubt() -> None:
 
 
 _STEP = st.tuples(st.floats(-6, 6), st.floats(-6, 6)).map(lambda at: (round(at[0], 2), round(at[1], 2)))
-_ROUND = st.tuples(st.floats(0, 6.2), st.floats(0.1, 6.2), st.sampled_from([0.5, 2.0, 4.0]), st.sampled_from([1.0, -1.0]))
+_ROUND = st.tuples(
+    st.floats(0, 6.2), st.floats(0.1, 6.2), st.sampled_from([0.5, 2.0, 4.0]), st.sampled_from([1.0, -1.0])
+)
 
 
-@given(points=st.lists(_STEP, min_size=2, max_size=6), arcs=st.lists(_ROUND, max_size=3), holes=st.lists(_STEP, max_size=3))
+@given(
+    points=st.lists(_STEP, min_size=2, max_size=6), arcs=st.lists(_ROUND, max_size=3), holes=st.lists(_STEP, max_size=3)
+)
 @settings(max_examples=examples(300), deadline=None)
-def test_what_is_not_in_doubt_is_covered(points: list[tuple[float, float]], arcs: list[tuple[float, float, float, float]],
-                                         holes: list[tuple[float, float]]) -> None:  # fmt: skip
+def test_what_is_not_in_doubt_is_covered(
+    points: list[tuple[float, float]], arcs: list[tuple[float, float, float, float]], holes: list[tuple[float, float]]
+) -> None:
     rows = np.array(_line(*points) + [_arc(a, a + turn * sweep, radius, turn) for a, sweep, radius, turn in arcs])
     reach = _swath(rows, 1.0)
-    wanted = reach.union(shapely.box(-3, -3, 3, 3)).difference(shapely.union_all([shapely.Point(at).buffer(0.7) for at in holes]))
+    wanted = reach.union(shapely.box(-3, -3, 3, 3)).difference(
+        shapely.union_all([shapely.Point(at).buffer(0.7) for at in holes])
+    )
     doubt = shapely.union_all(uncertain(wanted, [(rows, 1.0)]))
     spots = np.random.default_rng(1).uniform(-9, 9, (4000, 2))
     asked = spots[shapely.contains_xy(wanted, spots) & ~shapely.intersects_xy(doubt, spots)]

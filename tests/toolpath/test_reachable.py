@@ -43,7 +43,20 @@ def test_a_corner_is_out_of_reach_and_what_lies_beside_it_is_not() -> None:
 def two_rooms(width: float) -> list[Point]:
     """Two rooms with a passage between them."""
     low, high = 10 - width / 2, 10 + width / 2
-    return [(0, 0), (20, 0), (20, low), (40, low), (40, 0), (60, 0), (60, 20), (40, 20), (40, high), (20, high), (20, 20), (0, 20)]
+    return [
+        (0, 0),
+        (20, 0),
+        (20, low),
+        (40, low),
+        (40, 0),
+        (60, 0),
+        (60, 20),
+        (40, 20),
+        (40, high),
+        (20, high),
+        (20, 20),
+        (0, 20),
+    ]
 
 
 @pytest.mark.parametrize("width", [5.9985, 5.997, 5.992])

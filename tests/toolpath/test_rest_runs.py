@@ -52,7 +52,9 @@ def test_a_cutter_within_a_wider_path_cuts_air() -> None:
     assert ground.in_air(rows, 1.0).tolist() == [True, False, False, False]
 
 
-@pytest.mark.parametrize(("width", "seen"), [(0.0, False), (LEAST, False), (3 * LEAST, True), (0.05, True), (2.0, True)])
+@pytest.mark.parametrize(
+    ("width", "seen"), [(0.0, False), (LEAST, False), (3 * LEAST, True), (0.05, True), (2.0, True)]
+)
 def test_a_strip_is_found_when_a_disc_fits_in_it(width: float, seen: bool) -> None:
     """Two paths side by side leave a strip of so many mm between them."""
     ground = Ground.of([(line(-5, 5, 25, 5), 5.0), (line(-5, 15 + width, 25, 15 + width), 5.0)])

@@ -28,24 +28,30 @@ from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
 
 
-def rings(primitives: Primitives, first: float, stepover: float, radius: float) -> tuple[tuple[Level, ...], tuple[Level, ...]]:
+def rings(
+    primitives: Primitives, first: float, stepover: float, radius: float
+) -> tuple[tuple[Level, ...], tuple[Level, ...]]:
     """(levels, levels between them)."""
     distances = pocket_distances(first, stepover, DistanceField.of(primitives.rows))
     halves = between(distances, stepover, radius)
     each = sorted({*distances, *halves})
     found = dict(zip(each, offset_levels(primitives, each, frame=True), strict=True))
     levels = without_empty(tuple(found[distance] for distance in distances))
-    return levels, tuple(found[distance] for distance in halves)[:len(levels)]
+    return levels, tuple(found[distance] for distance in halves)[: len(levels)]
 
 
-def filled(contours: list[Contour], first: float, stepover: float, radius: float) -> tuple[tuple[Level, ...], Filling, DistanceField]:
+def filled(
+    contours: list[Contour], first: float, stepover: float, radius: float
+) -> tuple[tuple[Level, ...], Filling, DistanceField]:
     primitives = pack(nest(without_crossings(contours).contours))
     field = DistanceField.of(primitives.rows)
     levels, halves = rings(primitives, first, stepover, radius)
     return levels, fill(levels, halves, field, radius) if halves and levels else NOTHING, field
 
 
-def left_by_squares(levels: tuple[Level, ...], strokes: tuple[Stroke, ...], field: DistanceField, radius: float) -> float:
+def left_by_squares(
+    levels: tuple[Level, ...], strokes: tuple[Stroke, ...], field: DistanceField, radius: float
+) -> float:
     """Area whose squares' centres are farther than 2 um beyond what the strokes sweep, mm2."""
     left = uncut(field, levels[0], radius, [(stroke.rows, radius) for stroke in strokes]).thicker(2e-6)
     return float((4 * left.halves**2).sum())
@@ -54,8 +60,14 @@ def left_by_squares(levels: tuple[Level, ...], strokes: tuple[Stroke, ...], fiel
 def left_by_polygons(contours: list[Contour], first: float, strokes: tuple[Stroke, ...], radius: float) -> float:
     """Area of the opening without the strokes' swath, by the library's polygons, chords within a micrometre, mm2."""
     regions = region_shapes(nest(without_crossings(contours).contours), 1e-4)
-    reach = shapely.union_all(shapely.buffer(shapely.buffer(regions, -first - 2e-3, quad_segs=64), radius, quad_segs=64))
-    parts = [shapely.buffer(shapely.LineString(points), radius, quad_segs=64) for stroke in strokes for points in runs_of(stroke.rows)]
+    reach = shapely.union_all(
+        shapely.buffer(shapely.buffer(regions, -first - 2e-3, quad_segs=64), radius, quad_segs=64)
+    )
+    parts = [
+        shapely.buffer(shapely.LineString(points), radius, quad_segs=64)
+        for stroke in strokes
+        for points in runs_of(stroke.rows)
+    ]
     left = shapely.difference(reach, shapely.union_all(parts))
     return float(shapely.buffer(left, -2e-3).area)
 
@@ -126,7 +138,9 @@ def test_a_tip_between_two_corners_of_inner_rings_is_not_forgotten() -> None:
 
 @settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6), st.floats(1.0, 2.0), st.booleans())
-def test_random_parts_are_covered_in_one_stroke_an_area_and_no_wall_is_touched(seed: int, share: float, outside_in: bool) -> None:
+def test_random_parts_are_covered_in_one_stroke_an_area_and_no_wall_is_touched(
+    seed: int, share: float, outside_in: bool
+) -> None:
     check_random_part(seed, share, outside_in)
 
 

@@ -1,4 +1,6 @@
-"""Regions that are settled without polygons: told as the polygons tell them, and never where a path is missing or too near to a wall."""
+"""Regions that are settled without polygons: told as the polygons tell them, and never where a path is missing or too
+near to a wall.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ def _job(corners: bool) -> tuple[Program, Job]:
 
 def _both(program: Program, job: Job) -> tuple[Coverage, Coverage]:
     """What is measured with the moves that are clear told, and without."""
-    return measure_beside_clear(program, job, clear_moves(program.moves, gouge_depths(program, job), 1e-3)), measure(program, job)
+    return measure_beside_clear(program, job, clear_moves(program.moves, gouge_depths(program, job), 1e-3)), measure(
+        program, job
+    )
 
 
 def test_circles_are_settled_and_leave_nothing() -> None:
@@ -48,7 +52,9 @@ def test_circles_are_settled_and_leave_nothing() -> None:
     (wanted,) = quick.wanted
     assert wanted.floor is wanted.reach and wanted.out_of_reach is not None and wanted.beyond.is_empty
     assert quick.places == slow.places == ()
-    assert quick.area_mm2 == pytest.approx(slow.area_mm2, abs=1e-9) and quick.area_mm2 == pytest.approx(5 * np.pi * 16, rel=1e-3)
+    assert quick.area_mm2 == pytest.approx(slow.area_mm2, abs=1e-9) and quick.area_mm2 == pytest.approx(
+        5 * np.pi * 16, rel=1e-3
+    )
     assert quick.floor_mm == slow.floor_mm
 
 
@@ -68,7 +74,9 @@ def test_a_circle_without_its_paths_is_left() -> None:
     keep = (middle < 20) | (middle > 30)
     fewer = replace(program, moves=Moves(**{name: column[keep] for name, column in program.moves.columns().items()}))  # type: ignore[arg-type]
     quick, slow = _both(fewer, job)
-    assert quick.reachable_left_mm2 == pytest.approx(slow.reachable_left_mm2, abs=1e-6) and quick.reachable_left_mm2 > 45
+    assert (
+        quick.reachable_left_mm2 == pytest.approx(slow.reachable_left_mm2, abs=1e-6) and quick.reachable_left_mm2 > 45
+    )
 
 
 def test_moves_that_are_not_known_to_be_clear_settle_nothing() -> None:

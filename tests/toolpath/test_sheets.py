@@ -71,7 +71,13 @@ def test_clamps_are_taken_out(operation: ContourOperation) -> None:
     free = sheet({"a": PLATE}, operation)
     kept = sheet({"a": PLATE, "k": CLAMPS}, operation, keep_out_layers=("k",))
     wide = shapely.envelope(shape(kept.regions)) if operation is not INSIDE else shape(free.regions)
-    whole = shape(free.regions) if operation is INSIDE else shapely.union(shape(free.regions), wide) if operation is ON else None
+    whole = (
+        shape(free.regions)
+        if operation is INSIDE
+        else shapely.union(shape(free.regions), wide)
+        if operation is ON
+        else None
+    )
     if whole is None:
         whole = shapely.difference(wide, polygon(PLATE))
     assert shapely.symmetric_difference(shape(kept.regions), shapely.difference(whole, held)).area < 0.1
@@ -86,7 +92,11 @@ def test_random_parts_under_random_clamps(seed: int) -> None:
     clamps = []
     for _ in range(int(rng.integers(1, 6))):
         x, y = rng.uniform(x0, x1), rng.uniform(y0, y1)
-        clamps.append(circle(size * rng.uniform(0.03, 0.2), x, y) if rng.random() < 0.5 else square(size * rng.uniform(0.05, 0.3), x, y))
+        clamps.append(
+            circle(size * rng.uniform(0.03, 0.2), x, y)
+            if rng.random() < 0.5
+            else square(size * rng.uniform(0.05, 0.3), x, y)
+        )
     job = Job(layered_part({"a": contours, "k": clamps}), operations=(INSIDE,), keep_out_layers=("k",))
     made = Sheets(job, drawn(job)).of(INSIDE)
     wanted = shapely.difference(polygon(contours), shapely.union_all([polygon([clamp]) for clamp in clamps]))
@@ -97,7 +107,9 @@ def test_random_parts_under_random_clamps(seed: int) -> None:
 def test_what_follows_a_clamp_is_bare_and_walls_are_not() -> None:
     kept = sheet({"a": [square(60)], "k": [square(10, 20, 20), square(20, 50, 20)]}, INSIDE, keep_out_layers=("k",))
     middle = (kept.primitives.rows[:, :2] + kept.primitives.rows[:, 2:4]) / 2
-    outlines = shapely.union_all([shapely.boundary(polygon([each])) for each in (square(10, 20, 20), square(20, 50, 20))])
+    outlines = shapely.union_all(
+        [shapely.boundary(polygon([each])) for each in (square(10, 20, 20), square(20, 50, 20))]
+    )
     on_clamp = shapely.distance(outlines, shapely.points(middle)) < 1e-6
     assert (kept.bare == on_clamp).all()
     assert on_clamp.sum() == 7
@@ -148,13 +160,19 @@ def test_a_drill_stays_in_its_circles() -> None:
     tools = (Tool(1, 6.0), Tool(2, 3.0), Tool(3, 5.08))
     layers = {"a": [square(60), circle(2.5, 10, 10), circle(2.56, 30, 10), circle(8, 40, 40)]}
     (area,) = sheets(layers, operation, tools=tools).areas()
-    assert [(region.boundary.primitives[0].centre, region.boundary.primitives[0].radius) for region in area.regions] == [  # type: ignore[union-attr]
-        ((10, 10), 2.54), ((30, 10), 2.56)]  # fmt: skip
+    assert [
+        (region.boundary.primitives[0].centre, region.boundary.primitives[0].radius) for region in area.regions
+    ] == [  # type: ignore[union-attr]
+        ((10, 10), 2.54),
+        ((30, 10), 2.56),
+    ]
 
 
 def test_clamps_keep_the_area_apart_where_they_cut_it() -> None:
     bar = polygon_contour([(0, 0), (100, 0), (100, 10), (0, 10)])
-    (clamp,) = drawn(Job(layered_part({"k": [square(20, 40, -5)], "a": []}), operations=(), keep_out_layers=("k",))).clamps
+    (clamp,) = drawn(
+        Job(layered_part({"k": [square(20, 40, -5)], "a": []}), operations=(), keep_out_layers=("k",))
+    ).clamps
     regions = nest(without_outlines([bar], [clamp.boundary]).contours)
     assert [region.number for region in regions] == [1, 2]
     assert sorted(shape((region,)).area for region in regions) == pytest.approx([400, 400])

@@ -39,7 +39,9 @@ def test_climb_milling_has_the_metal_that_stays_on_the_right(side: Side, directi
     plate = shapely.difference(polygon(contours[0]), polygon(contours[1]))
     for path in paths_of(contour_job(contours, ContourOperation(Cut(2), side)), 1.5, direction):
         middle = points_at(path.rows, np.full(len(path.rows), 0.5))
-        aside = left_of(headings_at(path.rows, np.full(len(path.rows), 0.5))) * (1 if direction is Direction.CLIMB else -1)
+        aside = left_of(headings_at(path.rows, np.full(len(path.rows), 0.5))) * (
+            1 if direction is Direction.CLIMB else -1
+        )
         touched, free = (shapely.contains_xy(plate, *(middle + far * aside).T) for far in (-1.55, 0.5))
         assert touched.all() if side is Side.OUTSIDE else not touched.any()
         assert not free.any() if side is Side.OUTSIDE else free.all()
@@ -87,4 +89,3 @@ def test_the_outline_of_a_part_comes_after_its_holes() -> None:
     paths = paths_of(contour_job(fig2(), outside()), 1.5)
     outermost = min(path.rank for path in paths)
     assert sorted((path.rank - outermost, path.area < 0) for path in paths) == [(0, True), (0, True), (1, False)]
-

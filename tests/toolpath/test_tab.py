@@ -42,7 +42,9 @@ def test_four_tabs_are_spread_over_the_sides_of_a_square() -> None:
     assert {(tab.width, tab.top, tab.diameter) for tab in program.tabs} == {(5.0, -2.5, 3.0)}
     over = top_moves(program)
     assert set(program.moves.end[over, 2]) == {-2.5}
-    assert lengths(rows_of(program.moves, Purpose.TAB)[over[program.moves.purpose == Purpose.TAB]]).sum() == pytest.approx(4 * (5 + 3))
+    assert lengths(
+        rows_of(program.moves, Purpose.TAB)[over[program.moves.purpose == Purpose.TAB]]
+    ).sum() == pytest.approx(4 * (5 + 3))
     middles = np.array([(tab.x, tab.y) for tab in program.tabs])
     assert plain_distance.distance(middles, [square(40)]) == pytest.approx(np.full(4, 1.5))
     inside = (np.abs(middles - 20) < 20 - 4 + 1e-9).any(axis=1)
@@ -98,7 +100,9 @@ def test_paths_that_clamps_cut_open_are_held_too(lead: Lead) -> None:
     assert apart[np.triu_indices(4, 1)].min() >= 20  # spread along all of it
     assert plain_distance.distance(middles, clamps).min() > 4
     over = top_moves(program)
-    assert lengths(rows_of(program.moves, Purpose.TAB)[over[program.moves.purpose == Purpose.TAB]]).sum() >= 4 * 8 - 1e-6
+    assert (
+        lengths(rows_of(program.moves, Purpose.TAB)[over[program.moves.purpose == Purpose.TAB]]).sum() >= 4 * 8 - 1e-6
+    )
 
 
 def test_a_part_that_no_piece_of_its_path_holds_is_told() -> None:
@@ -117,12 +121,17 @@ def test_lines_that_clamps_cut_open_are_held_piece_by_piece() -> None:
     clamps = [square(10, 15, -5), square(10, 15, 35)]
     program = compute(contour_job([square(40)], operation, clamps=clamps))
     middles = np.array([(tab.x, tab.y) for tab in program.tabs])
-    assert sorted((middles[:, 0] > 20).tolist()) == [False] * 3 + [True] * 3  # three on either piece, as on a closed one
+    assert (
+        sorted((middles[:, 0] > 20).tolist()) == [False] * 3 + [True] * 3
+    )  # three on either piece, as on a closed one
     assert plain_distance.distance(middles, [square(40)]) == pytest.approx(np.zeros(6), abs=1e-9)
     assert plain_distance.distance(middles, clamps).min() > 4
     apart = np.hypot(*(middles[:, None] - middles[None]).transpose(2, 0, 1))
     assert apart[np.triu_indices(6, 1)].min() >= 5 + 2 * 3 - 1e-6
-    assert lengths(rows_of(program.moves, Purpose.TAB)[top_moves(program)[program.moves.purpose == Purpose.TAB]]).sum() >= 6 * 8 - 1e-6
+    assert (
+        lengths(rows_of(program.moves, Purpose.TAB)[top_moves(program)[program.moves.purpose == Purpose.TAB]]).sum()
+        >= 6 * 8 - 1e-6
+    )
     assert not about(program, "tabs") and not about(program, "no tab")
     lines: list[Primitive] = [Line((60.0, 0.0), (90.0, 0.0))]
     assert len(compute(contour_job([], operation, lines=lines)).tabs) == 0  # an open line holds nothing
@@ -153,7 +162,12 @@ def test_a_tab_by_hand_on_a_path_too_short_for_it_is_told(round_a_part: bool) ->
 def test_a_place_far_from_every_contour_is_told() -> None:
     program = compute(job_with(Tabs(places=((20.0, -16.4), (20.0, 120.0)))))
     (told,) = [each for each in program.findings if "by hand" in each.text]
-    assert told.counts and (told.x, told.y) == (20.0, 120.0) and told.amount == pytest.approx(78.5) and len(program.tabs) == 2
+    assert (
+        told.counts
+        and (told.x, told.y) == (20.0, 120.0)
+        and told.amount == pytest.approx(78.5)
+        and len(program.tabs) == 2
+    )
     program = compute(job_with(Tabs(places=((20.0, -3.0),)), copies=Copies(2, 1, 60.0)))
     assert not about(program, "by hand")
 

@@ -161,8 +161,12 @@ def test_the_same_strokes_give_the_same_order() -> None:
 
 
 def test_a_stroke_that_is_turned_is_the_same_path() -> None:
-    arc = Stroke(np.array([[0.0, 0, 5, 0, 0, 0, 0, 0], [5, 0, 5, 2, 5, 1, 1, 1]]), np.array([Purpose.POCKET, Purpose.LINK], np.uint8), 0,
-                 np.array([-1.0, -2.0]))
+    arc = Stroke(
+        np.array([[0.0, 0, 5, 0, 0, 0, 0, 0], [5, 0, 5, 2, 5, 1, 1, 1]]),
+        np.array([Purpose.POCKET, Purpose.LINK], np.uint8),
+        0,
+        np.array([-1.0, -2.0]),
+    )
     (found,) = in_short_order([arc], (5.0, 2.0), reversible=True)
     assert found.start == (5.0, 2.0) and tuple(found.rows[-1, 2:4]) == (0.0, 0.0)
     assert found.purpose.tolist() == [Purpose.LINK, Purpose.POCKET]
@@ -202,10 +206,14 @@ def drawn_strokes(path: Path, radius: float) -> tuple[tuple[Stroke, ...], tuple[
     return contour_strokes(rings, Direction.CLIMB), link(levels, field, Manner(Direction.CLIMB))
 
 
-@pytest.mark.parametrize(("name", "radius", "share"), [("complex.dxf", 0.5, 0.9), ("gear.dxf", 0.5, 1.0), ("apu-mount.dxf", 1.5, 0.98)])
+@pytest.mark.parametrize(
+    ("name", "radius", "share"), [("complex.dxf", 0.5, 0.9), ("gear.dxf", 0.5, 1.0), ("apu-mount.dxf", 1.5, 0.98)]
+)
 def test_real_drawings_take_less_travel(data: Path, name: str, radius: float, share: float) -> None:
     for strokes in drawn_strokes(data / "dxf" / name, radius):
         plain, ours = greedy(list(strokes), (0.0, 0.0), []), travel_mm(in_short_order(strokes))
-        print(f"{name}: {len(strokes)} strokes, greedy {plain:.1f} mm, tour {ours:.1f} mm, {ours / max(plain, 1e-9):.3f}")
+        print(
+            f"{name}: {len(strokes)} strokes, greedy {plain:.1f} mm, tour {ours:.1f} mm, {ours / max(plain, 1e-9):.3f}"
+        )
         assert ours <= plain + 1e-9
         assert len(strokes) < 10 or ours <= share * plain

@@ -35,7 +35,7 @@ def paths(levels: tuple[Level, ...], radius: float) -> list[tuple[Rows, float]]:
 
 
 def area(left: Uncut) -> float:
-    return float((4 * left.halves[left.sure]**2).sum())
+    return float((4 * left.halves[left.sure] ** 2).sum())
 
 
 def holds(left: Uncut, points: np.ndarray) -> np.ndarray:

@@ -98,7 +98,9 @@ def assert_side_is_machined(e: float, y: float) -> None:
     assert area_of(made) == pytest.approx(1200 + sign * 36 * math.pi, abs=0.02 if abs(e) > 1e-4 else 1e-3)
 
 
-@pytest.mark.parametrize("angle", [76, pytest.param(13, marks=pytest.mark.exhaustive), pytest.param(141, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize(
+    "angle", [76, pytest.param(13, marks=pytest.mark.exhaustive), pytest.param(141, marks=pytest.mark.exhaustive)]
+)
 def test_a_letter_with_a_stroke_across_is_made(angle: int) -> None:
     made = made_of(f'rect 0,0 100,40\ntext 79,12 5 "Ø" angle {angle}\n')
     assert made.files and not [each for each in made.findings if each.kind is FindingKind.AREA]
@@ -157,7 +159,9 @@ def move_a_region(patch: pytest.MonkeyPatch) -> None:
         found = nested(contours)
         last = found.regions[-1]
         primitives = tuple(drawn.moved(each, 0.01, 0.0) for each in last.boundary.primitives)
-        return replace(found, regions=(*found.regions[:-1], replace(last, boundary=replace(last.boundary, primitives=primitives))))
+        return replace(
+            found, regions=(*found.regions[:-1], replace(last, boundary=replace(last.boundary, primitives=primitives)))
+        )
 
     nested = sheets.nested
     patch.setattr(sheets, "nested", moved)
@@ -168,10 +172,15 @@ def lose_a_floor(patch: pytest.MonkeyPatch) -> None:
 
 
 LINKS = {
-    "overlay": (lose_a_loop, CROSSING), "overlay of clamps": (lose_a_loop, CLAMPED), "nesting": (lose_a_region, APART),
-    "islands": (fill_an_island, APART), "chaining": (lose_a_contour, APART), "joining": (bend_a_contour, CROSSING),
-    "place": (move_a_region, APART), "floor": (lose_a_floor, APART),
-}  # fmt: skip
+    "overlay": (lose_a_loop, CROSSING),
+    "overlay of clamps": (lose_a_loop, CLAMPED),
+    "nesting": (lose_a_region, APART),
+    "islands": (fill_an_island, APART),
+    "chaining": (lose_a_contour, APART),
+    "joining": (bend_a_contour, CROSSING),
+    "place": (move_a_region, APART),
+    "floor": (lose_a_floor, APART),
+}
 
 
 @pytest.mark.parametrize("link", list(LINKS))
@@ -197,7 +206,9 @@ def test_what_chaining_mends_is_no_loss(seed: int) -> None:
     curves: list[Curve] = []
     for curve in (curve for contour in contours for curve in contour.primitives):
         dx, dy = rng.uniform(-0.003, 0.003, 2)
-        torn = drawn.moved(curve, float(dx), float(dy)) if not isinstance(curve, Circle) and rng.random() < 0.5 else curve
+        torn = (
+            drawn.moved(curve, float(dx), float(dy)) if not isinstance(curve, Circle) and rng.random() < 0.5 else curve
+        )
         curves += [torn] * (2 if rng.random() < 0.1 else 1)
     curves = [curves[k] for k in rng.permutation(len(curves))]
     found = drawn.drawn(job_of(curves)).findings
@@ -206,11 +217,20 @@ def test_what_chaining_mends_is_no_loss(seed: int) -> None:
 
 def test_ellipses_and_splines_are_measured_as_they_are() -> None:
     bow = Spline(3, ((0.0, 0.0), (10.0, 20.0), (30.0, -20.0), (40.0, 0.0)), (0, 0, 0, 0, 1, 1, 1, 1))
-    curves: list[Curve] = [Ellipse((0, 80), (20, 5), 0.4), bow, Line((40, 0), (40, 30)), Line((40, 30), (0, 30)), Line((0, 30), (0, 0))]
+    curves: list[Curve] = [
+        Ellipse((0, 80), (20, 5), 0.4),
+        bow,
+        Line((40, 0), (40, 30)),
+        Line((40, 30), (0, 30)),
+        Line((0, 30), (0, 0)),
+    ]
     found = drawn.drawn(job_of(curves))
     assert len(found.closed) == 2 and not found.findings
     outlines = [curves[:1], curves[1:]]
-    measured = [witness.even_odd([Contour(tuple(p for curve in each for p in witness.drawn_as(curve)))]).area for each in outlines]
+    measured = [
+        witness.even_odd([Contour(tuple(p for curve in each for p in witness.drawn_as(curve)))]).area
+        for each in outlines
+    ]
     assert measured == pytest.approx([math.pi * 425 * 0.4, 1200], abs=0.01)
 
 
@@ -235,12 +255,17 @@ def test_a_part_of_many_layers_is_asked_area_by_area() -> None:
 
 @pytest.mark.parametrize("finest", [1, 3, 14])
 def test_chords_of_a_curve_end_on_it_and_are_near_it_but_no_finer_than_asked(finest: int) -> None:
-    bow = Spline(3, ((0.0, 0.0), (10.0, 20.0), (30.0, -20.0), (40.0, 0.0), (60.0, 5.0)), (0, 0, 0, 0, 1, 2, 2, 2, 2), (1, 2, 0.5, 1, 1))
+    bow = Spline(
+        3,
+        ((0.0, 0.0), (10.0, 20.0), (30.0, -20.0), (40.0, 0.0), (60.0, 5.0)),
+        (0, 0, 0, 0, 1, 2, 2, 2, 2),
+        (1, 2, 0.5, 1, 1),
+    )
     pieces = pieces_of(bow)
     places, count = chords(np.ascontiguousarray(pieces.control), 1e-4, finest)
     assert tuple(places[0]) == bow.start and tuple(places[count - 1]) == bow.end
     on = pieces.at(np.linspace(0.0, 2.0, 20_001))[0]
-    rows = np.hstack([places[:count - 1], places[1:count], np.zeros((count - 1, 4))])
+    rows = np.hstack([places[: count - 1], places[1:count], np.zeros((count - 1, 4))])
     off = DistanceField.of(rows).nearest(on)[0].max()
     assert DistanceField.of(np.hstack([on[:-1], on[1:], np.zeros((20_000, 4))])).nearest(places[:count])[0].max() < 1e-6
     if finest < 14:

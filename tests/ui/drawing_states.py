@@ -1,4 +1,6 @@
-"""What the Draw view is photographed with: every tool half-way, every page of the right side, the panels, menus and windows over it."""
+"""What the Draw view is photographed with: every tool half-way, every page of the right side, the panels, menus and
+windows over it.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,17 @@ from app.ui.views.canvas.modes import CanvasTool as T
 
 Place = tuple[float, float]
 
-PART = ("rect 10,10 90,60", "circle 35,35 12", "line 55,5 75,65", "guide across 0,70", "point 70,35",
-        "dimension 10,10 90,10 place 50,0", "layer holes", "circle 80,20 4", "layer part")
+PART = (
+    "rect 10,10 90,60",
+    "circle 35,35 12",
+    "line 55,5 75,65",
+    "guide across 0,70",
+    "point 70,35",
+    "dimension 10,10 90,10 place 50,0",
+    "layer holes",
+    "circle 80,20 4",
+    "layer part",
+)
 SEEN = (-5.0, -5.0, 135.0, 98.0)
 RING, ALL = "select 5", "select all"
 
@@ -195,7 +206,11 @@ class DrawingStates:
         """Save the pictures of the windows beside: keys, manual, shape language."""
         keys, manual = KeysWindow(self._window, self._wiring.shortcuts), self._wiring.language.help
         posts = partial(manual.show_page, "posts")
-        for name, show, shown in (("keys", keys.show, keys), ("help", manual.show_page, manual), ("manual", posts, manual)):
+        for name, show, shown in (
+            ("keys", keys.show, keys),
+            ("help", manual.show_page, manual),
+            ("manual", posts, manual),
+        ):
             show()
             self._save(shown, folder / f"window-{name}-{ending}")
             shown.close()

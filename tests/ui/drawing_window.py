@@ -1,4 +1,6 @@
-"""The real window, drawing a circle ten times a second and telling when; `python -m tests.ui.drawing_window FILE` is there to be killed."""
+"""The real window, drawing a circle ten times a second and telling when; `python -m tests.ui.drawing_window FILE` is
+there to be killed.
+"""
 
 import sys
 import time

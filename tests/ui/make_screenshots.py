@@ -53,7 +53,9 @@ def computed_sample() -> Wiring:
     end = time.monotonic() + 120
     while wiring.computation.state is not State.CURRENT:
         if time.monotonic() > end:
-            raise SystemExit(f"the sample was not computed: {wiring.computation.state.value} {wiring.computation.error}")
+            raise SystemExit(
+                f"the sample was not computed: {wiring.computation.state.value} {wiring.computation.error}"
+            )
         wait(20)
     return wiring
 
@@ -84,7 +86,9 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     """Return what the NC view is photographed with: own program, foreign ones, a side, an error, find, two programs."""
     nc = wiring.window_.views.nc
     changed = folder / "changed.ngc"
-    changed.write_bytes((PROGRAMS / "tux.ngc").read_bytes().replace(b"Y 2.500000", b"Y 2.650000").replace(b"F     200", b"F 250"))
+    changed.write_bytes(
+        (PROGRAMS / "tux.ngc").read_bytes().replace(b"Y 2.500000", b"Y 2.650000").replace(b"F     200", b"F 250")
+    )
 
     def own() -> None:
         wiring.nc.back()
@@ -121,7 +125,9 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
 
 
 def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
-    """Return what the Cut view is photographed with: a moment on the way, a picked place, another program, what is asked of one."""
+    """Return what the Cut view is photographed with: a moment on the way, a picked place, another program, what is
+    asked of one.
+    """
     panel, cutting, view = wiring.window_.cut_panel, wiring.cutting, wiring.window_.views.cut
 
     def rest() -> None:
@@ -158,7 +164,9 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
 
 
 def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
-    """Return what the Curves view is photographed with: an engraving as arcs, and the place where both paths are farthest apart."""
+    """Return what the Curves view is photographed with: an engraving as arcs, and the place where both paths are
+    farthest apart.
+    """
     view, panel = wiring.window_.views.curves, wiring.window_.curves_panel
 
     def arcs() -> None:
@@ -195,7 +203,9 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
 
 
 def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
-    """Return what the Stages view is photographed with: traced lines, a peel, paths, fitted lines, letters, a picture taken in."""
+    """Return what the Stages view is photographed with: traced lines, a peel, paths, fitted lines, letters, a picture
+    taken in.
+    """
     view, panel = wiring.window_.views.stages, wiring.window_.stages_panel
     path = scan(folder / "scan.png")
 
@@ -219,8 +229,15 @@ def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
         wait_until(lambda: wiring.picturing.preview is not None and not wiring.picturing.worker.busy)
         wiring.window_.import_panel.list.setCurrentRow(-1)
 
-    return {"traced": traced, "peel": lambda: step(304), "frame": lambda: step(143), "paths": lambda: step(140),
-            "fitted": lambda: step(406), "letters": letters, "picture": picture}
+    return {
+        "traced": traced,
+        "peel": lambda: step(304),
+        "frame": lambda: step(143),
+        "paths": lambda: step(140),
+        "fitted": lambda: step(406),
+        "letters": letters,
+        "picture": picture,
+    }
 
 
 def take_drawing(wiring: Wiring, folder: Path) -> None:

@@ -1,7 +1,8 @@
-"""Measures how the Cut view feels: `python -m tests.ui.measure_cut`; under `xvfb-run` with QT_QPA_PLATFORM=xcb the real widget.
+"""Measures how the Cut view feels: `python -m tests.ui.measure_cut`; under `xvfb-run` with QT_QPA_PLATFORM=xcb the real
+widget.
 
-Prints how long new heights take to the screen, how many pictures a second turning gives, how long the fine picture takes
-and the longest of its pieces, for 1024 x 1024 cells in a view of 1200 x 800 px.
+Prints how long new heights take to the screen, how many pictures a second turning gives, how long the fine picture
+takes and the longest of its pieces, for 1024 x 1024 cells in a view of 1200 x 800 px.
 """
 
 from __future__ import annotations
@@ -96,9 +97,14 @@ def measure() -> Felt:
     turns = [turn(view) for _ in range(TURNS)]
     fines = [fine(view) for _ in range(3)]
     return Felt(
-        type(view.surface).__name__, statistics.median(n for n, _ in news), statistics.median(r for _, r in news),
-        statistics.median(turns[TURNS // 2:]), view.painting.budget, statistics.median(f for f, _ in fines), max(p for _, p in fines),
-    )  # fmt: skip
+        type(view.surface).__name__,
+        statistics.median(n for n, _ in news),
+        statistics.median(r for _, r in news),
+        statistics.median(turns[TURNS // 2 :]),
+        view.painting.budget,
+        statistics.median(f for f, _ in fines),
+        max(p for _, p in fines),
+    )
 
 
 def main() -> None:

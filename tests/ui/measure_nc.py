@@ -30,7 +30,8 @@ class Felt:
     Attributes:
         shown_s: from opening to the path. gap_ms: longest while opening, by what went on.
         scroll_ms, worst_scroll_ms: a frame of the text, median and worst. path_ms: painting the whole path.
-        pick_ms: worst time from a picked line to the painted answer. memory_mb: what the process holds more than before.
+        pick_ms: worst time from a picked line to the painted answer. memory_mb: what the process holds more than
+            before.
     """
 
     lines: int
@@ -77,7 +78,9 @@ def measure_program(wiring, path: Path) -> Felt:
     nc.path.fit_now()
     nc.path.repaint_scene()
     path_ms = timed(nc.path.repaint)
-    return Felt(len(text.text), shown, gap, statistics.median(frames), max(frames), path_ms, max(picks), resident_mb() - before)
+    return Felt(
+        len(text.text), shown, gap, statistics.median(frames), max(frames), path_ms, max(picks), resident_mb() - before
+    )
 
 
 def long_file(folder: Path) -> Path:

@@ -97,8 +97,10 @@ def measure_gaps(drawing: Path) -> dict[str, float]:
     took = live_until(lambda: wiring.computation.state in (State.CURRENT, State.FAILED))
     live_until(lambda: False, 0.5)
     window.worker.finish(30.0)
-    print(f"{drawing.name}: computed in {took:.2f} s, {wiring.computation.state.value}, longest gaps in ms: "
-          + ", ".join(f"{name} {gap:.0f}" for name, gap in gaps.longest.items()))
+    print(
+        f"{drawing.name}: computed in {took:.2f} s, {wiring.computation.state.value}, longest gaps in ms: "
+        + ", ".join(f"{name} {gap:.0f}" for name, gap in gaps.longest.items())
+    )
     return gaps.longest
 
 

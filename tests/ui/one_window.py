@@ -1,4 +1,6 @@
-"""One window for the tests of a module: made new after a test that left something behind, used again after one that did not."""
+"""One window for the tests of a module: made new after a test that left something behind, used again after one that did
+not.
+"""
 
 from __future__ import annotations
 

@@ -59,7 +59,9 @@ def small(picture: QPixmap) -> Picture:
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
     colours = rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3)[..., ::-1]
     height = round(WIDTH * image.height() / image.width())
-    return np.asarray(cv2.resize(np.ascontiguousarray(colours), (WIDTH, height), interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(
+        cv2.resize(np.ascontiguousarray(colours), (WIDTH, height), interpolation=cv2.INTER_AREA), np.uint8
+    )
 
 
 def states(wiring: Wiring, theme: ThemeChoice, size: tuple[int, int]) -> Iterator[tuple[str, Picture]]:
@@ -88,7 +90,10 @@ def kept(theme: ThemeChoice, size: tuple[int, int]) -> dict[str, Picture]:
     height = round(WIDTH * size[1] / size[0])
     names = (FOLDER / "names.txt").read_text().split()
     return {
-        name: np.asarray(page[k // ACROSS * height : (k // ACROSS + 1) * height, k % ACROSS * WIDTH : (k % ACROSS + 1) * WIDTH], np.uint8)
+        name: np.asarray(
+            page[k // ACROSS * height : (k // ACROSS + 1) * height, k % ACROSS * WIDTH : (k % ACROSS + 1) * WIDTH],
+            np.uint8,
+        )
         for k, name in enumerate(names)
     }
 
@@ -123,7 +128,9 @@ def main(folder: Path = FOLDER) -> None:
         window, wiring = build()
         window.show()
         pictures = dict(states(wiring, theme, size))
-        cv2.imwrite(str(folder / sheet_path(theme, size).name), sheet(list(pictures.values())), [cv2.IMWRITE_JPEG_QUALITY, 80])
+        cv2.imwrite(
+            str(folder / sheet_path(theme, size).name), sheet(list(pictures.values())), [cv2.IMWRITE_JPEG_QUALITY, 80]
+        )
         (folder / "names.txt").write_text("\n".join(pictures) + "\n")
         (folder / "letters.txt").write_text(letters() + "\n")
         window.hide()

@@ -25,7 +25,9 @@ def hand(qtbot: QtBot) -> Hand:
     return Hand(qtbot)
 
 
-def aimed(hand: Hand, at: tuple[float, float], tool: CanvasTool = CanvasTool.LINE) -> tuple[SnapKind | None, tuple[float, float]]:
+def aimed(
+    hand: Hand, at: tuple[float, float], tool: CanvasTool = CanvasTool.LINE
+) -> tuple[SnapKind | None, tuple[float, float]]:
     if hand.canvas.tool is not tool:
         hand.canvas.set_tool(tool)
     hand.move(*at)
@@ -84,12 +86,19 @@ def test_the_nearest_point_of_a_curve_is_taken_where_it_is_asked_for_and_gives_w
     assert aimed(hand, (11, 11))[0] is SnapKind.END
 
 
-@pytest.mark.parametrize(("word", "at", "point"), [
-    ("end", (35, 10.4), (60, 10)), ("mid", (55, 10.4), (35, 10)), ("cen", (99.6, 62), (90, 60)), ("qua", (97, 67), (100, 60)),
-    ("int", (58.6, 10.6), (60, 10)),
-])
+@pytest.mark.parametrize(
+    ("word", "at", "point"),
+    [
+        ("end", (35, 10.4), (60, 10)),
+        ("mid", (55, 10.4), (35, 10)),
+        ("cen", (99.6, 62), (90, 60)),
+        ("qua", (97, 67), (100, 60)),
+        ("int", (58.6, 10.6), (60, 10)),
+    ],
+)
 def test_a_typed_word_takes_that_kind_alone_for_one_click(
-        hand: Hand, word: str, at: tuple[float, float], point: tuple[float, float]) -> None:
+    hand: Hand, word: str, at: tuple[float, float], point: tuple[float, float]
+) -> None:
     for line in ("rect 10,10 60,40", "circle 90,60 10"):
         hand.document.run(line)
     hand.canvas.set_tool(CanvasTool.LINE)
@@ -130,7 +139,12 @@ def test_nothing_hidden_is_snapped_to_and_what_is_locked_is(hand: Hand) -> None:
 
 
 def test_notes_are_snapped_to(hand: Hand) -> None:
-    part = Part().with_note(Mark((30, 30)), "0").with_note(Guide((0, 50), 0.0), "0").with_curves([Line((20, 40), (25, 70))], "0")
+    part = (
+        Part()
+        .with_note(Mark((30, 30)), "0")
+        .with_note(Guide((0, 50), 0.0), "0")
+        .with_curves([Line((20, 40), (25, 70))], "0")
+    )
     hand.document.load(hand.document.job.__class__(part))
     hand.canvas.set_view(hand.canvas.view.__class__(5.0, 124.0, 574.0))
     assert aimed(hand, (30.6, 30.5)) == (SnapKind.NODE, (30, 30))
@@ -171,7 +185,9 @@ def test_each_kind_has_a_word_a_name_and_a_mark_of_its_own(hand: Hand) -> None:
     assert len(pictures) == len(CHOICES) == len({SNAP_NAMES[kind] for kind in CHOICES})
 
 
-@pytest.mark.parametrize(("value", "text"), [(12.500000000001, 12.5), (33.333333333333336, 33.333333333333336), (-1e-15, 0.0)])
+@pytest.mark.parametrize(
+    ("value", "text"), [(12.500000000001, 12.5), (33.333333333333336, 33.333333333333336), (-1e-15, 0.0)]
+)
 def test_snapped_coordinates_lose_noise_but_no_place(value: float, text: float) -> None:
     assert tidy((value, 1.0)) == (text, 1.0)
     assert abs(tidy((value, 1.0))[0] - value) < 1e-9
@@ -193,10 +209,15 @@ def test_polar_rays_draw_the_mouse(hand: Hand) -> None:
     assert hand.said() == ["line 10,10 35,10"]
 
 
-@pytest.mark.parametrize(("line", "kind", "others"), [
-    ("ellipse 60,40 85,45 12", SnapKind.PERPENDICULAR, 2), ("ellipse 60,40 85,45 12", SnapKind.TANGENT, 2),
-    ("spline 40,10 50,40 70,20 90,55", SnapKind.PERPENDICULAR, 1), ("spline 40,10 50,40 70,20 90,55", SnapKind.TANGENT, 1),
-])
+@pytest.mark.parametrize(
+    ("line", "kind", "others"),
+    [
+        ("ellipse 60,40 85,45 12", SnapKind.PERPENDICULAR, 2),
+        ("ellipse 60,40 85,45 12", SnapKind.TANGENT, 2),
+        ("spline 40,10 50,40 70,20 90,55", SnapKind.PERPENDICULAR, 1),
+        ("spline 40,10 50,40 70,20 90,55", SnapKind.TANGENT, 1),
+    ],
+)
 def test_ellipses_and_splines_are_met_square_and_touched(hand: Hand, line: str, kind: SnapKind, others: int) -> None:
     hand.document.run(line)
     curve, base = hand.document.part.entities[0].curve, (12.0, 60.0)
@@ -211,7 +232,9 @@ def test_ellipses_and_splines_are_met_square_and_touched(hand: Hand, line: str, 
         assert found is kind and math.dist(point, (x, y)) < 1e-9
 
 
-@pytest.mark.parametrize("line", ["line 40,10 44,60", "circle 60,40 20", "ellipse 60,40 85,45 12", "spline 30,60 40,20 70,20 90,55"])
+@pytest.mark.parametrize(
+    "line", ["line 40,10 44,60", "circle 60,40 20", "ellipse 60,40 85,45 12", "spline 30,60 40,20 70,20 90,55"]
+)
 def test_rays_stop_where_they_meet_a_curve(hand: Hand, line: str) -> None:
     hand.document.run(line)
     hand.canvas.aiming.switch(polar=30.0, kinds=frozenset({SnapKind.END, SnapKind.NEAREST}))

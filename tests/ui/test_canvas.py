@@ -37,8 +37,12 @@ class Hand:
     def move(self, x: float, y: float) -> None:
         self.qtbot.mouseMove(self.canvas, self.at(x, y))
 
-    def click(self, *places: tuple[float, float], button: Qt.MouseButton = LEFT,
-              keys: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+    def click(
+        self,
+        *places: tuple[float, float],
+        button: Qt.MouseButton = LEFT,
+        keys: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
+    ) -> None:
         for place in places:
             self.move(*place)
             self.qtbot.mouseClick(self.canvas, button, keys, self.at(*place))
@@ -147,7 +151,12 @@ def test_an_arc_by_three_points(hand: Hand) -> None:
 
 def test_the_mouse_snaps_to_ends_middles_centres_and_quadrants(plate: Hand) -> None:
     plate.canvas.set_tool(CanvasTool.LINE)
-    for near, exact in (((60.9, 40.7), (60, 40)), ((35.5, 9.4), (35, 10)), ((90.8, 59.5), (90, 60)), ((89.3, 70.6), (90, 70))):
+    for near, exact in (
+        ((60.9, 40.7), (60, 40)),
+        ((35.5, 9.4), (35, 10)),
+        ((90.8, 59.5), (90, 60)),
+        ((89.3, 70.6), (90, 70)),
+    ):
         plate.move(*near)
         assert plate.canvas.aim is not None
         assert plate.canvas.aim.point == exact
@@ -271,8 +280,16 @@ def test_prompts_say_what_is_expected_next(hand: Hand, qtbot: QtBot) -> None:
 def test_the_wheel_keeps_the_point_under_the_mouse(plate: Hand) -> None:
     at = QPointF(plate.at(60, 40))
     before, scale = plate.canvas.view.to_world(at), plate.canvas.view.scale
-    wheel = QWheelEvent(at, plate.canvas.mapToGlobal(at), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
-                        Qt.ScrollPhase.NoScrollPhase, False)
+    wheel = QWheelEvent(
+        at,
+        plate.canvas.mapToGlobal(at),
+        QPoint(),
+        QPoint(0, 240),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
     plate.canvas.wheelEvent(wheel)
     assert plate.canvas.view.scale == pytest.approx(scale * 1.44)
     assert plate.canvas.view.to_world(at) == pytest.approx(before)

@@ -37,9 +37,17 @@ def moves_of(rows: list[Row]) -> Moves:
     kind, purpose, end, centre, region = zip(*rows, strict=True)
     cut = [0.0 if k is MoveKind.RAPID else 600.0 for k in kind]
     operation = [1 if p is Purpose.CONTOUR else 0 for p in purpose]
-    return Moves(np.array(end, float), np.array(centre, float), np.array(kind, np.uint8), np.array(purpose, np.uint8),
-                 np.array(operation, np.int16), np.array(operation, np.int16) + np.int16(1), np.array(region, np.int32),
-                 np.array(cut), np.zeros(len(rows), np.int32))
+    return Moves(
+        np.array(end, float),
+        np.array(centre, float),
+        np.array(kind, np.uint8),
+        np.array(purpose, np.uint8),
+        np.array(operation, np.int16),
+        np.array(operation, np.int16) + np.int16(1),
+        np.array(region, np.int32),
+        np.array(cut),
+        np.zeros(len(rows), np.int32),
+    )
 
 
 def ring(centre: tuple[float, float], radius: float, purpose: Purpose, region: int, z: float = -2.0) -> list[Row]:
@@ -53,8 +61,10 @@ def ring(centre: tuple[float, float], radius: float, purpose: Purpose, region: i
     ]
 
 
-TWO_RINGS = Program(moves_of([*ring((20, 20), 10, Purpose.POCKET, 1), *ring((60, 20), 10, Purpose.CONTOUR, 2)]),
-                    (Region(1, Contour((Circle((20.0, 20.0), 14.0),))),))
+TWO_RINGS = Program(
+    moves_of([*ring((20, 20), 10, Purpose.POCKET, 1), *ring((60, 20), 10, Purpose.CONTOUR, 2)]),
+    (Region(1, Contour((Circle((20.0, 20.0), 14.0),))),),
+)
 
 
 @cache
@@ -87,8 +97,10 @@ def along_circle(canvas: Canvas, centre: tuple[float, float], radius: float) -> 
 
 def share(places: list[list[QColor]], wanted: QColor) -> float:
     """Share of the places where a px has the wanted colour, but for the smoothing of edges."""
+
     def like(c: QColor) -> bool:
         return math.dist((c.red(), c.green(), c.blue()), (wanted.red(), wanted.green(), wanted.blue())) < 70
+
     return sum(any(map(like, place)) for place in places) / len(places)
 
 
@@ -136,16 +148,24 @@ def test_draw_mode_shows_no_paths(canvas: Canvas) -> None:
 def test_the_region_is_lightly_filled(canvas: Canvas) -> None:
     def inside() -> str:
         return canvas.grab().toImage().pixelColor(canvas.view.to_screen((20.3, 23.3)).toPoint()).name()
+
     assert inside() == LIGHT.region_fill.name()
     canvas.set_visible_layers(PathLayers.ALL & ~PathLayers.REGION)
     assert inside() == LIGHT.canvas.name()
 
 
-@pytest.mark.parametrize(("reachable", "layer", "colour"), [
-    (True, PathLayers.LEFT, "left"), (False, PathLayers.UNREACHABLE, "unreachable")], ids=["left", "out of reach"])
-def test_what_is_left_is_hatched_but_for_its_holes(canvas: Canvas, reachable: bool, layer: PathLayers, colour: str) -> None:
+@pytest.mark.parametrize(
+    ("reachable", "layer", "colour"),
+    [(True, PathLayers.LEFT, "left"), (False, PathLayers.UNREACHABLE, "unreachable")],
+    ids=["left", "out of reach"],
+)
+def test_what_is_left_is_hatched_but_for_its_holes(
+    canvas: Canvas, reachable: bool, layer: PathLayers, colour: str
+) -> None:
     def square(half: float) -> np.ndarray:
-        return np.array([(40 - half, 50 - half), (40 + half, 50 - half), (40 + half, 50 + half), (40 - half, 50 + half)])
+        return np.array(
+            [(40 - half, 50 - half), (40 + half, 50 - half), (40 + half, 50 + half), (40 - half, 50 + half)]
+        )
 
     place = Place(40.0, 50.0, 48.0, 2.0, reachable, square(4.0), (square(2.0),))
     canvas.set_program(ProgramPicture(TWO_RINGS, (place,)))
@@ -169,7 +189,12 @@ def test_arcs_are_round_at_every_zoom(canvas: Canvas) -> None:
         canvas.set_view(View(scale).centred(place, canvas.area))
         canvas.repaint_scene()
         image = canvas.grab().toImage()
-        green = [(x, y) for y in range(40, 600, 9) for x in range(30, 820) if image.pixelColor(x, y).name() == LIGHT.pocket.name()]
+        green = [
+            (x, y)
+            for y in range(40, 600, 9)
+            for x in range(30, 820)
+            if image.pixelColor(x, y).name() == LIGHT.pocket.name()
+        ]
         off = [abs(math.dist(canvas.view.to_world(QPointF(x + 0.5, y + 0.5)), (20, 20)) - 10) * scale for x, y in green]
         assert len(green) > 10
         assert max(off) < 1.5, f"{max(off):.2f} px off the circle at {scale:g} px/mm"
@@ -246,8 +271,17 @@ def test_a_deeper_pass_on_the_same_place_is_painted_once() -> None:
 
 
 def test_only_rapids_near_the_view_are_painted() -> None:
-    far = rapids(shape_moves(moves_of([*ring((20, 20), 10, Purpose.POCKET, 1), *ring((60, 20), 10, Purpose.POCKET, 1),
-                                       *ring((60, 90), 10, Purpose.POCKET, 1)])))
+    far = rapids(
+        shape_moves(
+            moves_of(
+                [
+                    *ring((20, 20), 10, Purpose.POCKET, 1),
+                    *ring((60, 20), 10, Purpose.POCKET, 1),
+                    *ring((60, 90), 10, Purpose.POCKET, 1),
+                ]
+            )
+        )
+    )
     assert far.tolist() == [[30, 20, 70, 20], [70, 20, 70, 90]]
     assert rapids_path(far, (40, 10, 50, 30)).elementCount() == 2
     assert rapids_path(far, (0, 0, 100, 100)).elementCount() == 4
@@ -263,8 +297,12 @@ def test_an_empty_program_paints_nothing(canvas: Canvas) -> None:
 
 
 def test_findings_are_marked_and_can_be_gone_to(canvas: Canvas, qtbot: QtBot) -> None:
-    canvas.set_findings((Finding(FindingKind.OPEN_CONTOUR, "Contour 1 is open.", 40.0, 45.0),
-                         Finding(FindingKind.LEFT_OUT, "2 texts left out.")))
+    canvas.set_findings(
+        (
+            Finding(FindingKind.OPEN_CONTOUR, "Contour 1 is open.", 40.0, 45.0),
+            Finding(FindingKind.LEFT_OUT, "2 texts left out."),
+        )
+    )
     at = canvas.view.to_screen((41.0, 45.0)).toPoint()
     image = canvas.grab().toImage()
     around = [image.pixelColor(at.x() + dx, at.y()) for dx in range(-3, 4)]
@@ -284,8 +322,15 @@ def test_a_crowded_scene_stays_fluid(qtbot: QtBot) -> None:
     rng = np.random.default_rng(3)
     rows: list[Row] = []
     while len(rows) < 20_000:
-        rows += ring(tuple(rng.uniform(10, 90, 2)), float(rng.uniform(1, 8)), Purpose(int(rng.integers(2, 4))), int(rng.integers(1, 9)))
-    entities = tuple(Entity(n + 1, Circle((float(x), float(y)), 0.5)) for n, (x, y) in enumerate(rng.uniform(0, 100, (10_000, 2))))
+        rows += ring(
+            tuple(rng.uniform(10, 90, 2)),
+            float(rng.uniform(1, 8)),
+            Purpose(int(rng.integers(2, 4))),
+            int(rng.integers(1, 9)),
+        )
+    entities = tuple(
+        Entity(n + 1, Circle((float(x), float(y)), 0.5)) for n, (x, y) in enumerate(rng.uniform(0, 100, (10_000, 2)))
+    )
     canvas = Canvas(Document(Job(Part(entities))), LIGHT)
     qtbot.addWidget(canvas)
     canvas.resize(1100, 740)

@@ -58,7 +58,9 @@ def test_a_glide_begins_here_and_ends_there_on_the_straight_way() -> None:
     assert a.towards(same, 0.5, AREA).ox == pytest.approx(125.0)
 
 
-@pytest.mark.parametrize(("least", "step"), [(1.0, 1.0), (1.1, 2.0), (2.5, 5.0), (7.0, 10.0), (0.03, 0.05), (140.0, 200.0)])
+@pytest.mark.parametrize(
+    ("least", "step"), [(1.0, 1.0), (1.1, 2.0), (2.5, 5.0), (7.0, 10.0), (0.03, 0.05), (140.0, 200.0)]
+)
 def test_steps_are_one_two_five(least: float, step: float) -> None:
     assert nice_step(least) == pytest.approx(step)
 
@@ -71,18 +73,25 @@ def test_the_raster_stays_readable_at_every_zoom(scale: float) -> None:
     assert major / minor == pytest.approx(round(major / minor))
 
 
-@pytest.mark.parametrize(("value", "major", "text"), [(20.0, 20.0, "20"), (-0.5, 0.5, "\u22120.5"), (5.0, 20.0, ""),
-                                                      (0.30000000000000004, 0.1, "0.3")])
+@pytest.mark.parametrize(
+    ("value", "major", "text"),
+    [(20.0, 20.0, "20"), (-0.5, 0.5, "\u22120.5"), (5.0, 20.0, ""), (0.30000000000000004, 0.1, "0.3")],
+)
 def test_rulers_write_round_numbers(value: float, major: float, text: str) -> None:
     assert _text_at(value, major) == text
 
 
 CURVES: list[Curve] = [
-    Line((1, 2), (5, -3)), Arc((10, 0), (0, 10), (0, 0)), Arc((10, 0), (0, 10), (0, 0), ccw=False),
-    Circle((3, 4), 25), Circle((3, 4), 2, ccw=False),
-    Ellipse((1, 1), (6, 2), 0.4), Ellipse((0, 0), (5, 0), 0.5, 0.3, 2.0, ccw=False),
+    Line((1, 2), (5, -3)),
+    Arc((10, 0), (0, 10), (0, 0)),
+    Arc((10, 0), (0, 10), (0, 0), ccw=False),
+    Circle((3, 4), 25),
+    Circle((3, 4), 2, ccw=False),
+    Ellipse((1, 1), (6, 2), 0.4),
+    Ellipse((0, 0), (5, 0), 0.5, 0.3, 2.0, ccw=False),
     Spline(3, ((0, 0), (1, 5), (4, 5), (6, 0), (9, 3)), (0, 0, 0, 0, 0.5, 1, 1, 1, 1)),
-    Spline(2, ((1, 0), (1, 1), (0, 1)), (0, 0, 0, 1, 1, 1), (1, math.sqrt(0.5), 1)), Spline(1, ((0, 0), (3, 1), (5, 0)), (0, 0, 0.5, 1, 1)),
+    Spline(2, ((1, 0), (1, 1), (0, 1)), (0, 0, 0, 1, 1, 1), (1, math.sqrt(0.5), 1)),
+    Spline(1, ((0, 0), (3, 1), (5, 0)), (0, 0, 0.5, 1, 1)),
 ]
 
 
@@ -125,7 +134,9 @@ def test_every_curve_is_painted_true_to_its_shape(curve: Curve) -> None:
 
 
 def test_curves_that_meet_are_painted_as_one_stroke() -> None:
-    path = curve_path(Line((0, 0), (5, 0)), Line((5, 0), (5, 5)), Circle((20, 0), 3), Line((23, 0), (30, 0)), Line((40, 0), (50, 0)))
+    path = curve_path(
+        Line((0, 0), (5, 0)), Line((5, 0), (5, 5)), Circle((20, 0), 3), Line((23, 0), (30, 0)), Line((40, 0), (50, 0))
+    )
     assert [k for k in range(path.elementCount()) if path.elementAt(k).isMoveTo()] == [0, 3, 28, 30]
 
 
@@ -155,10 +166,17 @@ def test_ends_win_over_what_is_a_little_nearer() -> None:
     assert best(points, (0.5, 5.0), 1.0) is None
 
 
-@pytest.mark.parametrize("curve", [
-    Line((0, 0), (10, 0)), Circle((50, 50), 5), Arc((10, 0), (8, 6), (0, 0)), Arc((8, 6), (10, 0), (0, 0), ccw=False),
-    Ellipse((3, 4), (20, 7), 0.37), Ellipse((3, 4), (20, 7), 0.37, 0.3, 2.0),
-])
+@pytest.mark.parametrize(
+    "curve",
+    [
+        Line((0, 0), (10, 0)),
+        Circle((50, 50), 5),
+        Arc((10, 0), (8, 6), (0, 0)),
+        Arc((8, 6), (10, 0), (0, 0), ccw=False),
+        Ellipse((3, 4), (20, 7), 0.37),
+        Ellipse((3, 4), (20, 7), 0.37, 0.3, 2.0),
+    ],
+)
 def test_every_point_of_a_curve_is_found_where_it_is_be_it_off_the_curve(curve: Curve) -> None:
     picture = PartPicture()
     picture.update(Part().with_curves([curve], "0"))

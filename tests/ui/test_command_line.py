@@ -112,7 +112,9 @@ def complete(qtbot, line: CommandLine, text: str) -> str:
 @pytest.fixture
 def knowing(line) -> CommandLine:
     document = Document()
-    document.run_script("layer holes\nlayer \"bolt holes\"\nlet width = 3\ncircle 0,0 2 as bore\ndefine washer(c)\ncircle c 3\nend")
+    document.run_script(
+        'layer holes\nlayer "bolt holes"\nlet width = 3\ncircle 0,0 2 as bore\ndefine washer(c)\ncircle c 3\nend'
+    )
     line.completions = lambda text: completions(text, document)
     return line
 
@@ -160,7 +162,11 @@ def test_the_log_is_copied_and_put_back(qtbot, wiring):
     log, line = wiring.window_.command_line.log, wiring.window_.command_line
     for text in ("circle 0,0 5", "repeat 2 as k\ncircle 10*k,20 3\nend", "circle 0,0 -1"):
         wiring.run(text)
-    assert [each.command for each in log.lines[-3:]] == ["circle 0,0 5", "repeat 2 as k\ncircle 10*k,20 3\nend", "circle 0,0 -1"]
+    assert [each.command for each in log.lines[-3:]] == [
+        "circle 0,0 5",
+        "repeat 2 as k\ncircle 10*k,20 3\nend",
+        "circle 0,0 -1",
+    ]
     last = log.model().rowCount() - 1
     place = log.visualRect(log.model().index(last, 0)).center()
     qtbot.mouseClick(log.viewport(), Qt.MouseButton.LeftButton, pos=place)
@@ -173,7 +179,12 @@ def test_the_log_is_copied_and_put_back(qtbot, wiring):
     log.selectAll()
     qtbot.keyClick(log, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     assert QGuiApplication.clipboard().text().splitlines()[-5:] == [
-        "circle 0,0 5", "repeat 2 as k", "circle 10*k,20 3", "end", "circle 0,0 -1"]
+        "circle 0,0 5",
+        "repeat 2 as k",
+        "circle 10*k,20 3",
+        "end",
+        "circle 0,0 -1",
+    ]
     log.copy_with_replies()
     assert "greater than 0" in QGuiApplication.clipboard().text()
 

@@ -31,8 +31,12 @@ print(image.width(), min(row), LIGHT.ink.lightness())
 @pytest.mark.parametrize("scale", ["1", "1.25", "1.5", "2"])
 def test_a_line_is_as_sharp_as_the_screen(scale: str) -> None:
     env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "QT_SCALE_FACTOR": scale}
-    said = subprocess.run([sys.executable, "-c", GRAB], env=env, capture_output=True, text=True, check=True, timeout=60).stdout
+    said = subprocess.run(
+        [sys.executable, "-c", GRAB], env=env, capture_output=True, text=True, check=True, timeout=60
+    ).stdout
     width, darkest, ink = map(int, said.split())
     covered = min(1.0, 1.25 * float(scale) / 2)
     assert width == 400 * float(scale)
-    assert darkest == pytest.approx(255 - covered * (255 - ink), abs=15), "the px beside the middle of a line of 1.25 px"
+    assert darkest == pytest.approx(255 - covered * (255 - ink), abs=15), (
+        "the px beside the middle of a line of 1.25 px"
+    )

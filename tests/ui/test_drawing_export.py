@@ -11,7 +11,14 @@ from app.model.notes import Mark
 from app.ui.shell.drawing_export import FORMATS
 from tests.ui.conftest import WAIT_MS
 
-LINES = ("layer holes", 'colour holes "#d55e00"', "circle 10,10 4", "layer 0", "rect 0,0 60,40", "ellipse 30,20 40,20 5")
+LINES = (
+    "layer holes",
+    'colour holes "#d55e00"',
+    "circle 10,10 4",
+    "layer 0",
+    "rect 0,0 60,40",
+    "ellipse 30,20 40,20 5",
+)
 
 
 def export(qtbot, wiring, path: Path, format_: str) -> None:

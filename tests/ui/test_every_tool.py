@@ -22,16 +22,31 @@ Job = tuple[CanvasTool, tuple[str, ...], tuple[object, ...], str]
 JOBS: dict[str, Job] = {
     "arc with a radius by the mouse": (T.ARC_RADIUS, (), ((10, 10), (50, 10), (30, 0)), "arc 10,10 50,10 radius 25"),
     "arc with a typed radius": (T.ARC_RADIUS, (), ((10, 10), (50, 10), "move 30,5", "30"), "arc 10,10 50,10 radius 30"),
-    "arc with a radius on the other side": (T.ARC_RADIUS, (), ((10, 10), (50, 10), (30, 20)), "arc 10,10 50,10 radius 25 cw"),
+    "arc with a radius on the other side": (
+        T.ARC_RADIUS,
+        (),
+        ((10, 10), (50, 10), (30, 20)),
+        "arc 10,10 50,10 radius 25 cw",
+    ),
     "arc onward": (T.ARC_ON, ("line 10,10 30,10",), ((40, 20),), "arc on 40,20"),
     "circle by a diameter": (T.CIRCLE_TWO, (), ((10, 10), (30, 10)), "circle diameter 10,10 30,10"),
     "circle by a typed diameter": (T.CIRCLE_TWO, (), ((10, 10), "move 30,10", "25"), "circle diameter 10,10 35,10"),
     "circle by three points": (T.CIRCLE_THREE, (), ((10, 10), (30, 10), (20, 20)), "circle through 10,10 30,10 20,20"),
     "round rectangle by the mouse": (T.RECTANGLE_ROUND, (), ((10, 10), (60, 40), (55, 40)), "rect 10,10 60,40 round 5"),
-    "round rectangle with a typed radius": (T.RECTANGLE_ROUND, (), ((10, 10), (60, 40), "8"), "rect 10,10 60,40 round 8"),
+    "round rectangle with a typed radius": (
+        T.RECTANGLE_ROUND,
+        (),
+        ((10, 10), (60, 40), "8"),
+        "rect 10,10 60,40 round 8",
+    ),
     "polygon": (T.POLYGON, (), ((40, 40), (60, 40)), "polygon 6 40,40 60,40"),
     "polygon of typed corners": (T.POLYGON, (), ("5", (40, 40), (60, 40)), "polygon 5 40,40 60,40"),
-    "polygon by keys, flat side": (T.POLYGON, (), ((40, 40), Qt.Key.Key_Up, Qt.Key.Key_Up, "side", (60, 40)), "polygon 8 40,40 side 60,40"),
+    "polygon by keys, flat side": (
+        T.POLYGON,
+        (),
+        ((40, 40), Qt.Key.Key_Up, Qt.Key.Key_Up, "side", (60, 40)),
+        "polygon 8 40,40 side 60,40",
+    ),
     "slot": (T.SLOT, (), ((20, 20), (60, 20), (40, 24)), "slot 20,20 60,20 8"),
     "slot of a typed width": (T.SLOT, (), ((20, 20), (60, 20), "1/2in"), "slot 20,20 60,20 12.7"),
     "ellipse": (T.ELLIPSE, (), ((50, 50), (80, 50), (50, 65)), "ellipse 50,50 80,50 15"),
@@ -42,14 +57,29 @@ JOBS: dict[str, Job] = {
     "copy": (T.COPY, (*PLATE, "select 5"), ((90, 60), (70, 70)), "copy @-20,10"),
     "copy three times": (T.COPY, (*PLATE, "select 5"), ("times 3", (90, 60), "@0,5"), "copy @0,5 times 3"),
     "rotate": (T.ROTATE, (*PLATE, "select 1-4"), ((10, 10), (10, 60)), "rotate 10,10 90"),
-    "rotate a copy by a typed angle": (T.ROTATE, (*PLATE, "select 1-4"), ("copy", (10, 10), "30"), "rotate 10,10 30 copy"),
+    "rotate a copy by a typed angle": (
+        T.ROTATE,
+        (*PLATE, "select 1-4"),
+        ("copy", (10, 10), "30"),
+        "rotate 10,10 30 copy",
+    ),
     "scale by a factor": (T.SCALE, (*PLATE, "select 1-4"), ((10, 10), "2.5"), "scale 10,10 2.5"),
-    "scale from one size to another": (T.SCALE, (*PLATE, "select 1-4"), ((10, 10), (60, 10), (110, 10)), "scale 10,10 2"),
+    "scale from one size to another": (
+        T.SCALE,
+        (*PLATE, "select 1-4"),
+        ((10, 10), (60, 10), (110, 10)),
+        "scale 10,10 2",
+    ),
     "mirror": (T.MIRROR, (*PLATE, "select 5"), ((70, 10), (70, 50)), "mirror 70,10 70,50"),
     "mirror a copy": (T.MIRROR, (*PLATE, "select 5"), ("copy", (70, 10), (70, 50)), "mirror 70,10 70,50 copy"),
     "array": (T.ARRAY, (*PLATE, "select 5"), ("columns 2", (90, 60), "@25,30"), "array 2 2 @25,30"),
     "polar array": (T.ARRAY_POLAR, (*PLATE, "select 5"), (Qt.Key.Key_Down, (60, 60)), "array polar 60,60 5"),
-    "polar array over an angle": (T.ARRAY_POLAR, (*PLATE, "select 5"), ("over", "90", "4", (60, 60)), "array polar 60,60 4 over 90"),
+    "polar array over an angle": (
+        T.ARRAY_POLAR,
+        (*PLATE, "select 5"),
+        ("over", "90", "4", (60, 60)),
+        "array polar 60,60 4 over 90",
+    ),
     "offset through a point": (T.OFFSET, (*PLATE, "select 5"), ((105, 60),), "offset 5 105,60"),
     "offset at a distance": (T.OFFSET, (*PLATE, "select 5"), ("3", (95, 62)), "offset 3 95,62"),
     "trim": (T.TRIM, CROSS, ((70, 20),), "trim 1 70,20"),
@@ -59,7 +89,12 @@ JOBS: dict[str, Job] = {
     "fillet": (T.FILLET, CROSS, ("6", (70, 20), (50, 40)), "fillet 6 1 70,20 2 50,40"),
     "fillet of every corner": (T.FILLET, (*PLATE, "select 1-4"), (ENTER,), "fillet 5"),
     "chamfer": (T.CHAMFER, CROSS, ((70, 20), (50, 40)), "chamfer 2 1 70,20 2 50,40"),
-    "chamfer of two sizes": (T.CHAMFER, CROSS, ("size 3", "second 4", (70, 20), (50, 40)), "chamfer 3 and 4 1 70,20 2 50,40"),
+    "chamfer of two sizes": (
+        T.CHAMFER,
+        CROSS,
+        ("size 3", "second 4", (70, 20), (50, 40)),
+        "chamfer 3 and 4 1 70,20 2 50,40",
+    ),
     "join": (T.JOIN, ("line 10,20 40,20", "line 40,20 90,20", "select 1-2"), (), "join"),
     "explode": (T.EXPLODE, (*PLATE, "select 5"), (), "explode"),
     "offset of a contour": (T.OFFSET, (*PLATE, "select 1-4"), ("3", (35, 25)), "offset 3 35,25"),
@@ -75,10 +110,21 @@ NOTES = {
     "construction line at an angle": (form.GuideTool, [(0.0, 0.0), 30.0], "guide 0,0 30"),
     "construction line across": (form.GuideTool, ["across", (3.0, 4.0)], "guide across 3,4"),
     "dimension": (form.DimensionTool, [(0.0, 0.0), (30.0, 0.0), (15.0, 9.0)], "dimension 0,0 30,0 place 15,9"),
-    "dimension up": (form.DimensionTool, ["up", (0.0, 0.0), (30.0, 8.0), (40.0, 4.0)], "dimension 0,0 30,8 place 40,4 up"),
-    "dimension of a curve": (form.DimensionTool, [Pick(4, (9.0, 9.0), Circle((0, 0), 9)), (20.0, 20.0)], "dimension 4 place 20,20"),
-    "dimension of an angle": (form.DimensionTool, ["angle", (0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (5.0, 5.0)],
-                              "dimension angle 0,0 9,0 0,9 place 5,5"),
+    "dimension up": (
+        form.DimensionTool,
+        ["up", (0.0, 0.0), (30.0, 8.0), (40.0, 4.0)],
+        "dimension 0,0 30,8 place 40,4 up",
+    ),
+    "dimension of a curve": (
+        form.DimensionTool,
+        [Pick(4, (9.0, 9.0), Circle((0, 0), 9)), (20.0, 20.0)],
+        "dimension 4 place 20,20",
+    ),
+    "dimension of an angle": (
+        form.DimensionTool,
+        ["angle", (0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (5.0, 5.0)],
+        "dimension angle 0,0 9,0 0,9 place 5,5",
+    ),
     "text": (form.TextTool, [(1.0, 2.0), 'Say "M6"'], "text 1,2 10 \"Say 'M6'\""),
     "measure": (form.MeasureTool, [(0.0, 0.0), (3.0, 4.0)], "measure 0,0 3,4"),
     "measure a curve": (form.MeasureTool, [Pick(7, (9.0, 9.0), Circle((0, 0), 9))], "measure 7"),
@@ -229,7 +275,12 @@ def test_escape_gives_up_answers_first_then_the_tool(qtbot: QtBot) -> None:
 
 def test_a_word_alone_begins_a_tool_and_an_alias_does(qtbot: QtBot) -> None:
     hand = Hand(qtbot)
-    for word, tool in (("slot", CanvasTool.SLOT), ("tr", CanvasTool.TRIM), ("mi", CanvasTool.MIRROR), ("arc", CanvasTool.ARC_THREE)):
+    for word, tool in (
+        ("slot", CanvasTool.SLOT),
+        ("tr", CanvasTool.TRIM),
+        ("mi", CanvasTool.MIRROR),
+        ("arc", CanvasTool.ARC_THREE),
+    ):
         assert hand.canvas.type_text(word)
         assert hand.canvas.tool is tool
 

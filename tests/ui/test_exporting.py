@@ -22,7 +22,9 @@ def test_a_control_without_tool_changes_gets_a_file_for_each_tool_or_none(qtbot,
     with qtbot.waitSignal(exporting.written, timeout=WAIT_MS) as caught:
         exporting.start()
     assert [path.name for path in caught.args[0]] == ["part_1_T1.nc", "part_2_T2.nc"]
-    assert [path.read_text("ascii") for path in caught.args[0]] == [file.nc.text for file in computed.computation.made.files]
+    assert [path.read_text("ascii") for path in caught.args[0]] == [
+        file.nc.text for file in computed.computation.made.files
+    ]
     assert "part_1_T1.nc, part_2_T2.nc are written." in computed.window_.status.message.toolTip()
 
 
@@ -44,7 +46,9 @@ def test_the_frame_is_computed_and_written(qtbot, computed, tmp_path):
 def test_what_was_proven_is_said_before_the_file_is_asked_for(qtbot, computed, tmp_path):
     said = []
     notice = computed.window_.notice
-    computed.files.exporting.choose_file = lambda ending: said.append((notice.isVisible(), notice.text.text())) or tmp_path / "part"
+    computed.files.exporting.choose_file = lambda ending: (
+        said.append((notice.isVisible(), notice.text.text())) or tmp_path / "part"
+    )
     with qtbot.waitSignal(computed.files.exporting.written, timeout=WAIT_MS):
         computed.files.exporting.start()
     shown, sentence = said[0]
@@ -69,5 +73,8 @@ def test_metal_left_is_shown_in_the_cut_before_anything_is_written(qtbot, comput
     qtbot.waitUntil(lambda: computed.cutting.cut is not None and computed.cutting.cut.cut is made.cut, timeout=WAIT_MS)
     notice.buttons[0].click()
     assert computed.showing.view is View.CUT
-    assert window.cut_panel.chosen.title.startswith("Left ") and window.views.cut.overlay.pin.place == window.cut_panel.chosen.place
+    assert (
+        window.cut_panel.chosen.title.startswith("Left ")
+        and window.views.cut.overlay.pin.place == window.cut_panel.chosen.place
+    )
     assert not asked

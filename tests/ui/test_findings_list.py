@@ -1,4 +1,6 @@
-"""The list of findings: a click shows the contour that it names, whole and marked; a button mends what one button can."""
+"""The list of findings: a click shows the contour that it names, whole and marked; a button mends what one button
+can.
+"""
 
 from __future__ import annotations
 

@@ -96,8 +96,14 @@ def test_the_selection_is_dragged_by_any_of_its_curves_and_ctrl_copies(plate: Ha
 
 def _moved(hand: Hand, at: tuple[float, float]) -> QMouseEvent:
     place = QPointF(hand.at(*at))
-    return QMouseEvent(QEvent.Type.MouseMove, place, hand.canvas.mapToGlobal(place), Qt.MouseButton.NoButton, LEFT,
-                       Qt.KeyboardModifier.ControlModifier)
+    return QMouseEvent(
+        QEvent.Type.MouseMove,
+        place,
+        hand.canvas.mapToGlobal(place),
+        Qt.MouseButton.NoButton,
+        LEFT,
+        Qt.KeyboardModifier.ControlModifier,
+    )
 
 
 def test_what_is_not_selected_is_not_dragged_but_framed(plate: Hand) -> None:
@@ -162,8 +168,11 @@ def test_notes_are_seen_picked_described_and_pulled(qtbot: QtBot) -> None:
     hand.canvas.hovered.connect(words.append)
     for at in ((30.2, 30), (70, 60.2), (50, 10.2)):
         hand.move(*at)
-    assert [w for w in words if w] == ["Point 1 · 30.000, 30.000 · layer 0", "Construction line 2 · 0.00° · layer 0",
-                                       "Dimension 3 · 50 mm · layer 0"]
+    assert [w for w in words if w] == [
+        "Point 1 · 30.000, 30.000 · layer 0",
+        "Construction line 2 · 0.00° · layer 0",
+        "Dimension 3 · 50 mm · layer 0",
+    ]
     assert [hand.canvas.picture.nearest(at, 1.0).id for at in ((30.2, 30), (70, 60.2), (50, 10.2))] == [1, 2, 3]
     for at, number in (((30.2, 30), 1), ((70, 60.2), 2), ((50, 10.2), 3)):
         hand.click(at)

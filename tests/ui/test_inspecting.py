@@ -14,7 +14,9 @@ def test_keys_bring_the_page_and_its_sections(qtbot, wiring):
     qtbot.keyClick(window, Qt.Key.Key_I, Qt.KeyboardModifier.ControlModifier)
     assert window.side.page == "Drawing"
     properties = window.drawing_page.properties
-    qtbot.waitUntil(lambda: isinstance(window.focusWidget(), QLineEdit) and properties.isAncestorOf(window.focusWidget()))
+    qtbot.waitUntil(
+        lambda: isinstance(window.focusWidget(), QLineEdit) and properties.isAncestorOf(window.focusWidget())
+    )
     window.side.show_page("Job")
     qtbot.keyClick(window, Qt.Key.Key_H, Qt.KeyboardModifier.ControlModifier)
     assert window.side.page == "Drawing"
@@ -70,7 +72,9 @@ def test_faults_are_listed_shown_and_mended(qtbot, wiring):
     section = looked(qtbot, wiring)
     assert section.words.text() == "1 duplicate, 1 gap. Mending: 1 duplicate removed, 1 gap closed."
     assert [section.list.item(at).text() for at in range(section.list.count())] == [
-        "Duplicate at 3,5: exact", "Gap at 10.003,0: 0.0060 mm wide"]
+        "Duplicate at 3,5: exact",
+        "Gap at 10.003,0: 0.0060 mm wide",
+    ]
     section.list.itemClicked.emit(section.list.item(1))
     assert wiring.document.selection == {1, 2} and section.list.isVisible()
     qtbot.mouseClick(section.mend, Qt.MouseButton.LeftButton)

@@ -73,8 +73,12 @@ def test_traces_see_values_of_every_kind(qtbot, own: OneWindow) -> None:
     assert any("radius" in line and "5.0" in line for line in told)
 
 
-@pytest.mark.parametrize("seed", ["1", pytest.param("2", marks=pytest.mark.exhaustive), pytest.param("3", marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize(
+    "seed", ["1", pytest.param("2", marks=pytest.mark.exhaustive), pytest.param("3", marks=pytest.mark.exhaustive)]
+)
 def test_the_tests_of_a_module_pass_in_any_order(seed: str) -> None:
     command = [sys.executable, "-m", "pytest", "-p", "tests.ui.shuffled", "tests/ui/test_command_line.py"]
-    done = subprocess.run(command, cwd=ROOT, env=os.environ | {"HITOFUDE_SEED": seed}, capture_output=True, text=True, timeout=300)
+    done = subprocess.run(
+        command, cwd=ROOT, env=os.environ | {"HITOFUDE_SEED": seed}, capture_output=True, text=True, timeout=300
+    )
     assert done.returncode == 0, done.stdout

@@ -59,9 +59,14 @@ def test_what_cannot_be_done_is_not_offered(qtbot, wiring) -> None:
     assert "Export NC" not in names(open_palette(qtbot, wiring))
 
 
-@pytest.mark.parametrize(("typed", "better", "worse"), [
-    ("fit", "Fit", "Go to fifth tool"), ("zi", "Zoom in", "Size"), ("exp nc", "Export NC", "Example of a cone"),
-])
+@pytest.mark.parametrize(
+    ("typed", "better", "worse"),
+    [
+        ("fit", "Fit", "Go to fifth tool"),
+        ("zi", "Zoom in", "Size"),
+        ("exp nc", "Export NC", "Example of a cone"),
+    ],
+)
 def test_letters_fit_best_where_words_begin(typed: str, better: str, worse: str) -> None:
     first, second = fit(typed, better), fit(typed, worse)
     assert first is not None

@@ -61,9 +61,16 @@ def test_arithmetic_and_units_are_read(qtbot, document, panel):
     assert panel.operation_form.number("depth").edit.text() == "33.400"
 
 
-@pytest.mark.parametrize(("text", "reason"), [
-    ("-1", "use 0.001 to 99999"), ("0", "use 0.001"), ("2 furlongs", "is no unit"), ("3+", "ends too early"), ("", "ends too early"),
-])
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("-1", "use 0.001 to 99999"),
+        ("0", "use 0.001"),
+        ("2 furlongs", "is no unit"),
+        ("3+", "ends too early"),
+        ("", "ends too early"),
+    ],
+)
 def test_wrong_input_is_marked_at_once_with_the_reason_and_changes_nothing(qtbot, document, panel, text, reason):
     field, before = panel.operation_form.number("depth"), document.job
     field.edit.setFocus()
@@ -195,8 +202,13 @@ def test_an_operation_is_duplicated_beside_itself(qtbot, document, panel):
 def test_a_dragged_row_moves_its_operation(qtbot, document, panel):
     row = panel.operations._rows[Subject(SubjectKind.OPERATION, 0)]
     where, left = QPointF(row.rect().center()), Qt.MouseButton.LeftButton
-    for kind, at in ((QEvent.Type.MouseButtonPress, where), (QEvent.Type.MouseMove, where + QPointF(0, row.height() + 2))):
-        QApplication.sendEvent(row, QMouseEvent(kind, at, row.mapToGlobal(at), left, left, Qt.KeyboardModifier.NoModifier))
+    for kind, at in (
+        (QEvent.Type.MouseButtonPress, where),
+        (QEvent.Type.MouseMove, where + QPointF(0, row.height() + 2)),
+    ):
+        QApplication.sendEvent(
+            row, QMouseEvent(kind, at, row.mapToGlobal(at), left, left, Qt.KeyboardModifier.NoModifier)
+        )
     assert (kinds(document), panel.subject.key) == ("RPC", 1)
 
 

@@ -1,4 +1,6 @@
-"""Drawings that leave open how they are to be read: what is asked in the window, what the answers do, and where they can be changed."""
+"""Drawings that leave open how they are to be read: what is asked in the window, what the answers do, and where they
+can be changed.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +71,8 @@ def written(path: Path, draw: Callable[..., None], units: int = 4) -> Path:
 
 
 OLD_SVG = (
-    '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" inkscape:version="0.91 r1">'
+    '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
+    'inkscape:version="0.91 r1">'
     '<rect width="90" height="45" stroke="black" fill="none"/></svg>'
 )
 
@@ -106,17 +109,43 @@ def reread(qtbot, wiring: Wiring, act: Callable[[], object]) -> None:
     qtbot.waitUntil(lambda: wiring.document.revision > revision, timeout=WAIT_MS)
 
 
-@pytest.mark.parametrize(("draw", "units", "told", "words", "how"), [
-    (in_metres, 6, "40\u2009000 \u00d7 20\u2009000 mm, and the largest tool 6 mm. The file names m", "Take it as mm",
-     Reading(Units.MM, (), ReadOptions(overrule=True))),
-    (far, 4, "more than 1 km from zero: its first curve, at (2300000.000, 410000.000) mm, 2.3 km away", "Move it to zero",
-     Reading(None, (), ReadOptions(to_zero=True))),
-    (on_paper, 4, "all that is drawn stands on the layout A3", "Take layout A3", Reading(None, (), ReadOptions(layout="A3"))),
-    (frozen, 4, "Nothing of it is shown", "Read layer Old", Reading(None, ("Old",))),
-])
+@pytest.mark.parametrize(
+    ("draw", "units", "told", "words", "how"),
+    [
+        (
+            in_metres,
+            6,
+            "40\u2009000 \u00d7 20\u2009000 mm, and the largest tool 6 mm. The file names m",
+            "Take it as mm",
+            Reading(Units.MM, (), ReadOptions(overrule=True)),
+        ),
+        (
+            far,
+            4,
+            "more than 1 km from zero: its first curve, at (2300000.000, 410000.000) mm, 2.3 km away",
+            "Move it to zero",
+            Reading(None, (), ReadOptions(to_zero=True)),
+        ),
+        (
+            on_paper,
+            4,
+            "all that is drawn stands on the layout A3",
+            "Take layout A3",
+            Reading(None, (), ReadOptions(layout="A3")),
+        ),
+        (frozen, 4, "Nothing of it is shown", "Read layer Old", Reading(None, ("Old",))),
+    ],
+)
 def test_a_drawing_that_cannot_be_read_is_asked_about_and_read_by_the_answer(
-    qtbot, wiring, tmp_path, draw, units, told, words, how,
-) -> None:  # fmt: skip
+    qtbot,
+    wiring,
+    tmp_path,
+    draw,
+    units,
+    told,
+    words,
+    how,
+) -> None:
     wiring.document.run("circle 0,0 5")
     wiring.document.mark_saved(tmp_path / "mine.hito")
     path = written(tmp_path / "part.dxf", draw, units)
@@ -138,10 +167,13 @@ def test_a_size_can_be_kept_as_the_file_says(qtbot, wiring, tmp_path) -> None:
     assert size(wiring) == pytest.approx((40_000.0, 20_000.0))
 
 
-@pytest.mark.parametrize("leave", [
-    lambda qtbot, card: qtbot.mouseClick(card.cancel, Qt.MouseButton.LeftButton),
-    lambda qtbot, card: qtbot.keyClick(card.buttons[0], Qt.Key.Key_Escape),
-])
+@pytest.mark.parametrize(
+    "leave",
+    [
+        lambda qtbot, card: qtbot.mouseClick(card.cancel, Qt.MouseButton.LeftButton),
+        lambda qtbot, card: qtbot.keyClick(card.buttons[0], Qt.Key.Key_Escape),
+    ],
+)
 def test_a_question_that_is_not_answered_leaves_the_document(qtbot, wiring, tmp_path, leave) -> None:
     wiring.document.run("circle 0,0 5")
     wiring.document.mark_saved(tmp_path / "mine.hito")
@@ -178,7 +210,11 @@ def test_a_dropped_file_and_a_recent_one_are_asked_about_alike(qtbot, wiring, tm
     path, window = written(tmp_path / "far.dxf", far), wiring.window_
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(path))])
-    window.dropEvent(QDropEvent(QPointF(50, 50), Qt.DropAction.CopyAction, data, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier))
+    window.dropEvent(
+        QDropEvent(
+            QPointF(50, 50), Qt.DropAction.CopyAction, data, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+        )
+    )
     qtbot.waitUntil(window.card.isVisible, timeout=WAIT_MS)
     window.card.hide()
     window.settings = window.settings.with_recent_file(path)
@@ -194,7 +230,9 @@ def test_curves_beyond_1_km_are_asked_about_after_opening(qtbot, wiring, tmp_pat
     assert len(wiring.document.part.entities) == 4 and size(wiring) == pytest.approx((40.0, 20.0))
 
 
-def test_a_stray_that_is_missing_wherever_the_drawing_stands_is_told_and_not_asked_about(qtbot, wiring, tmp_path) -> None:
+def test_a_stray_that_is_missing_wherever_the_drawing_stands_is_told_and_not_asked_about(
+    qtbot, wiring, tmp_path
+) -> None:
     def stray(document) -> None:
         plate(document.modelspace())
         document.modelspace().add_circle((2e6, 0), 5)
@@ -259,7 +297,13 @@ def test_the_page_shows_how_it_was_read_and_reads_it_again(qtbot, wiring, tmp_pa
     assert section.file.text() == "both.dxf" and section.units.box.currentText() == "mm, as in the file"
     reread(qtbot, wiring, lambda: section.to_zero.switch.click())
     assert wiring.window_.canvas.picture.lookup.box == pytest.approx((0.0, 0.0, 40.0, 20.0))
-    reread(qtbot, wiring, lambda: section.layers.menu.actions()[[a.text() for a in section.layers.menu.actions()].index("Holes")].trigger())
+    reread(
+        qtbot,
+        wiring,
+        lambda: section.layers.menu.actions()[
+            [a.text() for a in section.layers.menu.actions()].index("Holes")
+        ].trigger(),
+    )
     assert len(wiring.document.part.entities) == 4 and section.layers.text.text() == "Holes"
     reread(qtbot, wiring, lambda: section.layout_.chosen.emit("A3"))
     assert source(wiring).reading.how == ReadOptions(layout="A3", to_zero=True, without_layers=("Holes",))
@@ -339,7 +383,9 @@ def japanese_wiring(wiring):
     wiring.window_.actions_["language_en"].trigger()
 
 
-@pytest.mark.parametrize(("draw", "units"), [(in_metres, 6), (far, 4), (on_paper, 4), (frozen, 4), (with_a_stray, 4), (in_metres, 0)])
+@pytest.mark.parametrize(
+    ("draw", "units"), [(in_metres, 6), (far, 4), (on_paper, 4), (frozen, 4), (with_a_stray, 4), (in_metres, 0)]
+)
 def test_every_question_is_asked_in_japanese(qtbot, japanese_wiring, tmp_path, draw, units) -> None:
     wiring = japanese_wiring
     ask(qtbot, wiring, written(tmp_path / "1.dxf", draw, units))

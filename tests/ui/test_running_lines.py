@@ -83,7 +83,9 @@ def test_the_moment_is_short(document, lines) -> None:
     assert not document.log
 
 
-def test_what_looks_at_many_curves_together_leaves_the_window_and_is_not_tried_under_the_mouse(qtbot, document, lines) -> None:
+def test_what_looks_at_many_curves_together_leaves_the_window_and_is_not_tried_under_the_mouse(
+    qtbot, document, lines
+) -> None:
     document.run("repeat 400 as k; circle k*10,0 3; end")
     document.select(e.id for e in document.part.entities)
     line = "offset 1 0,0"
@@ -96,11 +98,20 @@ def test_what_looks_at_many_curves_together_leaves_the_window_and_is_not_tried_u
     assert len(Trials(document).of(line).difference.added) == 1
 
 
-@pytest.mark.parametrize("line", [
-    "fillet 1 1 4,0 2 5,1", "chamfer 1 and 1.5 1 4,0 2 5,1", "offset 1 1,1 1", "measure 1 2", "measure 0,0 3,4",
-])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "fillet 1 1 4,0 2 5,1",
+        "chamfer 1 and 1.5 1 4,0 2 5,1",
+        "offset 1 1,1 1",
+        "measure 1 2",
+        "measure 0,0 3,4",
+    ],
+)
 @pytest.mark.parametrize("everything", [False, True], ids=["nothing selected", "everything selected"])
-def test_what_names_a_few_curves_of_many_is_tried_and_done_at_once(monkeypatch, document, lines, line, everything) -> None:
+def test_what_names_a_few_curves_of_many_is_tried_and_done_at_once(
+    monkeypatch, document, lines, line, everything
+) -> None:
     monkeypatch.setattr(running_lines, "AT_ONCE_S", 10.0)  # a loaded machine is given time
     document.run("repeat 400 as k; rect k*10,0 k*10+5,5; end")
     document.select(document.part.ids() if everything else ())
@@ -116,7 +127,9 @@ def test_two_corners_clicked_in_a_heavy_drawing_show_their_fillet(document) -> N
     assert Trials(document).of("fillet 1 1 4,0 2 5,1").difference.added
 
 
-@pytest.mark.parametrize("line", ["fillet 1", "join within 0.1", "explode", "measure", "heal 0.01", "offset 1 2,2 1-1600"])
+@pytest.mark.parametrize(
+    "line", ["fillet 1", "join within 0.1", "explode", "measure", "heal 0.01", "offset 1 2,2 1-1600"]
+)
 def test_what_means_many_curves_is_not_tried_under_the_mouse(document, line) -> None:
     document.run("repeat 400 as k; rect k*10,0 k*10+5,5; end")
     document.select(document.part.ids())

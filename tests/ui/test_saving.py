@@ -171,7 +171,11 @@ def test_new_asks_only_when_something_would_be_lost(qtbot, wiring, tmp_path):
     assert not wiring.window_.notice.buttons
     wiring.document.run("circle 0,0 5")
     wiring.files.ask_new()
-    assert [button.text() for button in wiring.window_.notice.buttons] == ["Save", "Give up the changes", "Keep drawing"]
+    assert [button.text() for button in wiring.window_.notice.buttons] == [
+        "Save",
+        "Give up the changes",
+        "Keep drawing",
+    ]
     press(wiring, "Keep drawing")
     assert len(wiring.document.part.entities) == 1
     wiring.files.ask_new()
@@ -303,7 +307,10 @@ def test_the_text_of_the_editor_and_the_picture_lie_in_the_file(qtbot, wiring, t
     wiring.language.control._kept.clear()
     open_it(qtbot, wiring, tmp_path / "a.hito")
     assert wiring.underlaying.underlay == place
-    assert wiring.language.control.text == "let r = 5  # the bore's\ncircle 0,0 r" and wiring.language.control.page.replaces
+    assert (
+        wiring.language.control.text == "let r = 5  # the bore's\ncircle 0,0 r"
+        and wiring.language.control.page.replaces
+    )
     assert not wiring.files.saving.beside.unsaved
 
 

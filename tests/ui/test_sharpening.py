@@ -15,7 +15,16 @@ from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.canvas import Canvas
 from app.ui.views.canvas.view import View
 
-EDITS = ("line 30,30 60,55", "select 1", "select 1 2", "delete 3", "move @3,2 4", "select none", "circle 40,40 7", "undo")
+EDITS = (
+    "line 30,30 60,55",
+    "select 1",
+    "select 1 2",
+    "delete 3",
+    "move @3,2 4",
+    "select none",
+    "circle 40,40 7",
+    "undo",
+)
 
 
 def tangle(count: int) -> Part:
@@ -26,7 +35,11 @@ def tangle(count: int) -> Part:
         x, y, a = rng.uniform(5, 95), rng.uniform(5, 95), rng.uniform(0, math.tau)
         r = rng.uniform(0.5, 5)
         start = (x + r * math.cos(a), y + r * math.sin(a))
-        curves.append(Line((x, y), start) if number % 2 else Arc(start, (x + r * math.cos(a + 2), y + r * math.sin(a + 2)), (x, y)))
+        curves.append(
+            Line((x, y), start)
+            if number % 2
+            else Arc(start, (x + r * math.cos(a + 2), y + r * math.sin(a + 2)), (x, y))
+        )
     return Part().with_curves(curves, "0")
 
 
@@ -132,7 +145,9 @@ def around(canvas: Canvas, image: QImage, place: Point) -> QImage:
     return image.copy(at.x() - 6, at.y() - 6, 13, 13)
 
 
-@pytest.mark.parametrize("near", [View(30.0, -1088.0, 1812.0), View(8.0, 24.0, 724.0)], ids=["far smaller", "a little smaller"])
+@pytest.mark.parametrize(
+    "near", [View(30.0, -1088.0, 1812.0), View(8.0, 24.0, 724.0)], ids=["far smaller", "a little smaller"]
+)
 def test_zooming_out_shows_at_once_what_the_last_picture_did_not_reach(qtbot: QtBot, heavy: Canvas, near: View) -> None:
     far = heavy.view
     heavy.set_view(near)

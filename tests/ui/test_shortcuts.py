@@ -21,7 +21,9 @@ def row_of(keys: KeysWindow, name: str):
     return next(item for item in keys._items() if item.data(0, Qt.ItemDataRole.UserRole) == name)
 
 
-def press(qtbot, keys: KeysWindow, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+def press(
+    qtbot, keys: KeysWindow, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
+) -> None:
     qtbot.keyClick(keys.list, key, modifiers)
 
 

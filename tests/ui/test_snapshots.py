@@ -9,7 +9,9 @@ from app.ui.shell.start import build
 from tests.ui.snapshots import FOLDER, KINDS, kept, letters, seen, share_changed, small, states, wait
 
 SAME, OTHER = 0.06, 0.30
-"""Share of a picture that may differ: where the fonts are those of the pictures, and where they are not. A panel is a tenth."""
+"""Share of a picture that may differ: where the fonts are those of the pictures, and where they are not. A panel is a
+tenth.
+"""
 
 
 @pytest.mark.exhaustive
@@ -23,10 +25,14 @@ def test_every_state_looks_as_it_is_kept(qtbot, tmp_path, theme: ThemeChoice, si
         names.append(name)
         if name in wanted:
             changed[name] = share_changed(picture, wanted[name])
-    assert names == list(wanted), "a tool, page or menu is new or gone: take them anew, python -m tests.ui.snapshots, and look"
+    assert names == list(wanted), (
+        "a tool, page or menu is new or gone: take them anew, python -m tests.ui.snapshots, and look"
+    )
     worst = sorted(changed.items(), key=lambda item: -item[1])[:5]
     most = SAME if letters() == (FOLDER / "letters.txt").read_text().strip() else OTHER
-    assert worst[0][1] <= most, f"these look different: {worst}; look, and if it is meant take them anew, python -m tests.ui.snapshots"
+    assert worst[0][1] <= most, (
+        f"these look different: {worst}; look, and if it is meant take them anew, python -m tests.ui.snapshots"
+    )
     window.close()
 
 

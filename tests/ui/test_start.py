@@ -1,4 +1,6 @@
-"""Starting: files that are not there, libraries that are missing and screens that are not there end in one clear line."""
+"""Starting: files that are not there, libraries that are missing and screens that are not there end in one clear
+line.
+"""
 
 import os
 import subprocess
@@ -8,18 +10,26 @@ import pytest
 
 
 def hitofude(*arguments: str, before: str = "pass", **environment: str) -> subprocess.CompletedProcess[str]:
-    program = f"import sys; {before}; sys.argv = ['hitofude', *{list(arguments)!r}]; from app.__main__ import main; sys.exit(main())"
-    surroundings = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")} | environment
+    program = (
+        f"import sys; {before}; sys.argv = ['hitofude', *{list(arguments)!r}]; from app.__main__ import main; "
+        "sys.exit(main())"
+    )
+    surroundings = {
+        k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+    } | environment
     return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=surroundings, timeout=60)
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    (("open", "nothing.dxf"), "nothing.dxf: there is no such file"),
-    (("nothing.dxf",), "nothing.dxf: there is no such file"),
-    (("open", "a.dxf", "b.dxf"), "open takes one drawing, not 2"),
-    (("open", "--fast"), "open has no option --fast"),
-    ((), "no screen here"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("open", "nothing.dxf"), "nothing.dxf: there is no such file"),
+        (("nothing.dxf",), "nothing.dxf: there is no such file"),
+        (("open", "a.dxf", "b.dxf"), "open takes one drawing, not 2"),
+        (("open", "--fast"), "open has no option --fast"),
+        ((), "no screen here"),
+    ],
+)
 def test_one_line_and_status_2(arguments, words):
     done = hitofude(*arguments)
     assert done.returncode == 2
@@ -66,7 +76,13 @@ control.NcControl._on_foreign = watched
 
 def test_a_program_named_on_the_command_line_is_shown(data, tmp_path):
     program = str(data / "nc" / "tux.ngc")
-    done = hitofude("open", program, before=f"exec({CLOSE_WHEN_SHOWN!r})", QT_QPA_PLATFORM="offscreen", HITOFUDE_CONFIG=str(tmp_path))
+    done = hitofude(
+        "open",
+        program,
+        before=f"exec({CLOSE_WHEN_SHOWN!r})",
+        QT_QPA_PLATFORM="offscreen",
+        HITOFUDE_CONFIG=str(tmp_path),
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == ["tux.ngc", "4287"]
     assert "Traceback" not in done.stderr
@@ -75,7 +91,13 @@ def test_a_program_named_on_the_command_line_is_shown(data, tmp_path):
 @pytest.mark.exhaustive
 def test_window_closed_while_computing_ends_cleanly(data, tmp_path):
     drawing = str(data / "dxf" / "complex.dxf")
-    done = hitofude("open", drawing, before=f"exec({CLOSE_WHILE_COMPUTING!r})", QT_QPA_PLATFORM="offscreen", HITOFUDE_CONFIG=str(tmp_path))
+    done = hitofude(
+        "open",
+        drawing,
+        before=f"exec({CLOSE_WHILE_COMPUTING!r})",
+        QT_QPA_PLATFORM="offscreen",
+        HITOFUDE_CONFIG=str(tmp_path),
+    )
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
     assert (tmp_path / "settings.json").exists()

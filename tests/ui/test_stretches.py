@@ -28,8 +28,13 @@ from tests.part_shapes import layered_part, square
 
 
 def slot_beside_a_slot() -> tuple[Program, Job]:
-    """One move 40 mm long, of which a slot cut before leaves the whole width up to about x = 17, and a third of it beyond."""
-    lines = {name: [Contour((Line((x, y), (40.0, y)),), closed=False)] for name, x, y in (("first", 20.0, 2.0), ("then", 0.0, 0.0))}
+    """One move 40 mm long, of which a slot cut before leaves the whole width up to about x = 17, and a third of it
+    beyond.
+    """
+    lines = {
+        name: [Contour((Line((x, y), (40.0, y)),), closed=False)]
+        for name, x, y in (("first", 20.0, 2.0), ("then", 0.0, 0.0))
+    }
     operations = tuple(ContourOperation(Cut(1, layers=(name,)), side=Side.ON) for name in lines)
     job = Job(layered_part(lines), (Tool(1, 6.0),), operations, Stock(margin=10.0))
     return compute(job), job
@@ -87,8 +92,14 @@ def test_a_step_changes_only_where_its_limit_is_clearly_passed() -> None:
 
 
 def test_nothing_that_cuts_is_nothing_to_colour() -> None:
-    moves = Moves(np.zeros((1, 3)), np.full((1, 2), np.nan), *(np.zeros(1, kind) for kind in (np.uint8, np.uint8)),
-                  *(np.zeros(1, np.int16) for _ in range(3)), np.zeros(1), np.zeros(1, np.int32))
+    moves = Moves(
+        np.zeros((1, 3)),
+        np.full((1, 2), np.nan),
+        *(np.zeros(1, kind) for kind in (np.uint8, np.uint8)),
+        *(np.zeros(1, np.int16) for _ in range(3)),
+        np.zeros(1),
+        np.zeros(1, np.int32),
+    )
     job = Job(layered_part({"a": [square(10)]}))
     assert seen_of(Program(moves), job).step.tolist() == [0]
 

@@ -15,7 +15,10 @@ LEAST_CONTRAST = 4.5
 
 
 def luminance(colour: QColor) -> float:
-    parts = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in (colour.redF(), colour.greenF(), colour.blueF())]
+    parts = [
+        c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+        for c in (colour.redF(), colour.greenF(), colour.blueF())
+    ]
     return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
 
@@ -59,7 +62,9 @@ def test_no_region_is_taken_for_something_else(theme, taken):
 def test_every_icon_draws_something_in_the_colour_asked_for(qapp):
     for path in sorted(resource("icons").glob("*.svg")):
         image = pixmap(path.stem, QColor("#ff0000"), 2).toImage()
-        seen = {image.pixelColor(x, y).name() for x in range(40) for y in range(40) if image.pixelColor(x, y).alpha() == 255}
+        seen = {
+            image.pixelColor(x, y).name() for x in range(40) for y in range(40) if image.pixelColor(x, y).alpha() == 255
+        }
         assert seen == {"#ff0000"}, path.name
 
 

@@ -1,4 +1,6 @@
-"""The strip of tools in the window: kinds behind buttons, the menu at the mouse, and words and keys that do the same."""
+"""The strip of tools in the window: kinds behind buttons, the menu at the mouse, and words and keys that do the
+same.
+"""
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -36,7 +38,9 @@ def test_a_button_takes_its_tool_and_shows_it(wiring, qtbot):
     assert button.isChecked()
 
 
-@pytest.mark.parametrize(("how", "at"), [(RIGHT, QPoint(10, 10)), (LEFT, QPoint(SIDE - 3, SIDE - 3))], ids=["right click", "corner"])
+@pytest.mark.parametrize(
+    ("how", "at"), [(RIGHT, QPoint(10, 10)), (LEFT, QPoint(SIDE - 3, SIDE - 3))], ids=["right click", "corner"]
+)
 def test_the_kinds_of_a_tool_open_and_the_one_taken_stays(wiring, qtbot, how, at):
     button = wiring.window_.tool_strip.buttons[ARCS]
     qtbot.mousePress(button, how, pos=at)
@@ -59,7 +63,9 @@ def test_a_held_button_opens_the_kinds_and_does_not_click(wiring, qtbot):
 
 def test_a_kind_taken_from_the_menu_is_shown_on_the_strip(wiring):
     wiring.window_.actions_["tool_circle_two"].trigger()
-    assert wiring.window_.tool_strip.buttons["tool_circle"].defaultAction() is wiring.window_.actions_["tool_circle_two"]
+    assert (
+        wiring.window_.tool_strip.buttons["tool_circle"].defaultAction() is wiring.window_.actions_["tool_circle_two"]
+    )
 
 
 def test_all_buttons_can_be_seen_at_1280_by_800_with_the_log(wiring, qtbot):

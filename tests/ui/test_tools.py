@@ -190,5 +190,10 @@ def test_names_can_be_typed_into_a_running_tool_and_statements_go_to_the_documen
     runner.start(CanvasTool.LINE)
     assert runner.type_text("p + (1,1)") and runner.type_text("@w,0")
     assert [e.curve for e in document.part.entities] == [Circle((10, 20), 5), Line((11, 21), (51, 21))]
-    for line in ("repeat 3 as k; circle w+k*10,12 3; end", "let a = 3; circle a,a 2", "let b = 4", "if 1 > 0; circle 0,0 1; end"):
+    for line in (
+        "repeat 3 as k; circle w+k*10,12 3; end",
+        "let a = 3; circle a,a 2",
+        "let b = 4",
+        "if 1 > 0; circle 0,0 1; end",
+    ):
         assert not runner.type_text(line)

@@ -1,4 +1,6 @@
-"""Every kind of operation with every kind of tool: computed, or refused in one sentence, the same in the panel and by computing."""
+"""Every kind of operation with every kind of tool: computed, or refused in one sentence, the same in the panel and by
+computing.
+"""
 
 import math
 from dataclasses import replace
@@ -21,11 +23,17 @@ from tests.part_shapes import circle, layered_part, square
 
 PART = layered_part({"a": [square(40), circle(3, 20, 20)]})
 TOOLS = (
-    Tool(1, 6.0), Tool(1, 6.0, ToolKind.BALL), Tool(1, 6.0, ToolKind.BULL, corner_radius=1.0),
-    Tool(1, 6.0, ToolKind.V, tip_angle=math.radians(90)), Tool(1, 6.0, ToolKind.DRILL, tip_angle=math.radians(118)),
+    Tool(1, 6.0),
+    Tool(1, 6.0, ToolKind.BALL),
+    Tool(1, 6.0, ToolKind.BULL, corner_radius=1.0),
+    Tool(1, 6.0, ToolKind.V, tip_angle=math.radians(90)),
+    Tool(1, 6.0, ToolKind.DRILL, tip_angle=math.radians(118)),
     Tool(1, 6.0, ToolKind.TAPER, tip_angle=math.radians(10), tip_diameter=2.0),
 )
-NO_MILL = "T1 is a drill, which cannot cut sideways; a {} operation needs a mill: choose another tool, or make it a drill operation."
+NO_MILL = (
+    "T1 is a drill, which cannot cut sideways; a {} operation needs a mill: choose another tool, or make it a drill "
+    "operation."
+)
 ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch one on"
 
 
@@ -69,7 +77,9 @@ def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
     assert window.status.badge.text() == "Could not be computed"
     window.canvas.hovered.emit("Part")
     window.canvas.hovered.emit("")
-    assert window.status.message.toolTip() == NO_MILL.format("pocket"), "it stays when the mouse has passed over something"
+    assert window.status.message.toolTip() == NO_MILL.format("pocket"), (
+        "it stays when the mouse has passed over something"
+    )
 
 
 @pytest.mark.parametrize("pixels", [False, True], ids=["exact", "pixels"])

@@ -57,7 +57,11 @@ def test_every_menu_has_a_japanese_text_that_is_not_long() -> None:
 
 
 def test_entries_keep_their_holes_and_say_something() -> None:
-    wrong = {text for text, other in ENTRIES.items() if sorted(HOLE.findall(text)) != sorted(HOLE.findall(other)) or not other.strip()}
+    wrong = {
+        text
+        for text, other in ENTRIES.items()
+        if sorted(HOLE.findall(text)) != sorted(HOLE.findall(other)) or not other.strip()
+    }
     assert not wrong
 
 
@@ -162,7 +166,11 @@ def seen_texts(window: QWidget) -> set[str]:
 
 
 def left_english(texts: set[str]) -> list[str]:
-    words = {text: set(re.split(r"[\s(]", text)) | {text} for text in texts if LATIN.search(text) and not JAPANESE.search(text)}
+    words = {
+        text: set(re.split(r"[\s(]", text)) | {text}
+        for text in texts
+        if LATIN.search(text) and not JAPANESE.search(text)
+    }
     return sorted(text for text, parts in words.items() if not parts & NOT_TRANSLATED)
 
 
@@ -181,7 +189,11 @@ def test_nothing_of_the_window_is_left_in_english(japanese) -> None:
 def test_every_tool_asks_in_japanese(kind) -> None:
     speak("ja")
     tool = TOOLS[kind]()
-    asked = {tr(ask.prompt) for ask in tool.asks if ask} if isinstance(tool, AskingTool) else {tr(words) for words in tool.prompts}
+    asked = (
+        {tr(ask.prompt) for ask in tool.asks if ask}
+        if isinstance(tool, AskingTool)
+        else {tr(words) for words in tool.prompts}
+    )
     assert left_english({tr(tool.prompt), *asked}) == []
 
 
@@ -189,7 +201,10 @@ def test_the_log_and_the_mouse_speak_japanese(japanese) -> None:
     for line in ("line 0,0 10,0", "circle 5,5 2", "undo", "lime 1,1", "circle 5,5"):
         japanese.window_.command_line.entered.emit(line)
     log = japanese.window_.command_line.log
-    shown = [log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("\n")[1] for row in range(len(log.lines))]
+    shown = [
+        log.model().data(log.model().index(row, 0), Qt.ItemDataRole.ToolTipRole).split("\n")[1]
+        for row in range(len(log.lines))
+    ]
     assert [JAPANESE.search(text) is not None for text in shown] == [True] * 5, shown
 
 

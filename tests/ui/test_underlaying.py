@@ -21,7 +21,9 @@ NUMBERS = st.floats(-1e4, 1e4)
 
 @pytest.fixture
 def picture(tmp_path: Path) -> Path:
-    """200 x 100 px, white, with a red square of 20 px whose lower left corner is 40 px from the left and 10 px from below."""
+    """200 x 100 px, white, with a red square of 20 px whose lower left corner is 40 px from the left and 10 px from
+    below.
+    """
     image = QImage(200, 100, QImage.Format.Format_RGB32)
     image.fill(QColor("white"))
     for x in range(40, 60):
@@ -132,8 +134,14 @@ def test_values_by_name_come_back(x: float, y: float, size: float, angle: float,
     assert Underlay.from_dict(place.to_dict()) == place
 
 
-@pytest.mark.parametrize("values", [{}, {"path": "a.png", "origin": [1], "mm_per_px": 1, "angle": 0, "opacity": 1},
-                                    {"path": "a.png", "origin": [0, 0], "mm_per_px": -1, "angle": 0, "opacity": 1}])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {},
+        {"path": "a.png", "origin": [1], "mm_per_px": 1, "angle": 0, "opacity": 1},
+        {"path": "a.png", "origin": [0, 0], "mm_per_px": -1, "angle": 0, "opacity": 1},
+    ],
+)
 def test_damaged_values_are_told(values: dict[str, object]) -> None:
     with pytest.raises(ParameterError):
         Underlay.from_dict(values)

@@ -100,7 +100,15 @@ def test_angles_counts_and_factors_stay_what_they_are(inches: Wiring) -> None:
 
 
 def test_a_whole_line_says_in_the_log_that_it_is_in_inches_and_its_text_draws_the_same(inches: Wiring) -> None:
-    typed(inches, "rect 0,0 4,2 round 1/8", "circle 1,1 0.25", "layer holes", "repeat 3 as k; circle (1 + k),0.5 3mm; end", "undo", "redo")
+    typed(
+        inches,
+        "rect 0,0 4,2 round 1/8",
+        "circle 1,1 0.25",
+        "layer holes",
+        "repeat 3 as k; circle (1 + k),0.5 3mm; end",
+        "undo",
+        "redo",
+    )
     lines = [line.command for line in inches.document.log]
     assert lines[:3] == ["units in; rect 0,0 4,2 round 1/8; end", "units in; circle 1,1 0.25; end", "layer holes"]
     assert lines[-2:] == ["undo", "redo"]
@@ -148,7 +156,12 @@ def test_fields_of_the_job_change_their_unit_and_keep_their_value(inches: Wiring
     feed = NumberField(Spec("Feed", "mm/min", 1, 100_000, 0, False))
     turns = NumberField(Spec("Speed", "rpm", 1, 100_000, 0, False))
     depth.show_value(12.7)
-    assert (depth.edit.text(), depth.unit.text(), feed.unit.text(), turns.unit.text()) == ("0.5000", "in", "in/min", "rpm")
+    assert (depth.edit.text(), depth.unit.text(), feed.unit.text(), turns.unit.text()) == (
+        "0.5000",
+        "in",
+        "in/min",
+        "rpm",
+    )
     for field, text in ((depth, "1/4"), (feed, "20"), (turns, "8000")):
         put(field, text)
     assert (depth.value, feed.value, turns.value) == (pytest.approx(6.35), pytest.approx(508), 8000)

@@ -6,7 +6,13 @@ from app.model.finding import Finding, FindingKind
 from app.ui.framework.figures import clock, counted, grouped
 from app.ui.framework.verdict import Level, figures, short, verdict, worst_first
 
-CLEAN = {"gouge": {"count": 0, "max_mm": 0.0}, "left": {"reachable_mm2": 0.0}, "strokes": 2, "time_s": 252.4, "moves": {"G1": 5}}
+CLEAN = {
+    "gouge": {"count": 0, "max_mm": 0.0},
+    "left": {"reachable_mm2": 0.0},
+    "strokes": 2,
+    "time_s": 252.4,
+    "moves": {"G1": 5},
+}
 GOUGE = Finding(FindingKind.GOUGE, "Cut 0.12 mm into the part.", 41.2, 8.0, amount=0.12)
 OPEN = Finding(FindingKind.OPEN_CONTOUR, "Contour 3 is open.", 1.0, 2.0, amount=0.5)
 CORNER = Finding(FindingKind.LEFT_UNREACHABLE, "Corners stay.", 0.0, 0.0, counts=False)

@@ -182,14 +182,22 @@ def test_drawing_without_units_asks_above_the_canvas(qtbot, wiring, tmp_path):
 
 def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
     path = tmp_path / "plate.svg"
-    path.write_text('<svg xmlns="http://www.w3.org/2000/svg"><rect width="40" height="20" stroke="black" fill="none"/></svg>', "ascii")
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg"><rect width="40" height="20" stroke="black" fill="none"/></svg>',
+        "ascii",
+    )
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
     card = wiring.window_.card
     assert card.text.text() == "It has no real size. It names no editor and was read with 96 units to the inch."
     assert "10.583 \u00d7 5.292 mm" in [label.text() for label in card.findChildren(QLabel)]
-    assert [b.text() for b in card.buttons] == ["Keep 96 to the inch", "Read 90 to the inch", "Read 72 to the inch", "Read in mm",
-                                                "Read in inch"]  # fmt: skip
+    assert [b.text() for b in card.buttons] == [
+        "Keep 96 to the inch",
+        "Read 90 to the inch",
+        "Read 72 to the inch",
+        "Read in mm",
+        "Read in inch",
+    ]
     with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
         qtbot.mouseClick(card.buttons[3], Qt.MouseButton.LeftButton)
     assert wiring.showing.part_size() == pytest.approx((40.0, 20.0))

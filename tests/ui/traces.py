@@ -1,6 +1,8 @@
-"""What a window remembers, read from outside: every value that its own objects hold and every state that its widgets show.
+"""What a window remembers, read from outside: every value that its own objects hold and every state that its widgets
+show.
 
-Two windows with the same traces behave alike, so a window that shows those of a new one after a test may serve the next test.
+Two windows with the same traces behave alike, so a window that shows those of a new one after a test may serve the next
+test.
 """
 
 from __future__ import annotations
@@ -30,9 +32,26 @@ from app.ui.shell.wiring import Wiring
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
 _UNTOLD = {
-    "next_id", "_next_id", "_told", "revision", "_revision", "_threads", "__weakref__", "_began", "_since", "job_id", "_job_id",
-    "_generation", "_taken", "_last",  # counters that only ever go on: nothing is decided by where they start
-    "scene_ms", "_scene_view", "_way", "_opacity", "_turn", "due",  # how the last picture was painted, and moved to its place
+    "next_id",
+    "_next_id",
+    "_told",
+    "revision",
+    "_revision",
+    "_threads",
+    "__weakref__",
+    "_began",
+    "_since",
+    "job_id",
+    "_job_id",
+    "_generation",
+    "_taken",
+    "_last",  # counters that only ever go on: nothing is decided by where they start
+    "scene_ms",
+    "_scene_view",
+    "_way",
+    "_opacity",
+    "_turn",
+    "due",  # how the last picture was painted, and moved to its place
 }
 
 
@@ -123,8 +142,11 @@ def _states(each: QObject) -> Iterator[tuple[str, object]]:
 
 def differences(before: dict[str, object], after: dict[str, object]) -> list[str]:
     """Return a line for each value that is not what it was."""
-    return [f"{way}: {before.get(way, '—')!r} -> {after.get(way, '—')!r}" for way in sorted(before.keys() | after.keys())
-            if not _alike(before.get(way, _MISSING), after.get(way, _MISSING))]
+    return [
+        f"{way}: {before.get(way, '—')!r} -> {after.get(way, '—')!r}"
+        for way in sorted(before.keys() | after.keys())
+        if not _alike(before.get(way, _MISSING), after.get(way, _MISSING))
+    ]
 
 
 _MISSING = object()

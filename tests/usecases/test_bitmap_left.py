@@ -17,7 +17,20 @@ from tests.usecases.test_bitmap_way import job_of, made
 def corners(corridor: float) -> list[tuple[float, float]]:
     """Two rooms of 30 mm, 30 mm apart, joined by a corridor."""
     a, b = 15 - corridor / 2, 15 + corridor / 2
-    return [(0, 0), (30, 0), (30, a), (60, a), (60, 0), (90, 0), (90, 30), (60, 30), (60, b), (30, b), (30, 30), (0, 30)]
+    return [
+        (0, 0),
+        (30, 0),
+        (30, a),
+        (60, a),
+        (60, 0),
+        (90, 0),
+        (90, 30),
+        (60, 30),
+        (60, b),
+        (30, b),
+        (30, 30),
+        (0, 30),
+    ]
 
 
 def two_rooms(corridor: float) -> Contour:
@@ -61,7 +74,10 @@ def test_cut_knows_the_skin_from_the_header_and_agrees(tmp_path: Path, capsys: p
     document.header["$INSUNITS"] = 4
     document.modelspace().add_lwpolyline(corners(12.0), close=True)
     document.saveas(drawing)
-    assert main(["make", str(drawing), "-o", str(program), "--bitmap", "400", "--contour-tool", "3", "--pocket-tool", "6"]) == 0
+    assert (
+        main(["make", str(drawing), "-o", str(program), "--bitmap", "400", "--contour-tool", "3", "--pocket-tool", "6"])
+        == 0
+    )
     text = program.read_text()
     assert "Path made from pixels, nowhere nearer to the walls than asked by more than" in text
     assert "of the exact offset" not in text

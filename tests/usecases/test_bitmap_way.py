@@ -32,8 +32,11 @@ def job_of(contours: list[Contour], contour: float = 2.0, pocket: float = 4.0, s
     """Both tools on a drawing; a contour tool of 0 mm is none."""
     curves = [curve for each in contours for curve in each.primitives]
     operations = (PocketOperation(Cut(1), stepover), ContourOperation(Cut(2)))
-    return Job(Part().with_entities(tuple(Entity(k, curve) for k, curve in enumerate(curves, 1))),
-               (Tool(1, pocket), Tool(2, contour or 1.0)), operations if contour else operations[:1])
+    return Job(
+        Part().with_entities(tuple(Entity(k, curve) for k, curve in enumerate(curves, 1))),
+        (Tool(1, pocket), Tool(2, contour or 1.0)),
+        operations if contour else operations[:1],
+    )
 
 
 def made(job: Job, points: int = 400) -> BitmapProgram:
@@ -77,7 +80,9 @@ def check_no_gouge(job: Job, points: int) -> None:
 def test_random_parts_are_not_gouged(seed: int) -> None:
     contours, _ = random_part(seed)
     rng = np.random.default_rng(seed)
-    check_no_gouge(job_of(contours, float(rng.choice([0, 1, 1.5])), float(rng.choice([1, 2, 3])), rng.choice([None, 0.9])), 400)
+    check_no_gouge(
+        job_of(contours, float(rng.choice([0, 1, 1.5])), float(rng.choice([1, 2, 3])), rng.choice([None, 0.9])), 400
+    )
 
 
 @pytest.mark.exhaustive
@@ -86,7 +91,10 @@ def test_random_parts_are_not_gouged(seed: int) -> None:
 def test_500_random_parts_are_not_gouged(seed: int, points: int) -> None:
     contours, _ = random_part(seed + 1000)
     rng = np.random.default_rng(seed)
-    check_no_gouge(job_of(contours, float(rng.choice([0, 0.6, 1, 2])), float(rng.choice([1, 2, 4])), rng.choice([None, 0.9])), points)
+    check_no_gouge(
+        job_of(contours, float(rng.choice([0, 0.6, 1, 2])), float(rng.choice([1, 2, 4])), rng.choice([None, 0.9])),
+        points,
+    )
 
 
 @pytest.mark.parametrize("path", DRAWINGS, ids=lambda path: path.stem)

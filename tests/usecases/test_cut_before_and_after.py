@@ -1,14 +1,15 @@
-"""The metal is the same before and after smoothing: what the written text cuts, held between two cuts of the text it came from.
+"""The metal is the same before and after smoothing: what the written text cuts, held between two cuts of the text it
+came from.
 
-Let every place of the old path be within t of a place of the new one, and the other way round. The ball of radius r about a
-centre of the new path then lies in the ball of radius r + t about one of the old path, and the ball of radius r - t about a
-centre of the old path lies in the ball of radius r about one of the new path; so does all that stands above each. In every
-cell the new height is hence not below that of the old centres with r + t, and not above that of the old centres with r - t.
-It is a bound of bodies, not of heights: it also holds beside walls, where the heights themselves may be millimetres apart.
-Here t is the bound that the certificate states, which is at most the tolerance.
+Let every place of the old path be within t of a place of the new one, and the other way round. The ball of radius r
+about a centre of the new path then lies in the ball of radius r + t about one of the old path, and the ball of radius r
+- t about a centre of the old path lies in the ball of radius r about one of the new path; so does all that stands above
+each. In every cell the new height is hence not below that of the old centres with r + t, and not above that of the old
+centres with r - t. It is a bound of bodies, not of heights: it also holds beside walls, where the heights themselves
+may be millimetres apart. Here t is the bound that the certificate states, which is at most the tolerance.
 
-What a cut rounds, 5e-6 (1 + slope) mm of height, is a shift by `ROUNDED` up and sideways, of both cuts: it goes into the radii.
-What is left is one step of the heights' 32-bit numbers.
+What a cut rounds, 5e-6 (1 + slope) mm of height, is a shift by `ROUNDED` up and sideways, of both cuts: it goes into
+the radii. What is left is one step of the heights' 32-bit numbers.
 """
 
 from __future__ import annotations
@@ -56,7 +57,9 @@ def drop_cutter(data: Path) -> Case:
 
 
 def waves(data: Path) -> Case:
-    """Lines of waves to and fro that bend up, down and sideways, joined by round turns, and one level round about them."""
+    """Lines of waves to and fro that bend up, down and sideways, joined by round turns, and one level round about
+    them.
+    """
     x = np.linspace(-18, 18, 400)
     rows = []
     for k, y in enumerate(np.arange(-15, 15.1, 1.5)):
@@ -125,7 +128,9 @@ def outside(case: Case, old: Course, new: Course, bound: float) -> tuple[int, in
 
 
 @pytest.mark.parametrize(("name", "way", "tolerance"), JOBS)
-def test_the_written_text_leaves_the_same_metal_within_the_bound(data: Path, name: str, way: str, tolerance: float) -> None:
+def test_the_written_text_leaves_the_same_metal_within_the_bound(
+    data: Path, name: str, way: str, tolerance: float
+) -> None:
     case = CASES[name](data)
     done = smoothed(case[0], way, tolerance)
     assert 0 < done.bound <= tolerance
@@ -138,7 +143,9 @@ def test_the_written_text_leaves_the_same_metal_within_the_bound(data: Path, nam
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_a_path_moved_sideways_by_less_keeps_to_the_bound_and_by_twice_as_much_misses_it_both_ways(data: Path, name: str) -> None:
+def test_a_path_moved_sideways_by_less_keeps_to_the_bound_and_by_twice_as_much_misses_it_both_ways(
+    data: Path, name: str
+) -> None:
     case, bound = CASES[name](data), 0.02
     old = course(case[0], "lines")
     assert outside(case, old, beside(old, 0.99 * bound), bound) == (0, 0)

@@ -41,7 +41,9 @@ def run(engine: Engine, graphics: Graphics | None = None, **options: bool) -> Cu
 def counted(jobs: list[Workpiece], fails_at: int = -1) -> Compute:
     """The engine itself; it notes what it is given, and may fail at one job, the trial not counted."""
 
-    def compute(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    def compute(
+        ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+    ) -> Heights:
         if workpiece.grid.cols == 200:
             jobs.append(workpiece)
             if len(jobs) - 1 == fails_at:
@@ -87,7 +89,10 @@ def test_no_graphics_system_is_said_once_and_the_processor_takes_over() -> None:
     record, done = run(Engine.CPU), run(Engine.GPU, Graphics(no_graphics))
     assert np.array_equal(record.cut.heights, done.cut.heights)
     said = [finding for finding in done.findings if "processor" in finding.text]
-    want = "The heights are the processor's, not those of the engine gpu: There is no OpenGL 3.3 here. Install a graphics driver."
+    want = (
+        "The heights are the processor's, not those of the engine gpu: There is no OpenGL 3.3 here. Install a "
+        "graphics driver."
+    )
     assert [finding.text for finding in said] == [want]
     assert not said[0].counts
     data = cut_report(done, TWO).data
@@ -147,7 +152,9 @@ def test_a_window_is_painted_and_the_whole_is_the_engine_of_records() -> None:
 def test_the_context_is_used_on_the_working_thread_alone() -> None:
     where: list[int] = []
 
-    def compute(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress) -> Heights:
+    def compute(
+        ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Cutters, progress: Progress
+    ) -> Heights:
         where.append(threading.get_ident())
         return quads(ctx, workpiece, course, cutters, progress)
 

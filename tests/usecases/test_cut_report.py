@@ -23,7 +23,9 @@ HEAD, FOOT = "G21 G90\nT1 M6\n", "G0 Z5\nM2\n"
 
 
 def report(*bodies: str, cells: int = 240) -> CutReport:
-    programs = tuple(examine(f"p{k}.ngc", f"{HEAD}{body}{FOOT}".encode(), ExamineOptions()) for k, body in enumerate(bodies, 1))
+    programs = tuple(
+        examine(f"p{k}.ngc", f"{HEAD}{body}{FOOT}".encode(), ExamineOptions()) for k, body in enumerate(bodies, 1)
+    )
     ready = setup_of(programs, Wishes(tools=TOLD, stock=STOCK))
     return cut_report(cut(ready.setup, CutOptions(cells)), ready)
 
@@ -41,13 +43,16 @@ def test_feed_that_takes_metal_is_cut_and_other_feed_is_link() -> None:
     assert again["length_mm"] == {"cut": 6 + 20, "link": 20, "rapid": 6}
 
 
-@pytest.mark.parametrize(("body", "strokes", "retracts"), [
-    ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nY20\n", 1, 1),
-    ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nG0 Z1\nY25\nG1 Z-1\nX10\n", 2, 2),
-    ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nG1 Z1\nY25\nZ-1\nX10\n", 2, 2),
-    ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nG0 X20\nG1 X10 Y20\n", 2, 1),
-    ("G0 Z5\nX10 Y10\nG1 Z1 F300\nX30\n", 0, 0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("body", "strokes", "retracts"),
+    [
+        ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nY20\n", 1, 1),
+        ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nG0 Z1\nY25\nG1 Z-1\nX10\n", 2, 2),
+        ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nG1 Z1\nY25\nZ-1\nX10\n", 2, 2),
+        ("G0 Z5\nX10 Y10\nG1 Z-1 F300\nX30\nG0 X20\nG1 X10 Y20\n", 2, 1),
+        ("G0 Z5\nX10 Y10\nG1 Z1 F300\nX30\n", 0, 0),
+    ],
+)
 def test_strokes_and_retracts(body: str, strokes: int, retracts: int) -> None:
     made = data(body)
     assert (made["strokes"], made["retracts"]) == (strokes, retracts)
@@ -63,8 +68,11 @@ def test_where_no_part_is_nobody_has_looked() -> None:
 
 def test_a_program_that_misses_the_stock_is_told() -> None:
     made = report("G0 Z5\nX110 Y10\nG1 Z-1 F300\nX130\n")
-    assert ("nothing was removed: the motions at feed rate reach X 110.000 to 130.000, Y 10.000 to 10.000, Z -1.000 to 5.000 mm, "
-            "and the stock X 0.000 to 60.000, Y 0.000 to 40.000, Z -10.000 to 0.000 mm") in made.summary()  # fmt: skip
+    assert (
+        "nothing was removed: the motions at feed rate reach X 110.000 to 130.000, Y 10.000 to 10.000, Z -1.000 to "
+        "5.000 mm, "
+        "and the stock X 0.000 to 60.000, Y 0.000 to 40.000, Z -10.000 to 0.000 mm"
+    ) in made.summary()
     assert "nothing was removed" not in report("G0 Z5\nX10 Y10\nG1 Z-1 F300\n").summary()
 
 
@@ -82,8 +90,14 @@ def test_places_name_their_file_where_there_are_several() -> None:
     rapid = "G0 Z5\nX10 Y10\nZ-3\nG1 X30 F300\n"
     one = data(rapid)
     assert [set(hit) for hit in one["rapids_in_material"]] == [{"x", "y", "z", "line", "depth_mm", "cells"}]
-    assert one["rapids_in_material"][0] | {"x": 0, "y": 0} == {"x": 0, "y": 0, "z": -3, "line": 5, "depth_mm": 3.0,
-                                                              "cells": one["rapids_in_material"][0]["cells"]}  # fmt: skip
+    assert one["rapids_in_material"][0] | {"x": 0, "y": 0} == {
+        "x": 0,
+        "y": 0,
+        "z": -3,
+        "line": 5,
+        "depth_mm": 3.0,
+        "cells": one["rapids_in_material"][0]["cells"],
+    }
     two = data("G0 Z5\nX10 Y30\nG1 Z-1 F300\nX30\n", rapid)
     assert [(hit["file"], hit["line"]) for hit in two["rapids_in_material"]] == [("p2.ngc", 5)]
     assert [each["file"] for each in two["programs"]] == ["p1.ngc", "p2.ngc"]

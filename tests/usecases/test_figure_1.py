@@ -1,4 +1,6 @@
-"""Figure 1 redrawn: the sample scene's paths by surface, in the order of generation. Run as a module it draws the pictures anew."""
+"""Figure 1 redrawn: the sample scene's paths by surface, in the order of generation. Run as a module it draws the
+pictures anew.
+"""
 
 from __future__ import annotations
 
@@ -37,8 +39,10 @@ def picture(data: bytes) -> np.ndarray:
 
 @pytest.mark.parametrize("name", FIGURE_1)
 def test_figure_1(name: str) -> None:
-    data, = plot_surface(the_compound(), ".png", FIGURE_1[name])
-    there, here = (cv2.GaussianBlur(picture(each), (5, 5), 0).astype(float) for each in ((FIGURES / name).read_bytes(), data))
+    (data,) = plot_surface(the_compound(), ".png", FIGURE_1[name])
+    there, here = (
+        cv2.GaussianBlur(picture(each), (5, 5), 0).astype(float) for each in ((FIGURES / name).read_bytes(), data)
+    )
     off = np.abs(there - here)  # a few names may stand elsewhere; a pass that is missing counts 0.17 and 0.0023 or more
     assert off.mean() < 0.12 and np.mean(off.max(axis=2) > 40) < 0.0015
 
@@ -60,7 +64,7 @@ def test_pieces_follow_the_moves_and_part_at_every_boundary_point() -> None:
 def test_every_boundary_point_is_marked_and_most_are_named() -> None:
     plot = by_surface(the_compound())
     assert (len(plot.marks), set(plot.labels)) == (34, {"CR12", "CR23"})
-    page, = lay_out(plot, PlotOptions()).pages
+    (page,) = lay_out(plot, PlotOptions()).pages
     assert len(page.drawing.words) > 20
     assert by_surface(the_compound(), PlotScene(labels=False)).labels == ()
     assert not len(by_surface(the_compound(), PlotScene(marks=False)).marks)
@@ -68,7 +72,7 @@ def test_every_boundary_point_is_marked_and_most_are_named() -> None:
 
 def test_an_angle_of_view_moves_no_end() -> None:
     for view in VIEWS.values():
-        sheet, = Plotter(plot_surface(the_compound(), ".hpgl", PlotScene(view))[0]).sheets
+        (sheet,) = Plotter(plot_surface(the_compound(), ".hpgl", PlotScene(view))[0]).sheets
         assert [stroke.pen for stroke in sheet.strokes[:6]] == [2, 3, 4, 4, 3, 2]
 
 
@@ -89,9 +93,18 @@ def test_every_format_begins_as_it_should() -> None:
 
 
 def test_boundary_names() -> None:
-    assert [boundary_name(0, 1), boundary_name(8, 8), boundary_name(8, 9), boundary_name(0, 11)] == ["CR12", "CR99", "CR9-10", "CR1-12"]
+    assert [boundary_name(0, 1), boundary_name(8, 8), boundary_name(8, 9), boundary_name(0, 11)] == [
+        "CR12",
+        "CR99",
+        "CR9-10",
+        "CR1-12",
+    ]
 
 
 if __name__ == "__main__":
     for figure, what in FIGURE_1.items():
-        cv2.imwrite(str(FIGURES / figure), picture(plot_surface(the_compound(), ".png", what)[0]), (cv2.IMWRITE_PNG_COMPRESSION, 9))
+        cv2.imwrite(
+            str(FIGURES / figure),
+            picture(plot_surface(the_compound(), ".png", what)[0]),
+            (cv2.IMWRITE_PNG_COMPRESSION, 9),
+        )

@@ -1,4 +1,6 @@
-"""What is asked for beyond tools and depths: it goes into the operations that it concerns, or is refused with the reason."""
+"""What is asked for beyond tools and depths: it goes into the operations that it concerns, or is refused with the
+reason.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,16 @@ from app.core.errors import Cancelled, HitofudeError, InputError, ParameterError
 from app.core.progress import Progress
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies, Job
-from app.model.operation import ContourOperation, Cut, DrillOperation, Order, PocketOperation, RestOperation, Side, parameters
+from app.model.operation import (
+    ContourOperation,
+    Cut,
+    DrillOperation,
+    Order,
+    PocketOperation,
+    RestOperation,
+    Side,
+    parameters,
+)
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind
 from app.usecases.machining import Machining, check_order
@@ -40,9 +51,22 @@ def test_nothing_asked_for_changes_nothing() -> None:
 
 def test_every_value_reaches_its_operations() -> None:
     job = made(
-        lead=LeadKind.LINE, lead_radius=2.0, lead_overlap=0.25, tabs=3, tab_width=4.0, tab_height=0.5, dog_bones=True, finish_width=0.2,
-        spring_passes=2, outside_in=True, entry=EntryKind.RAMP, entry_angle=0.1, finish_depth=0.3, floor_to_leave=0.4, most_engaged=0.6,
-    )  # fmt: skip
+        lead=LeadKind.LINE,
+        lead_radius=2.0,
+        lead_overlap=0.25,
+        tabs=3,
+        tab_width=4.0,
+        tab_height=0.5,
+        dog_bones=True,
+        finish_width=0.2,
+        spring_passes=2,
+        outside_in=True,
+        entry=EntryKind.RAMP,
+        entry_angle=0.1,
+        finish_depth=0.3,
+        floor_to_leave=0.4,
+        most_engaged=0.6,
+    )
     contour, (pocket, rest) = contour_of(job), job.operations[:2]
     assert isinstance(pocket, PocketOperation) and isinstance(rest, RestOperation)
     assert (contour.lead.kind, contour.lead.radius, contour.lead.overlap) == (LeadKind.LINE, 2.0, 0.25)
@@ -77,10 +101,15 @@ def test_one_tool_does_the_contour_alone() -> None:
 def test_drills_come_first_with_tools_of_their_own() -> None:
     job = made(options=MakeOptions(feed=99.0), depth=7.0, stock_to_leave=0.5, drills=(5.0, 3.3), peck=1.5, through=0.5)
     first, second = job.operations[:2]
-    assert (first, second) == (DrillOperation(Cut(3, 7.0), 1.5, through=0.5), DrillOperation(Cut(4, 7.0), 1.5, through=0.5))
+    assert (first, second) == (
+        DrillOperation(Cut(3, 7.0), 1.5, through=0.5),
+        DrillOperation(Cut(4, 7.0), 1.5, through=0.5),
+    )
     drills = job.tools[2:]
     assert [(tool.number, tool.diameter, tool.kind, tool.feed_rate) for tool in drills] == [
-        (3, 5.0, ToolKind.DRILL, 99.0), (4, 3.3, ToolKind.DRILL, 99.0)]  # fmt: skip
+        (3, 5.0, ToolKind.DRILL, 99.0),
+        (4, 3.3, ToolKind.DRILL, 99.0),
+    ]
     assert all(each.cut.stock_to_leave == 0.5 for each in job.operations[2:])
     deep = Job(Part(), operations=(PocketOperation(Cut(1, 6.0, 3.0)),))
     assert made(deep, drills=(5.0,)).operations[0].cut.depth == 6.0
@@ -95,45 +124,68 @@ def test_copies_and_clamps() -> None:
 
 
 def test_layers_that_are_read_are_all_that_the_job_needs() -> None:
-    job = Job(Part(), operations=(PocketOperation(Cut(1, layers=("p",))), ContourOperation(Cut(2, enabled=False, layers=("q",)))))
+    job = Job(
+        Part(),
+        operations=(PocketOperation(Cut(1, layers=("p",))), ContourOperation(Cut(2, enabled=False, layers=("q",)))),
+    )
     machining = Machining.of(keep_out=("k",))
     assert layers_of_drawing(MakeOptions(job=job, machining=machining)) == ()
     assert layers_of_drawing(MakeOptions(job=job, layers=("a",), machining=machining)) == ("a", "p", "k")
 
 
-@pytest.mark.parametrize(("asked", "job", "words"), [
-    ({"side": Side.INSIDE}, HOLES, "--side has no effect: the job has no contour operation"),
-    ({"dog_bones": True}, HOLES, "--dog-bones has no effect"),
-    ({"outside_in": True}, HOLES, "--outside-in has no effect: the job has no pocket operation"),
-    ({"entry": EntryKind.RAMP}, HOLES, "--entry has no effect: the job has no operation that mills"),
-    ({"most_engaged": 0.5}, HOLES, "--most-engaged has no effect"),
-    ({"floor_to_leave": 0.5}, HOLES, "--floor-to-leave has no effect"),
-    ({"entry_angle": 0.1, "entry": EntryKind.PLUNGE}, None, "--ramp-angle has no effect: the job has no operation that mills with a slope"),
-    ({"lead_radius": 1.0, "lead": LeadKind.NONE}, None, "--lead-radius has no effect: the job has no contour operation with a lead"),
-    ({"tab_width": 1.0}, None, "--tab-width has no effect: the job has no contour operation with tabs; --tabs N makes some"),
-    ({"tab_height": 1.0, "tabs": 0}, None, "--tab-height has no effect"),
-    ({"peck": 1.0}, None, "--peck has no effect: the job has no drill operation; --drill D adds one"),
-    ({"through": 1.0}, None, "--through has no effect"),
-    ({"keep_out_height": 3.0}, None, "--keep-out-height has no effect: no layer of clamps is named"),
-    ({"side": Side.ON, "dog_bones": True}, None, "A path on the line has no wall"),
-    ({"floor_to_leave": 2.0}, None, "Floor to leave is 2 mm"),
-    ({"outside_in": True, "side": Side.ON}, None, "--outside-in has no effect"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("asked", "job", "words"),
+    [
+        ({"side": Side.INSIDE}, HOLES, "--side has no effect: the job has no contour operation"),
+        ({"dog_bones": True}, HOLES, "--dog-bones has no effect"),
+        ({"outside_in": True}, HOLES, "--outside-in has no effect: the job has no pocket operation"),
+        ({"entry": EntryKind.RAMP}, HOLES, "--entry has no effect: the job has no operation that mills"),
+        ({"most_engaged": 0.5}, HOLES, "--most-engaged has no effect"),
+        ({"floor_to_leave": 0.5}, HOLES, "--floor-to-leave has no effect"),
+        (
+            {"entry_angle": 0.1, "entry": EntryKind.PLUNGE},
+            None,
+            "--ramp-angle has no effect: the job has no operation that mills with a slope",
+        ),
+        (
+            {"lead_radius": 1.0, "lead": LeadKind.NONE},
+            None,
+            "--lead-radius has no effect: the job has no contour operation with a lead",
+        ),
+        (
+            {"tab_width": 1.0},
+            None,
+            "--tab-width has no effect: the job has no contour operation with tabs; --tabs N makes some",
+        ),
+        ({"tab_height": 1.0, "tabs": 0}, None, "--tab-height has no effect"),
+        ({"peck": 1.0}, None, "--peck has no effect: the job has no drill operation; --drill D adds one"),
+        ({"through": 1.0}, None, "--through has no effect"),
+        ({"keep_out_height": 3.0}, None, "--keep-out-height has no effect: no layer of clamps is named"),
+        ({"side": Side.ON, "dog_bones": True}, None, "A path on the line has no wall"),
+        ({"floor_to_leave": 2.0}, None, "Floor to leave is 2 mm"),
+        ({"outside_in": True, "side": Side.ON}, None, "--outside-in has no effect"),
+    ],
+)
 def test_what_has_no_effect_is_refused(asked: dict[str, Any], job: Job | None, words: str) -> None:
     with pytest.raises(HitofudeError, match=words.replace("(", r"\(")):
         made(job, **asked)
 
 
-@pytest.mark.parametrize(("options", "words"), [
-    (MakeOptions(pocket_diameter=4.0), "--pocket-tool has no effect: the job has no pocket operation"),
-    (MakeOptions(contour_diameter=4.0), "--contour-tool has no effect"),
-    (MakeOptions(stepover=Stepover(1.0)), "--stepover has no effect"),
-    (MakeOptions(overlap=1.0), "--overlap has no effect"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (MakeOptions(pocket_diameter=4.0), "--pocket-tool has no effect: the job has no pocket operation"),
+        (MakeOptions(contour_diameter=4.0), "--contour-tool has no effect"),
+        (MakeOptions(stepover=Stepover(1.0)), "--stepover has no effect"),
+        (MakeOptions(overlap=1.0), "--overlap has no effect"),
+    ],
+)
 def test_tools_and_steps_of_operations_that_are_not_there(options: MakeOptions, words: str) -> None:
     with pytest.raises(ParameterError, match=words):
         made(HOLES, options)
-    off = Job(Part(), operations=tuple(type(each)(Cut(each.cut.tool, enabled=False)) for each in Job(Part()).operations))
+    off = Job(
+        Part(), operations=tuple(type(each)(Cut(each.cut.tool, enabled=False)) for each in Job(Part()).operations)
+    )
     with pytest.raises(ParameterError, match=words):
         made(off, options)
 

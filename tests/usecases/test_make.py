@@ -29,7 +29,12 @@ from tests.gcode.rs274_oracle import assert_same_motion, canonical_calls
 from tests.usecases.truth import assert_left_is_true
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = (ROOT / "tests/data/dxf", ROOT / "resources/samples", ROOT.parent / "shared/data/dxf", ROOT.parent / "shared/bench")
+FOLDERS = (
+    ROOT / "tests/data/dxf",
+    ROOT / "resources/samples",
+    ROOT.parent / "shared/data/dxf",
+    ROOT.parent / "shared/bench",
+)
 
 DRAWINGS = {
     "fig2.dxf": MakeOptions(),
@@ -71,7 +76,9 @@ def test_no_gouge_and_no_rapid_in_material(name: str) -> None:
     assert report["rapids_in_material"] == []
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.exhaustive] if name in SLOW_TO_READ else []) for name in DRAWINGS])
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.exhaustive] if name in SLOW_TO_READ else []) for name in DRAWINGS]
+)
 def test_the_control_accepts_the_program_and_moves_as_it_means(name: str) -> None:
     this = made(name)
     assert_same_motion(this.program.moves, this.nc, this.job)
@@ -102,13 +109,20 @@ def test_the_numbers_of_the_report_are_those_of_the_moves(name: str) -> None:
     assert report["length_mm"]["rapid"] == pytest.approx(float(np.sum(lengths[rapid])), abs=rounding)
     assert "first approach" in report["moves_method"]
     assert report["strokes"] == this.program.strokes
-    waits = len(np.unique(moves.tool)) * (load_post(this.job.post).spindle.dwell_s + load_machine(DEFAULT_MACHINE).tool_change)
+    waits = len(np.unique(moves.tool)) * (
+        load_post(this.job.post).spindle.dwell_s + load_machine(DEFAULT_MACHINE).tool_change
+    )
     cutting = float(np.sum(lengths[~rapid] / moves.feed[~rapid])) * 60
     assert report["time_parts_s"]["wait"] == pytest.approx(waits)
     assert cutting - 0.01 <= report["time_parts_s"]["cut"] <= 3 * cutting
     assert report["time_s"] == pytest.approx(sum(report["time_parts_s"].values()))
     assert report["check"]["differences"] == 0
-    assert 0 <= report["check"]["largest_distance_mm"] <= report["check"]["tolerance_mm"] == report["tolerance"]["writing_mm"]
+    assert (
+        0
+        <= report["check"]["largest_distance_mm"]
+        <= report["check"]["tolerance_mm"]
+        == report["tolerance"]["writing_mm"]
+    )
     assert json.loads(this.report.text()) == report
     assert this.clean == (not any(finding["counts"] for finding in report["findings"]))
 
@@ -127,7 +141,10 @@ def read_kinds(text: str) -> list[int]:
 
 def test_the_report_gives_the_stepover_that_was_chosen() -> None:
     pocket, rest, contour = (each.get("stepover_mm") for each in made("fig2.dxf").report.data["operations"])
-    assert pocket in [pytest.approx(share * 3.0) for share in (1.4, 1.5, 1.6, 1.65, 1.7, 1.75, 1.8)] and (rest, contour) == (3.0, None)
+    assert pocket in [pytest.approx(share * 3.0) for share in (1.4, 1.5, 1.6, 1.65, 1.7, 1.75, 1.8)] and (
+        rest,
+        contour,
+    ) == (3.0, None)
 
 
 def test_fig2_is_clean_and_its_corners_are_told() -> None:
@@ -138,15 +155,21 @@ def test_fig2_is_clean_and_its_corners_are_told() -> None:
     assert report["left"]["unreachable_mm2"] == pytest.approx(2.66, abs=0.01)
     assert [each["number"] for each in report["regions"]] == [1, 2]
     assert (report["strokes"], report["retracts"], report["open_contours"], report["skipped"]) == (2, 5, [], [])
-    assert [(each["kind"], each["tool"]) for each in report["operations"]] == [("pocket", 1), ("rest", 2), ("contour", 2)]
+    assert [(each["kind"], each["tool"]) for each in report["operations"]] == [
+        ("pocket", 1),
+        ("rest", 2),
+        ("contour", 2),
+    ]
     assert sum(each["time_s"] for each in report["operations"]) < report["time_s"]
 
 
 def test_rings_that_are_polylines_are_told() -> None:
     this = made("fig2.dxf")
     assert "polylines" not in this.report.data["engine"]
-    for count, words in ((7, "7 rings are fine polylines within 1 um instead of lines and arcs."),
-                         (1, "1 ring is a fine polyline within 1 um instead of lines and arcs.")):
+    for count, words in (
+        (7, "7 rings are fine polylines within 1 um instead of lines and arcs."),
+        (1, "1 ring is a fine polyline within 1 um instead of lines and arcs."),
+    ):
         again = finish(replace(this.program, polyline_rings=count), this.job)
         (finding,) = [each for each in again.findings if each.kind is FindingKind.TOLERANCE]
         assert (finding.text, finding.counts, finding.amount) == (words, False, count)
@@ -167,7 +190,9 @@ def test_the_first_approach_is_among_the_rapids() -> None:
     """Each tool's text begins with a rapid to safe Z that the program does not have."""
     this = made("fig2.dxf")
     assert this.report.data["moves"]["G0"] == int(np.sum(rapids(this))) + 2
-    assert this.report.data["length_mm"]["rapid"] == pytest.approx(float(np.sum(this.program.moves.lengths()[rapids(this)])), abs=1e-3)
+    assert this.report.data["length_mm"]["rapid"] == pytest.approx(
+        float(np.sum(this.program.moves.lengths()[rapids(this)])), abs=1e-3
+    )
 
 
 def rapids(this: Made) -> np.ndarray:
@@ -203,7 +228,11 @@ def test_every_region_that_no_tool_fits_is_named_and_counts() -> None:
 
 def test_broken_loop_names_both_ends_and_the_overlap() -> None:
     with pytest.raises(GeometryError) as error:
-        make("broken_loop.dxf", drawing("broken_loop.dxf").read_bytes(), MakeOptions(pocket_diameter=0.5, contour_diameter=0.3))
+        make(
+            "broken_loop.dxf",
+            drawing("broken_loop.dxf").read_bytes(),
+            MakeOptions(pocket_diameter=0.5, contour_diameter=0.3),
+        )
     text = str(error.value)
     assert "(1.000, 0.000)" in text
     assert "(1.100, 0.000)" in text
@@ -227,8 +256,13 @@ def test_one_tool_does_both_jobs() -> None:
 
 def test_depth_passes_origin_and_units_reach_the_program() -> None:
     options = MakeOptions(
-        origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, out_units=Units.INCH, safe_z=0.5, feed=333,
-        machining=Machining.of(depth=5, stepdown=2))  # fmt: skip
+        origin_xy=OriginXY.CENTRE,
+        origin_z=OriginZ.BOTTOM,
+        out_units=Units.INCH,
+        safe_z=0.5,
+        feed=333,
+        machining=Machining.of(depth=5, stepdown=2),
+    )
     this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), options)
     level = this.program.moves.start[:, 2] == this.program.moves.end[:, 2]
     depths = sorted({round(float(z), 6) for z in this.program.moves.end[level, 2] if z < 0})
@@ -238,11 +272,15 @@ def test_depth_passes_origin_and_units_reach_the_program() -> None:
     assert "G20" in this.nc.text
     assert this.report.data["left"]["floor_depth_mm"] == 5
     assert this.report.data["rapids_in_material"] == []
-    assert_same_motion(this.program.moves, this.nc, this.job, work_origin(this.job, stock_box(this.job, this.program.regions)))
+    assert_same_motion(
+        this.program.moves, this.nc, this.job, work_origin(this.job, stock_box(this.job, this.program.regions))
+    )
 
 
 def test_a_depth_below_the_stock_makes_it_thicker() -> None:
-    this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(machining=Machining.of(depth=14, stepdown=14)))
+    this = make(
+        "fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(machining=Machining.of(depth=14, stepdown=14))
+    )
     assert this.job.stock.thickness == 14
 
 
@@ -279,7 +317,9 @@ def test_cancel_is_heard_in_every_stage() -> None:
             return self.calls > self.at
 
     texts: list[str] = []
-    make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(), Progress(lambda fraction, text: texts.append(text)))
+    make(
+        "fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(), Progress(lambda fraction, text: texts.append(text))
+    )
     few = 0.9 * len(texts)  # while threads cut, how often they are looked at depends on how long they take
     for at in range(0, int(few), 3):
         with pytest.raises(Cancelled):
@@ -288,7 +328,12 @@ def test_cancel_is_heard_in_every_stage() -> None:
 
 def test_progress_grows_to_one() -> None:
     seen: list[float] = []
-    make("fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(), Progress(lambda fraction, text: seen.append(fraction)))
+    make(
+        "fig2.dxf",
+        drawing("fig2.dxf").read_bytes(),
+        MakeOptions(),
+        Progress(lambda fraction, text: seen.append(fraction)),
+    )
     assert seen == sorted(seen)
     assert seen[-1] == pytest.approx(1.0)
 

@@ -29,12 +29,15 @@ def test_nothing_said_is_the_default_job() -> None:
     assert made() == Job(Part())
 
 
-@pytest.mark.parametrize(("options", "tools"), [
-    ({"pocket_diameter": 8.0, "contour_diameter": 4.0}, [(1, 8.0), (2, 4.0)]),
-    ({"pocket_diameter": 8.0}, [(1, 8.0)]),
-    ({"contour_diameter": 4.0}, [(1, 4.0)]),
-    ({"pocket_diameter": 4.0, "contour_diameter": 4.0}, [(1, 4.0)]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("options", "tools"),
+    [
+        ({"pocket_diameter": 8.0, "contour_diameter": 4.0}, [(1, 8.0), (2, 4.0)]),
+        ({"pocket_diameter": 8.0}, [(1, 8.0)]),
+        ({"contour_diameter": 4.0}, [(1, 4.0)]),
+        ({"pocket_diameter": 4.0, "contour_diameter": 4.0}, [(1, 4.0)]),
+    ],
+)
 def test_tools_of_the_default_job(options: dict[str, float], tools: list[tuple[int, float]]) -> None:
     job = made(**options)
     assert [(tool.number, tool.diameter) for tool in job.tools] == tools
@@ -75,11 +78,20 @@ def test_a_stepover_of_the_job_that_no_longer_fits_its_tool_is_refused() -> None
 
 
 def test_every_other_value() -> None:
-    job = made(depth=4.0, stepdown=1.5, stock_to_leave=0.1, direction=Direction.CONVENTIONAL, feed=500.0, plunge=90.0, speed=9000.0,
-               safe_z=0.4, join_tolerance=0.0)  # fmt: skip
+    job = made(
+        depth=4.0,
+        stepdown=1.5,
+        stock_to_leave=0.1,
+        direction=Direction.CONVENTIONAL,
+        feed=500.0,
+        plunge=90.0,
+        speed=9000.0,
+        safe_z=0.4,
+        join_tolerance=0.0,
+    )
     assert {operation.cut for operation in job.operations} == {
         Cut(number, 4.0, 1.5, 0.1, Direction.CONVENTIONAL) for number in (1, 2)
-    }  # fmt: skip
+    }
     assert {(tool.feed_rate, tool.plunge_rate, tool.spindle_speed) for tool in job.tools} == {(500.0, 90.0, 9000.0)}
     assert (job.safe_z, job.retract_z, job.join_tolerance) == (0.4, 0.4, 0.0)
 

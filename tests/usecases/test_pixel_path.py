@@ -1,4 +1,6 @@
-"""Paths made from pixels: as near to the walls as pixels allow, never nearer; what that costs is measured, and the limits are told."""
+"""Paths made from pixels: as near to the walls as pixels allow, never nearer; what that costs is measured, and the
+limits are told.
+"""
 
 import math
 from dataclasses import replace
@@ -169,11 +171,14 @@ def test_a_region_too_small_on_pixels_is_told() -> None:
     assert all("Region 2" in finding.text and "larger bitmap" in finding.text for finding in told)
 
 
-@pytest.mark.parametrize(("job", "words"), [
-    (job_of([square(40)], 0.2, 6.0), "T2 of 0.2 mm is not wider than two pixels"),
-    (job_of([square(40)], 3.0, 6.0, 0.01), "stepover of 0.01 mm is less than a pixel"),
-    (Job(job_of([square(40)]).part, operations=(PocketOperation(Cut(1), 7.0),)), "more than the diameter"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("job", "words"),
+    [
+        (job_of([square(40)], 0.2, 6.0), "T2 of 0.2 mm is not wider than two pixels"),
+        (job_of([square(40)], 3.0, 6.0, 0.01), "stepover of 0.01 mm is less than a pixel"),
+        (Job(job_of([square(40)]).part, operations=(PocketOperation(Cut(1), 7.0),)), "more than the diameter"),
+    ],
+)
 def test_what_pixels_cannot_do_is_refused(job: Job, words: str) -> None:
     with pytest.raises(ParameterError, match=words):
         made(job)

@@ -43,7 +43,9 @@ class Screen:
 
     def show(self, moment: Moment) -> PlayFrame:
         frame = self.playback.frame(moment)
-        rows, cols = (slice(at, at + size) for at, size in zip((frame.row, frame.col), frame.heights.shape, strict=True))
+        rows, cols = (
+            slice(at, at + size) for at, size in zip((frame.row, frame.col), frame.heights.shape, strict=True)
+        )
         self.field.heights[rows, cols], self.field.owner[rows, cols] = frame.heights, frame.owner
         return frame
 
@@ -54,7 +56,11 @@ def from_start(done: CutProgram, motion: int) -> Field:
         cutters = {number: cutter_of(tool) for number, tool in done.setup.tools.items()}
         part = trim(piece, course_of(program).course, cutters, TrimOptions(trace=True, stop=motion - first))
         assert part.owner is not None
-        owner, piece, first = np.where(part.owner >= 0, part.owner + np.int32(first), owner), part.workpiece, first + len(program.motions)
+        owner, piece, first = (
+            np.where(part.owner >= 0, part.owner + np.int32(first), owner),
+            part.workpiece,
+            first + len(program.motions),
+        )
     return Field(piece.heights, owner)
 
 
@@ -144,8 +150,18 @@ def test_columns_hold_all_that_is_taken(columns: int) -> None:
 
 
 def test_a_program_without_motions_is_a_point_in_time() -> None:
-    nothing = Timeline((), np.zeros(1, np.int64), np.zeros(0), np.zeros(0), 0.0, np.zeros(0, np.int32), np.zeros(0, np.int32),
-                       np.zeros(0), np.zeros(0), np.zeros(0, bool))  # fmt: skip
+    nothing = Timeline(
+        (),
+        np.zeros(1, np.int64),
+        np.zeros(0),
+        np.zeros(0),
+        0.0,
+        np.zeros(0, np.int32),
+        np.zeros(0, np.int32),
+        np.zeros(0),
+        np.zeros(0),
+        np.zeros(0, bool),
+    )
     assert nothing.at(3.0) == nothing.last == Moment(0)
     assert nothing.place(Moment(0)) is None
     assert nothing.sampled(5).removed.tolist() == [0] * 6

@@ -63,7 +63,9 @@ def random_job(seed: int) -> Job:
     )
 
 
-@pytest.mark.parametrize("seed", [*range(24), *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in range(24, 500))])
+@pytest.mark.parametrize(
+    "seed", [*range(24), *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in range(24, 500))]
+)
 def test_a_random_job(seed: int) -> None:
     try:
         made = export(random_job(seed))
@@ -77,8 +79,14 @@ def test_a_random_job(seed: int) -> None:
 
 
 def test_a_ring_keeps_no_row_that_rounding_leaves_no_length() -> None:
-    """Three circles whose touches miss by 3.3e-11: a row of a ring lost its length where it was put back in its place, and then its way."""
-    centres = [(89.28206876520868, -21.265875279267714), (84.28206876522518, -29.92612931708352), (94.28206876519218, -29.92612931708352)]
+    """Three circles whose touches miss by 3.3e-11: a row of a ring lost its length where it was put back in its place,
+    and then its way.
+    """
+    centres = [
+        (89.28206876520868, -21.265875279267714),
+        (84.28206876522518, -29.92612931708352),
+        (94.28206876519218, -29.92612931708352),
+    ]
     curves = [Entity(number, Circle(centre, 5)) for number, centre in enumerate(centres, 1)]
     made = export(Job(Part().with_entities(tuple(curves))))
     assert made.report.data["gouge"]["max_mm"] <= 1e-3 and len(made.program.moves)

@@ -1,4 +1,6 @@
-"""What is wrong with a scene is found, with its place: holes, size, place in the stock, tips in the table, plunges at full feed."""
+"""What is wrong with a scene is found, with its place: holes, size, place in the stock, tips in the table, plunges at
+full feed.
+"""
 
 import json
 import math
@@ -43,7 +45,9 @@ def told(folder: Path, triangles: np.ndarray | None = None, **given: object) -> 
         (folder / "part.stl").write_bytes(stl(triangles))
     words = {"stock": BLOCK, "shape": MESH, "place": "", "pitch": 4, "passes": "", "tool": ""} | given
     (folder / "s.toml").write_text(SCENE.format(**words))
-    status = main(["surface", str(folder / "s.toml"), "-o", str(folder / "s.ngc"), "--report", str(folder / "r.json"), "--quiet"])
+    status = main(
+        ["surface", str(folder / "s.toml"), "-o", str(folder / "s.ngc"), "--report", str(folder / "r.json"), "--quiet"]
+    )
     return status, json.loads((folder / "r.json").read_text()) if (folder / "r.json").exists() else {}
 
 
@@ -53,7 +57,12 @@ def kinds(report: dict[str, Any]) -> list[str]:
 
 def with_hole(size: float) -> np.ndarray:
     """A block of 40 x 30 x 10 whose top has a square hole, 10 deep to its underside."""
-    low, high, x, y = pocketed_block()[:2], pocketed_block()[10:18], (20 - size / 2, 20 + size / 2), (15 - size / 2, 15 + size / 2)
+    low, high, x, y = (
+        pocketed_block()[:2],
+        pocketed_block()[10:18],
+        (20 - size / 2, 20 + size / 2),
+        (15 - size / 2, 15 + size / 2),
+    )
     outer, inner = [(0, 0), (40, 0), (40, 30), (0, 30)], [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
     rings = [(outer[k], outer[(k + 1) % 4], inner[(k + 1) % 4], inner[k]) for k in range(4)]
     top = [t for a, b, c, d in rings for t in ((a, b, c), (a, c, d))]
@@ -64,7 +73,10 @@ def test_a_closed_mesh_and_a_sheet_have_no_holes() -> None:
     sheet = pocketed_block()[2:10]
     assert holes(pocketed_block()) == ()
     (inner,) = holes(sheet)  # the ring round the pocket alone: the rim outside is none
-    assert (inner.x, inner.y, inner.radius) == pytest.approx((20, 15, 8), abs=2.1) and (inner.wide, inner.long) == (20, 16)
+    assert (inner.x, inner.y, inner.radius) == pytest.approx((20, 15, 8), abs=2.1) and (inner.wide, inner.long) == (
+        20,
+        16,
+    )
     cup = np.concatenate([pocketed_block()[18:]])
     assert holes(cup) == ()
     (bottomless,) = holes(np.delete(pocketed_block(), FLOOR, axis=0))
@@ -94,27 +106,46 @@ def test_a_model_in_metres_is_told(tmp_path: Path) -> None:
     assert sum("Nothing is cut" in finding["text"] for finding in report["findings"]) == 0
 
 
-@pytest.mark.parametrize(("move", "kind", "words"), [
-    ([20, 0, 0], "beyond_stock", "19.000 mm beyond the stock towards +X"),
-    ([0, -15, 0], "beyond_stock", "14.000 mm beyond the stock towards -Y"), ([0, 0, 5], "beyond_stock", "4.000 mm over the stock's top"),
-    ([0, 0, -12], "beyond_stock", "wholly below the stock"),
-    ([0, 0, -12], "below_table", "below the stock's underside"),
-], ids=str)  # fmt: skip
-def test_a_part_that_does_not_lie_in_its_stock_is_told(tmp_path: Path, move: list[float], kind: str, words: str) -> None:
+@pytest.mark.parametrize(
+    ("move", "kind", "words"),
+    [
+        ([20, 0, 0], "beyond_stock", "19.000 mm beyond the stock towards +X"),
+        ([0, -15, 0], "beyond_stock", "14.000 mm beyond the stock towards -Y"),
+        ([0, 0, 5], "beyond_stock", "4.000 mm over the stock's top"),
+        ([0, 0, -12], "beyond_stock", "wholly below the stock"),
+        ([0, 0, -12], "below_table", "below the stock's underside"),
+    ],
+    ids=str,
+)
+def test_a_part_that_does_not_lie_in_its_stock_is_told(
+    tmp_path: Path, move: list[float], kind: str, words: str
+) -> None:
     status, report = told(tmp_path, pocketed_block(), place=f"move = {move}")
     assert status == 1
     assert [finding for finding in report["findings"] if finding["kind"] == kind and words in finding["text"]]
 
 
-@pytest.mark.parametrize(("top", "flutes", "counts"), [
-    (15.0, "", False), (15.0, "flute_length = 9", True), (8.0, "", None), (15.0, "flute_length = 20", None),
-])  # fmt: skip
-def test_passes_through_metal_that_nothing_has_roughed_are_told(tmp_path: Path, top: float, flutes: str, counts: bool | None) -> None:
-    """A ball of 6, 4 mm beside its last pass, takes 59.04 mm2 below a top at 15, a slot of its width and 9.84 mm, less at the ends."""
+@pytest.mark.parametrize(
+    ("top", "flutes", "counts"),
+    [
+        (15.0, "", False),
+        (15.0, "flute_length = 9", True),
+        (8.0, "", None),
+        (15.0, "flute_length = 20", None),
+    ],
+)
+def test_passes_through_metal_that_nothing_has_roughed_are_told(
+    tmp_path: Path, top: float, flutes: str, counts: bool | None
+) -> None:
+    """A ball of 6, 4 mm beside its last pass, takes 59.04 mm2 below a top at 15, a slot of its width and 9.84 mm, less
+    at the ends.
+    """
     shape = '{ kind = "plane", corner = [0, 0, 0], along = [40, 0, 0], across = [0, 20, 0] }'
     status, report = told(tmp_path, shape=shape, stock=f"box = [0, 0, -5, 40, 20, {top}]", tool=flutes)
     found = [finding for finding in report["findings"] if finding["kind"] == "engagement"]
-    assert status == int(bool(counts)) and [finding["counts"] for finding in found] == ([] if counts is None else [counts])
+    assert status == int(bool(counts)) and [finding["counts"] for finding in found] == (
+        [] if counts is None else [counts]
+    )
     for finding in found:
         assert 9.2 < finding["amount"] <= 9.84 and 0 <= finding["x"] <= 40 and finding["y"] in (4.0, 8.0, 12.0, 16.0)
         assert ("its flutes are 9 mm long" if flutes else "it is 6 mm wide") in finding["text"]
@@ -142,7 +173,10 @@ def test_steep_descents_go_at_the_plunge_rate(tmp_path: Path) -> None:
             continue
         words = {word[0]: float(word[1:]) for word in line.split()}
         rapid = words["G"] == 0 if words.get("G") in (0.0, 1.0) else rapid
-        feed, to = words.get("F", feed), np.array([words.get(axis, old) for axis, old in zip("XYZ", at.tolist(), strict=True)])
+        feed, to = (
+            words.get("F", feed),
+            np.array([words.get(axis, old) for axis, old in zip("XYZ", at.tolist(), strict=True)]),
+        )
         if not rapid and at[2] - to[2] > max(0.2, math.tan(math.radians(60)) * math.hypot(*(to - at)[:2])):
             assert feed == 300.0
             down += 1
@@ -157,16 +191,26 @@ def test_passes_overrun_to_the_foot_of_a_dome(tmp_path: Path) -> None:
     ends = {}
     for given in ("", "overrun = 0", "overrun = 1"):
         told(tmp_path, shape=DOME, stock=box, pitch=3, passes=given)
-        ends[given] = max(float(word[1:]) for line in (tmp_path / "s.ngc").read_text().splitlines() for word in line.split()
-                          if word[0] == "X" and line[0] in "GXYZ")  # fmt: skip
+        ends[given] = max(
+            float(word[1:])
+            for line in (tmp_path / "s.ngc").read_text().splitlines()
+            for word in line.split()
+            if word[0] == "X" and line[0] in "GXYZ"
+        )
     assert ends[""] == pytest.approx(foot, abs=0.02) and ends[""] <= foot + 1e-3
     assert (ends["overrun = 0"], ends["overrun = 1"]) == (pytest.approx(12, abs=1e-3), pytest.approx(13, abs=1e-3))
 
 
 def test_a_level_sheet_is_followed_as_far_as_it_goes(tmp_path: Path) -> None:
     shape = '{ kind = "plane", corner = [0, 0, 0], along = [20, 0, 0], across = [0, 20, 0] }'
-    reports = [told(tmp_path, shape=shape, stock="box = [-5, -5, -5, 25, 25, 1]", passes=given)[1] for given in ("", "overrun = 0")]
-    assert reports[0]["length_mm"] == reports[1]["length_mm"] and reports[0]["passes"][0]["planes"] == reports[1]["passes"][0]["planes"]
+    reports = [
+        told(tmp_path, shape=shape, stock="box = [-5, -5, -5, 25, 25, 1]", passes=given)[1]
+        for given in ("", "overrun = 0")
+    ]
+    assert (
+        reports[0]["length_mm"] == reports[1]["length_mm"]
+        and reports[0]["passes"][0]["planes"] == reports[1]["passes"][0]["planes"]
+    )
 
 
 def test_a_mesh_that_was_cut_off_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -174,8 +218,10 @@ def test_a_mesh_that_was_cut_off_is_one_sentence(tmp_path: Path, capsys: pytest.
     (tmp_path / "s.toml").write_text(SCENE.format(stock=BLOCK, shape=MESH, place="", pitch=4, passes="", tool=""))
     assert main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc")]) == 2
     said = [line for line in capsys.readouterr().err.splitlines() if line.startswith("hitofude: ")]
-    assert said == ["hitofude: part.stl: this STL file was cut off: it has 2,000 bytes of the 14,084 that its 280 triangles take; "
-                    "copy or export it again."]  # fmt: skip
+    assert said == [
+        "hitofude: part.stl: this STL file was cut off: it has 2,000 bytes of the 14,084 that its 280 triangles take; "
+        "copy or export it again."
+    ]
 
 
 def test_walls_are_where_they_are_said_to_be() -> None:
@@ -193,13 +239,18 @@ def test_a_way_that_ends_where_the_path_is_as_steep_as_upright_ends() -> None:
     assert way is None or way[-1, 2] < -2.9
 
 
-@pytest.mark.parametrize(("pitch", "status", "words"), [
-    (0.3, 0, "0.000 mm2 left within reach"), (2.0, 1, "of metal within reach is left in"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("pitch", "status", "words"),
+    [
+        (0.3, 0, "0.000 mm2 left within reach"),
+        (2.0, 1, "of metal within reach is left in"),
+    ],
+)
 def test_what_the_chord_tolerance_leaves_is_no_metal_left_and_what_the_pitch_leaves_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], pitch: float, status: int, words: str
 ) -> None:
-    """A wave that a ball of 6 reaches everywhere, as it bends by 1 / (6 (2 pi / 40)²) = 6.75 at most, and no place of it is out of reach.
+    """A wave that a ball of 6 reaches everywhere, as it bends by 1 / (6 (2 pi / 40)²) = 6.75 at most, and no place of
+    it is out of reach.
 
     Chords lie up to 0.01 above it, square to it, ridges of a pitch of 2 are 0.17 high.
     """

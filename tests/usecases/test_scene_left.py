@@ -1,4 +1,6 @@
-"""What `surface` leaves within reach of its own tools: flats, slopes, walls, corners, domes and waves, in closed form and by an oracle."""
+"""What `surface` leaves within reach of its own tools: flats, slopes, walls, corners, domes and waves, in closed form
+and by an oracle.
+"""
 
 import json
 import math
@@ -38,7 +40,9 @@ def test_ridges_of_a_ball_in_closed_form(spacing: float, degrees: float) -> None
 
 
 def test_ridges_of_a_flat_mill_are_steps() -> None:
-    """None on a flat while passes overlap; on a slope a step of pitch times slope, square to it; none farther apart than the mill is."""
+    """None on a flat while passes overlap; on a slope a step of pitch times slope, square to it; none farther apart
+    than the mill is.
+    """
     mill = Cutter(RADIUS, RADIUS, 0.0)
     found = ridges(mill, 0.2, np.array([0.0, 1.0]))
     assert found.tolist() == pytest.approx([0.0, 0.2 / math.sqrt(2.0)], abs=0.01)
@@ -65,14 +69,21 @@ def test_a_wall_between_two_planes_is_left_with_its_height_and_the_remedy(tmp_pa
     status, report = told(tmp_path, pocketed_block(), pitch=4)
     (finding,) = left(report)
     assert status == 1 and finding["counts"] and finding["amount"] == report["left"]["reachable_mm2"]
-    assert report["left"]["worst_mm"] == pytest.approx(1 + math.sqrt(8), abs=0.2) and finding["y"] == pytest.approx(9, abs=0.2)
+    assert report["left"]["worst_mm"] == pytest.approx(1 + math.sqrt(8), abs=0.2) and finding["y"] == pytest.approx(
+        9, abs=0.2
+    )
     assert "angle_deg = 90" in finding["text"]
-    bounds = 1.2 * 20, 3.0 * 20  # along the wall, from where metal is higher than the ridges of 4 mm to the foot of its ball
+    bounds = (
+        1.2 * 20,
+        3.0 * 20,
+    )  # along the wall, from where metal is higher than the ridges of 4 mm to the foot of its ball
     assert bounds[0] < report["left"]["reachable_mm2"] < bounds[1]
 
 
 def test_passes_along_the_walls_leave_nothing_and_corners_are_out_of_reach(tmp_path: Path) -> None:
-    """Passes at 10.01 and 19.99 come to both walls; what is left in corners and at the foot of walls no ball of its size cuts."""
+    """Passes at 10.01 and 19.99 come to both walls; what is left in corners and at the foot of walls no ball of its
+    size cuts.
+    """
     status, report = told(tmp_path, pocketed_block(), pitch=1.996, passes="through = [0, 10.01]")
     assert (status, left(report)) == (0, []) and report["left"]["places"] == 0
 
@@ -82,7 +93,9 @@ def test_a_pass_that_is_left_out_is_found(tmp_path: Path) -> None:
     shape = '{ kind = "plane", corner = [0, 0, 0], along = [40, 0, 0], across = [0, 30, 0] }'
     given = "[{ rectangle = [0, 0, 40, 8] }, { rectangle = [0, 22, 40, 30] }]"
     _, whole = told(tmp_path, shape=shape, pitch=1, stock="box = [0, 0, -5, 40, 30, 2]")
-    status, report = told(tmp_path, shape=shape, pitch=1, stock="box = [0, 0, -5, 40, 30, 2]", passes=f"boundary = {given}")
+    status, report = told(
+        tmp_path, shape=shape, pitch=1, stock="box = [0, 0, -5, 40, 30, 2]", passes=f"boundary = {given}"
+    )
     assert left(whole) == [] and (status, left(report)) == (0, [])  # a boundary says what is not asked for
     status, report = told(tmp_path, shape=shape, pitch=7, stock="box = [0, 0, -5, 40, 30, 2]")
     (finding,) = left(report)
@@ -93,7 +106,9 @@ def test_stock_to_leave_is_not_left(tmp_path: Path) -> None:
     status, report = told(tmp_path, pocketed_block(), pitch=1.797, passes="stock_to_leave = 0.5\nthrough = [0, 10.51]")
     assert (status, left(report)) == (0, [])
     shape = '{ kind = "plane", corner = [0, -2, 0], along = [30, 0, 0], across = [0, 24, 18] }'
-    status, report = told(tmp_path, shape=shape, pitch=1, stock="box = [0, 0, -5, 30, 20, 18.5]", passes="stock_to_leave = 0.5")
+    status, report = told(
+        tmp_path, shape=shape, pitch=1, stock="box = [0, 0, -5, 30, 20, 18.5]", passes="stock_to_leave = 0.5"
+    )
     assert left(report) == [] and status == 0
 
 
@@ -139,19 +154,33 @@ SCENES: dict[str, Scene] = {
     "dome without its foot": (dome, DOME, (-12, -12, 0, 12, 12, 12), "overrun = 0"),
     "wave": (wave, lambda: meshed(wave, np.array([0.0, 40.0]), np.linspace(0, 20, 401)), (0, 0, -15, 40, 20, 0), ""),
     "cone": (
-        cone, '{ kind = "cone", start = [0, 0, 0], end = [0, 0, 12], start_radius = 12, end_radius = 0 }',
-        (-12, -12, 0, 12, 12, 12), "",
+        cone,
+        '{ kind = "cone", start = [0, 0, 0], end = [0, 0, 12], start_radius = 12, end_radius = 0 }',
+        (-12, -12, 0, 12, 12, 12),
+        "",
     ),
-    "pyramid": (pyramid, lambda: faces((-12, -12), (12, -12), (12, 12), (-12, 12), top=18), (-12, -12, 0, 12, 12, 18), ""),
-    "lying cylinder": (lying, '{ kind = "cylinder", start = [0, 0, 0], end = [30, 0, 0], radius = 8 }', (0, -8, 0, 30, 8, 8), ""),
-}  # fmt: skip
+    "pyramid": (
+        pyramid,
+        lambda: faces((-12, -12), (12, -12), (12, 12), (-12, 12), top=18),
+        (-12, -12, 0, 12, 12, 18),
+        "",
+    ),
+    "lying cylinder": (
+        lying,
+        '{ kind = "cylinder", start = [0, 0, 0], end = [30, 0, 0], radius = 8 }',
+        (0, -8, 0, 30, 8, 8),
+        "",
+    ),
+}
 PITCH = 0.15
 """Of the oracle, mm."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """By the oracle: how high metal stands over reach, how high reach is over the part, and how much a mm square to reach is upright."""
+    """By the oracle: how high metal stands over reach, how high reach is over the part, and how much a mm square to
+    reach is upright.
+    """
 
     report: dict[str, Any]
     over: np.ndarray
@@ -173,16 +202,20 @@ def measured(folder: Path, name: str, pitch: float) -> Measured:
     low, x, y = reach(surface, RADIUS, window, box[2]), *window.places()
     slope = np.hypot(*np.gradient(low, PITCH))
     on = surface(x, y) > -49
-    return Measured(report, *(np.where(on, each, 0.0) for each in (heights - low, low - surface(x, y))), np.hypot(1.0, slope))
+    return Measured(
+        report, *(np.where(on, each, 0.0) for each in (heights - low, low - surface(x, y))), np.hypot(1.0, slope)
+    )
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("pitch", [1.0, 3.0])
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_left_agrees_with_an_independent_closing(tmp_path: Path, name: str, pitch: float) -> None:
-    """The area lies between that of what stands clearly too high and that of what stands over the ridges of a flat at all.
+    """The area lies between that of what stands clearly too high and that of what stands over the ridges of a flat at
+    all.
 
-    Clearly: by more than twice those ridges, or a tenth of the radius, and half as much again. Both count cells; 4 mm2 of rims are free.
+    Clearly: by more than twice those ridges, or a tenth of the radius, and half as much again. Both count cells; 4 mm2
+        of rims are free.
     """
     of = measured(tmp_path, name, pitch)
     square = of.over / of.upright
@@ -197,13 +230,26 @@ def test_what_is_left_agrees_with_an_independent_closing(tmp_path: Path, name: s
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("name", SCENES)
 def test_what_cut_says_is_within_reach_agrees_with_an_independent_closing(tmp_path: Path, name: str) -> None:
-    """What stands over the part, within reach or not, and higher than 0.01 and the chords, is left; where reach is over it, that is why.
+    """What stands over the part, within reach or not, and higher than 0.01 and the chords, is left; where reach is over
+    it, that is why.
 
     Between 0.005 and 0.045 mm, square to the part, either is right: cells, chords, and the rim of each ridge.
     """
     of = measured(tmp_path, name, 1.0)
     report = tmp_path / "cut.json"
-    main(["cut", str(tmp_path / "s.ngc"), "--against", str(tmp_path / "s.toml"), "--report", str(report), "--grid", "256", "--quiet"])
+    main(
+        [
+            "cut",
+            str(tmp_path / "s.ngc"),
+            "--against",
+            str(tmp_path / "s.toml"),
+            "--report",
+            str(report),
+            "--grid",
+            "256",
+            "--quiet",
+        ]
+    )
     said = json.loads(report.read_text())["left"]
     standing = (of.over + of.lifted) / of.upright
     beyond = of.area((of.lifted > 0.01) & (standing > 0.005))

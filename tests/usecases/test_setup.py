@@ -33,7 +33,9 @@ NOTHING_SAID = Wishes()
 
 def ready(*texts: str, wishes: Wishes = NOTHING_SAID) -> Ready:
     options = ExamineOptions(Dialect.LINUXCNC)
-    return setup_of(tuple(examine(f"p{k}.ngc", f"G21 G90\n{text}M2\n".encode(), options) for k, text in enumerate(texts, 1)), wishes)
+    return setup_of(
+        tuple(examine(f"p{k}.ngc", f"G21 G90\n{text}M2\n".encode(), options) for k, text in enumerate(texts, 1)), wishes
+    )
 
 
 def tools(*texts: str, told: tuple[ToolsTold, ...] = ()) -> dict[int, Tool]:
@@ -50,7 +52,10 @@ def box(text: str) -> tuple[float, ...]:
 
 def test_tools_are_believed_in_order() -> None:
     text = f"(T3 flat 4 mm)\nT3 M6\n{CUT}"
-    option, job, table = (ToolsTold(name, {3: Tool(3, diameter)}) for name, diameter in (("--tool", 9.0), ("the job", 8.0), ("t.tbl", 7.0)))
+    option, job, table = (
+        ToolsTold(name, {3: Tool(3, diameter)})
+        for name, diameter in (("--tool", 9.0), ("the job", 8.0), ("t.tbl", 7.0))
+    )
     for told, diameter in (((option, job, table), 9.0), ((job, table), 8.0), ((table,), 7.0), ((), 4.0)):
         assert tools(text, told=told)[3].diameter == diameter
     known = ready(text, wishes=Wishes(tools=(ToolsTold("--tool"), job))).tools[3]
@@ -58,7 +63,9 @@ def test_tools_are_believed_in_order() -> None:
 
 
 def test_a_tool_that_nobody_tells_is_asked_for() -> None:
-    with pytest.raises(InputError, match=r"p1\.ngc:10: T4 cuts from here on, and nobody says .* such as --tool 4=flat:6"):
+    with pytest.raises(
+        InputError, match=r"p1\.ngc:10: T4 cuts from here on, and nobody says .* such as --tool 4=flat:6"
+    ):
         tools(f"(T3 flat 4 mm)\nT3 M6\n{CUT}T4 M6\nG1 Z-1 F100\n")
 
 
@@ -66,17 +73,36 @@ def test_a_tool_that_does_not_cut_is_not_asked_for() -> None:
     assert list(tools(f"(T3 flat 4 mm)\nT3 M6\n{CUT}T4 M6\nG0 X0\n")) == [3]
 
 
-@pytest.mark.parametrize(("comment", "tool", "assumed"), [
-    ("(T1 D=6. CR=0. - ball end mill)", Tool(1, 6.0, ToolKind.BALL), ""),
-    ("(T1 D=10. CR=0.5 - bullnose end mill)", Tool(1, 10.0, ToolKind.BULL, corner_radius=0.5), ""),
-    ("(T1 D=12.5 CR=0. TAPER=118deg - drill)", Tool(1, 12.5, ToolKind.DRILL, tip_angle=math.radians(118)), ""),
-    ("(T1 60 deg V-bit 12 mm)", Tool(1, 12.0, ToolKind.V, tip_angle=math.radians(60)), ""),
-    ("(T1 D=8. CR=0. - right hand tap)", Tool(1, 8.0), "T1: the comment in line 2 tells 8 mm but no shape; it is taken to be flat"),
-    ("(Tool 1: drill dia. 3.3)", Tool(1, 3.3, ToolKind.DRILL), "no angle; the drill is taken to have 118 degrees; --tool 1=KIND:DIAMETER"),
-    ("(hitofude: tool=1,taper,6,0,0.4,7.5)", Tool(1, 6.0, ToolKind.TAPER, tip_diameter=0.4, tip_angle=math.radians(7.5)), ""),
-    ("(hitofude: tool=1,bull,6,3,0,0)", Tool(1, 6.0, ToolKind.BALL), ""),
-    ("(hitofude: tool=1,bull,6)", Tool(1, 6.0, ToolKind.BULL), "the bull-nose mill is taken to have a square corner"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("comment", "tool", "assumed"),
+    [
+        ("(T1 D=6. CR=0. - ball end mill)", Tool(1, 6.0, ToolKind.BALL), ""),
+        ("(T1 D=10. CR=0.5 - bullnose end mill)", Tool(1, 10.0, ToolKind.BULL, corner_radius=0.5), ""),
+        ("(T1 D=12.5 CR=0. TAPER=118deg - drill)", Tool(1, 12.5, ToolKind.DRILL, tip_angle=math.radians(118)), ""),
+        ("(T1 60 deg V-bit 12 mm)", Tool(1, 12.0, ToolKind.V, tip_angle=math.radians(60)), ""),
+        (
+            "(T1 D=8. CR=0. - right hand tap)",
+            Tool(1, 8.0),
+            "T1: the comment in line 2 tells 8 mm but no shape; it is taken to be flat",
+        ),
+        (
+            "(Tool 1: drill dia. 3.3)",
+            Tool(1, 3.3, ToolKind.DRILL),
+            "no angle; the drill is taken to have 118 degrees; --tool 1=KIND:DIAMETER",
+        ),
+        (
+            "(hitofude: tool=1,taper,6,0,0.4,7.5)",
+            Tool(1, 6.0, ToolKind.TAPER, tip_diameter=0.4, tip_angle=math.radians(7.5)),
+            "",
+        ),
+        ("(hitofude: tool=1,bull,6,3,0,0)", Tool(1, 6.0, ToolKind.BALL), ""),
+        (
+            "(hitofude: tool=1,bull,6)",
+            Tool(1, 6.0, ToolKind.BULL),
+            "the bull-nose mill is taken to have a square corner",
+        ),
+    ],
+)
 def test_tools_of_comments(comment: str, tool: Tool, assumed: str) -> None:
     made = ready(f"{comment}\nT1 M6\n{CUT}")
     assert made.setup.tools == {1: tool}
@@ -86,11 +112,17 @@ def test_tools_of_comments(comment: str, tool: Tool, assumed: str) -> None:
     assert not any(finding.counts for finding in made.findings)
 
 
-@pytest.mark.parametrize(("comment", "words"), [
-    ("(T1 V-bit 12 mm)", "tells of a v tool of 12 mm but not of its angle; give it: --tool 1=v:DIAMETER:ANGLE"),
-    ("(hitofude: tool=1,taper,6)", "--tool 1=taper:TIP:ANGLE:DIAMETER"),
-    ("(hitofude: tool=1,v,6,0,7,60)", "the comment in line 2 tells of a tool that is none: T1: tip diameter is 7 mm"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("comment", "words"),
+    [
+        ("(T1 V-bit 12 mm)", "tells of a v tool of 12 mm but not of its angle; give it: --tool 1=v:DIAMETER:ANGLE"),
+        ("(hitofude: tool=1,taper,6)", "--tool 1=taper:TIP:ANGLE:DIAMETER"),
+        (
+            "(hitofude: tool=1,v,6,0,7,60)",
+            "the comment in line 2 tells of a tool that is none: T1: tip diameter is 7 mm",
+        ),
+    ],
+)
 def test_comments_that_make_no_tool(comment: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
         ready(f"{comment}\nT1 M6\n{CUT}")
@@ -101,24 +133,31 @@ def test_the_angle_of_a_drill_is_said_where_it_is_assumed() -> None:
         tool = Tool(3, 8.0, ToolKind.DRILL, tip_angle=angle)
         return ready(f"T3 M6\n{CUT}", wishes=Wishes(tools=(ToolsTold("--tool", {3: tool}),))).tools[3].assumed
 
-    assert told(0.0) == ("T3: --tool tells a drill of 8 mm but no angle; it is taken to have 118 degrees; "
-                         "--tool 3=drill:8:ANGLE says otherwise.")
+    assert told(0.0) == (
+        "T3: --tool tells a drill of 8 mm but no angle; it is taken to have 118 degrees; "
+        "--tool 3=drill:8:ANGLE says otherwise."
+    )
     assert told(math.radians(90)) == ""
 
 
 def test_a_table_without_shapes_is_said() -> None:
     made = ready(f"T3 M6\n{CUT}", wishes=Wishes(tools=(ToolsTold("tool.tbl", {3: Tool(3, 8.0)}, shapeless=True),)))
-    assert made.findings[0].text == "T3: tool.tbl tells no shapes, so it is taken to be flat, 8 mm; --tool says otherwise."
+    assert (
+        made.findings[0].text == "T3: tool.tbl tells no shapes, so it is taken to be flat, 8 mm; --tool says otherwise."
+    )
 
 
-@pytest.mark.parametrize(("comment", "told", "expected"), [
-    ("", {0: GIVEN}, {3: GIVEN}),
-    ("", {3: GIVEN}, {3: GIVEN}),
-    ("(T5 flat 4 mm)\n", {}, {5: Tool(5, 4.0)}),
-    ("(T5 flat 4 mm)\n", {5: Tool(5, 9.0), 3: GIVEN}, {5: Tool(5, 9.0)}),
-    ("(tool radius 3.0)\n", {}, {1: Tool(1, 6.0)}),
-    ("(hitofude: tool=2,flat,3)\n", {}, {2: Tool(2, 3.0)}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("comment", "told", "expected"),
+    [
+        ("", {0: GIVEN}, {3: GIVEN}),
+        ("", {3: GIVEN}, {3: GIVEN}),
+        ("(T5 flat 4 mm)\n", {}, {5: Tool(5, 4.0)}),
+        ("(T5 flat 4 mm)\n", {5: Tool(5, 9.0), 3: GIVEN}, {5: Tool(5, 9.0)}),
+        ("(tool radius 3.0)\n", {}, {1: Tool(1, 6.0)}),
+        ("(hitofude: tool=2,flat,3)\n", {}, {2: Tool(2, 3.0)}),
+    ],
+)
 def test_the_tool_of_a_program_that_names_none(comment: str, told: dict[int, Tool], expected: dict[int, Tool]) -> None:
     made = ready(comment + CUT, wishes=Wishes(tools=(ToolsTold("--tool", told),)))
     assert made.setup.tools == expected
@@ -128,9 +167,17 @@ def test_the_tool_of_a_program_that_names_none(comment: str, told: dict[int, Too
 
 def test_a_nameless_tool_beside_named_ones() -> None:
     text = f"{CUT}T2 M6\n{CUT}"
-    assert tools(text, told=(ToolsTold("--tool", {0: Tool(1, 5.0), 2: Tool(2, 3.0)}),)) == {1: Tool(1, 5.0), 2: Tool(2, 3.0)}
-    assert tools(text, told=(ToolsTold("--tool", {7: Tool(7, 5.0), 2: Tool(2, 3.0)}),)) == {7: Tool(7, 5.0), 2: Tool(2, 3.0)}
-    with pytest.raises(InputError, match=r"p1\.ngc:4: a tool that the program does not name cuts from here on.*--tool 0=flat:6"):
+    assert tools(text, told=(ToolsTold("--tool", {0: Tool(1, 5.0), 2: Tool(2, 3.0)}),)) == {
+        1: Tool(1, 5.0),
+        2: Tool(2, 3.0),
+    }
+    assert tools(text, told=(ToolsTold("--tool", {7: Tool(7, 5.0), 2: Tool(2, 3.0)}),)) == {
+        7: Tool(7, 5.0),
+        2: Tool(2, 3.0),
+    }
+    with pytest.raises(
+        InputError, match=r"p1\.ngc:4: a tool that the program does not name cuts from here on.*--tool 0=flat:6"
+    ):
         tools(text, told=(ToolsTold("--tool", {2: Tool(2, 3.0)}),))
 
 
@@ -140,15 +187,25 @@ def test_files_that_name_no_tool() -> None:
     sizes = [f"(tool radius {radius})\n{CUT}" for radius in (3.0, 1.5, 3.0)]
     made = ready(*sizes)
     assert [tool.diameter for tool in made.setup.tools.values()] == [6.0, 3.0]
-    assert [{each.program.states[k].tool for k in each.program.motions.state.tolist()} for each in made.programs] == [{1}, {2}, {1}]
+    assert [{each.program.states[k].tool for k in each.program.motions.state.tolist()} for each in made.programs] == [
+        {1},
+        {2},
+        {1},
+    ]
 
 
-@pytest.mark.parametrize(("comment", "expected"), [
-    ("", (7, 7, -2, 43, 23, 0)),
-    ("(stock: 60 x 40 x 10 mm)\n", (0, 0, -10, 60, 40, 0)),
-    ("(stock X0 Y-5 Z-12 X70 Y45 Z0)\n", (0, -5, -12, 70, 45, 0)),
-    ("(hitofude: origin_mm=1,2,-3)\n(hitofude: stock_mm=0,0,-9,70,45,0)\n(hitofude: tool=1,flat,6)\n", (-1, -2, -6, 69, 43, 3)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("comment", "expected"),
+    [
+        ("", (7, 7, -2, 43, 23, 0)),
+        ("(stock: 60 x 40 x 10 mm)\n", (0, 0, -10, 60, 40, 0)),
+        ("(stock X0 Y-5 Z-12 X70 Y45 Z0)\n", (0, -5, -12, 70, 45, 0)),
+        (
+            "(hitofude: origin_mm=1,2,-3)\n(hitofude: stock_mm=0,0,-9,70,45,0)\n(hitofude: tool=1,flat,6)\n",
+            (-1, -2, -6, 69, 43, 3),
+        ),
+    ],
+)
 def test_the_stock_of_comments(comment: str, expected: tuple[float, ...]) -> None:
     assert box(comment) == expected
 
@@ -158,7 +215,10 @@ def test_a_size_lies_where_the_cuts_suggest() -> None:
     made = ready(f"(T1 flat 6 mm)\n(stock: 60 x 40 x 10 mm)\nT1 M6\n{centred.replace('X40 Y20', 'X20 Y10')}")
     assert made.setup.stock.box == (-30, -20, 30, 20)
     assert made.stock.assumed is not None
-    assert "centre at X 0, Y 0, top at Z 0, so X -30.000 to 30.000, Y -20.000 to 20.000, Z -10.000 to 0.000 mm" in made.stock.assumed.text
+    assert (
+        "centre at X 0, Y 0, top at Z 0, so X -30.000 to 30.000, Y -20.000 to 20.000, Z -10.000 to 0.000 mm"
+        in made.stock.assumed.text
+    )
     upwards = ready(f"(T1 flat 6 mm)\n(stock: 60 x 40 x 10 mm)\nT1 M6\n{CUT.replace('Z-2', 'Z3')}")
     assert upwards.setup.stock.over
     assert isinstance(upwards.setup.stock, BoxStock)
@@ -170,7 +230,10 @@ def test_a_box_round_the_cuts_is_said_with_all_its_numbers() -> None:
     made = ready(f"(T1 flat 6 mm)\nT1 M6\n{CUT}")
     (finding,) = made.findings
     assert (finding.kind, finding.counts) == (FindingKind.ASSUMED, False)
-    assert "X 7.000 to 43.000, Y 7.000 to 23.000, Z -2.000 to 0.000 mm; --stock X0,Y0,Z0,X1,Y1,Z1 gives another" in finding.text
+    assert (
+        "X 7.000 to 43.000, Y 7.000 to 23.000, Z -2.000 to 0.000 mm; --stock X0,Y0,Z0,X1,Y1,Z1 gives another"
+        in finding.text
+    )
     above = ready(f"(T1 flat 6 mm)\nT1 M6\n{CUT.replace('Z-2', 'Z3').replace('X40', 'X40 Z1')}")
     assert isinstance(above.setup.stock, BoxStock)
     assert (above.setup.stock.solid.z0, above.setup.stock.solid.z1) == (1, 5)
@@ -184,12 +247,21 @@ def test_a_box_that_is_assumed_holds_the_part(samples: Path) -> None:
     assert "a box round the cuts and the part is assumed, X 6.000 to 102.000" in made.findings[0].text
 
 
-@pytest.mark.parametrize(("text", "words"), [
-    ("(T1 flat 6 mm)\nT1 M6\nG0 Z5\nG0 X1 Y1\n", r"p1\.ngc: nothing is cut; the program has no motion at feed rate"),
-    ("(T1 flat 6 mm)\nT1 M6\nG0 Z5 X0 Y0\nG1 X5 Y5 F100\n", r"no box can be laid round its cuts, as they do not go down; give it: --stock"),
-    ("(T1 flat 6 mm)\nT1 M6\nG1 X5 Y5 F100\n", "no box can be laid round its cuts"),
-    ("G1 X[ F100\n", r"p1\.ngc:2:.*What stands behind it cannot be cut; correct it"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "(T1 flat 6 mm)\nT1 M6\nG0 Z5\nG0 X1 Y1\n",
+            r"p1\.ngc: nothing is cut; the program has no motion at feed rate",
+        ),
+        (
+            "(T1 flat 6 mm)\nT1 M6\nG0 Z5 X0 Y0\nG1 X5 Y5 F100\n",
+            r"no box can be laid round its cuts, as they do not go down; give it: --stock",
+        ),
+        ("(T1 flat 6 mm)\nT1 M6\nG1 X5 Y5 F100\n", "no box can be laid round its cuts"),
+        ("G1 X[ F100\n", r"p1\.ngc:2:.*What stands behind it cannot be cut; correct it"),
+    ],
+)
 def test_programs_that_cannot_be_cut(text: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
         ready(text)
@@ -208,7 +280,10 @@ def test_our_own_header_tells_everything(samples: Path) -> None:
     assert part.origin == (51.0, 51.0, -10.0)
     assert stock.solid == StockBox(-45, -45, 0, 45, 45, 10)
     assert [(type(each), each.cut.tool, each.cut.depth, each.cut.stock_to_leave) for each in part.job.operations] == [
-        (PocketOperation, 1, 3.0, 0.1), (RestOperation, 2, 3.0, 0.1), (ContourOperation, 2, 3.0, 0.1)]  # fmt: skip
+        (PocketOperation, 1, 3.0, 0.1),
+        (RestOperation, 2, 3.0, 0.1),
+        (ContourOperation, 2, 3.0, 0.1),
+    ]
     assert len(part.regions) == len(made.program.regions)
     assert 0.001 < part.wall_tolerance < 0.002
     assert not [finding for finding in got.findings if finding.kind is FindingKind.ASSUMED]
@@ -217,7 +292,10 @@ def test_our_own_header_tells_everything(samples: Path) -> None:
 def test_what_is_asked_goes_before_the_job_and_the_job_before_the_header(samples: Path) -> None:
     drawing = (samples / "fig2.dxf").read_bytes()
     examined = examine("fig2.ngc", make("fig2.dxf", drawing, MakeOptions()).nc.text.encode(), ExamineOptions())
-    text = b'[stock]\nmargin = 5\nthickness = 20\n[origin]\nxy = "lower-left"\n[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 5\n'
+    text = (
+        b'[stock]\nmargin = 5\nthickness = 20\n[origin]\nxy = "lower-left"\n[[operation]]\nkind = "pocket"\ntool = '
+        b"1\ndepth = 5\n"
+    )
     job = read_job("j", text)
 
     def part(wishes: Wishes) -> tuple[FlatPart, Ready]:
@@ -229,7 +307,11 @@ def test_what_is_asked_goes_before_the_job_and_the_job_before_the_header(samples
     assert [each.cut.depth for each in found.job.operations] == [5.0]
     assert (found.origin, got.stock.source) == ((1.0, 1.0, 0.0), "the job file, round the drawing")
     assert got.setup.stock.box == (0, 0, 100, 100)
-    asked, _ = part(Wishes(against=("fig2.dxf", drawing), job=job, depth=7.0, leave=0.2, tolerance=0.05, origin=(OriginXY.CENTRE, None)))
+    asked, _ = part(
+        Wishes(
+            against=("fig2.dxf", drawing), job=job, depth=7.0, leave=0.2, tolerance=0.05, origin=(OriginXY.CENTRE, None)
+        )
+    )
     assert [(each.cut.depth, each.cut.stock_to_leave) for each in asked.job.operations] == [(7.0, 0.2)]
     assert (asked.origin, asked.tolerance, asked.wall_tolerance) == ((51.0, 51.0, 0.0), 0.05, 0.05)
     given = BoxStock(StockBox(0, 0, -4, 9, 9, 0))

@@ -31,7 +31,9 @@ TABS, BONES = (Tab(50.0, -2.0, 5.0, -1.0, 4.0),), (DogBone(1.0, 1.0, 0.5, 0.5, 4
 
 
 def drawing() -> bytes:
-    """A plate with holes, a pocket, two clamps over one another, and a line to engrave, in lower and upper case layers."""
+    """A plate with holes, a pocket, two clamps over one another, and a line to engrave, in lower and upper case
+    layers.
+    """
     document = Drawing.new()
     document.header["$INSUNITS"] = 4
     space = document.modelspace()
@@ -48,9 +50,19 @@ def drawing() -> bytes:
 
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "pocket": (PocketOperation(Cut(1, 3.0, floor_to_leave=0.5)),),
-    "layers": (PocketOperation(Cut(1, 3.0, layers=("Holes",))), ContourOperation(Cut(1, 5.0, layers=("outline",)), Side.OUTSIDE)),
-    "holes": (DrillOperation(Cut(2, 4.0, layers=("Holes",)), through=1.0), ContourOperation(Cut(1, 2.0, layers=("text",)), Side.ON)),
-    "leads": (ContourOperation(Cut(1, 2.0, 1.0, 0.25, layers=("outline",)), Side.OUTSIDE, Lead(LeadKind.LINE, 35.5), finish_width=1.5),),
+    "layers": (
+        PocketOperation(Cut(1, 3.0, layers=("Holes",))),
+        ContourOperation(Cut(1, 5.0, layers=("outline",)), Side.OUTSIDE),
+    ),
+    "holes": (
+        DrillOperation(Cut(2, 4.0, layers=("Holes",)), through=1.0),
+        ContourOperation(Cut(1, 2.0, layers=("text",)), Side.ON),
+    ),
+    "leads": (
+        ContourOperation(
+            Cut(1, 2.0, 1.0, 0.25, layers=("outline",)), Side.OUTSIDE, Lead(LeadKind.LINE, 35.5), finish_width=1.5
+        ),
+    ),
     "wide holes": (DrillOperation(Cut(2, 4.0), least=4.0, most=20.0),),
 }
 
@@ -60,13 +72,29 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
 def test_comments_lead_to_the_same_areas(name: str, post: str) -> None:
     """Through the capitals of a control that knows no others too."""
     part = read_drawing("plate.dxf", drawing()).part
-    job = Job(part, TOOLS, OPERATIONS[name], layer_names=("outline", "Holes", "text"), copies=Copies(2, 1, 130.0 + 1 / 3),
-              keep_out_layers=("clamps",), keep_out_height=8.0, post=post)  # fmt: skip
+    job = Job(
+        part,
+        TOOLS,
+        OPERATIONS[name],
+        layer_names=("outline", "Holes", "text"),
+        copies=Copies(2, 1, 130.0 + 1 / 3),
+        keep_out_layers=("clamps",),
+        keep_out_height=8.0,
+        post=post,
+    )
     made = drawn(job)
-    program = replace(_moves(job), regions=machined(made).regions, areas=Sheets(job, made).areas(),
-                      lines=followed_lines(job, made), tabs=TABS, dog_bones=BONES)  # fmt: skip
+    program = replace(
+        _moves(job),
+        regions=machined(made).regions,
+        areas=Sheets(job, made).areas(),
+        lines=followed_lines(job, made),
+        tabs=TABS,
+        dog_bones=BONES,
+    )
     texts = [file.nc.text for file in write_files(program, job, load_post(post))]
-    examined = tuple(examine(f"{k}.nc", text.encode(), ExamineOptions(load_post(post).dialect)) for k, text in enumerate(texts))
+    examined = tuple(
+        examine(f"{k}.nc", text.encode(), ExamineOptions(load_post(post).dialect)) for k, text in enumerate(texts)
+    )
     found = setup_of(examined, Wishes(against=("plate.dxf", drawing()))).setup.part
     assert isinstance(found, FlatPart)
     assert len(found.areas) == len(program.areas)

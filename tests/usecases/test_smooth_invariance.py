@@ -1,8 +1,8 @@
 """Where a path lies, how large it is, which way it is driven and how finely it is cut makes no other curve of it.
 
-Exact motions (turns by 90 degrees, mirrors, powers of two) give the very same splines and lines. All others round points
-in their last bits, or decimals, and a decision that hangs on these may fall the other way: then a few blocks more or less
-stand there, and the curve is another one of the tube. Never may the bound be missed.
+Exact motions (turns by 90 degrees, mirrors, powers of two) give the very same splines and lines. All others round
+points in their last bits, or decimals, and a decision that hangs on these may fall the other way: then a few blocks
+more or less stand there, and the curve is another one of the tube. Never may the bound be missed.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ FITS: dict[str, Callable[[Floats, float], FittedPath]] = {
 SHAPES = {"closed": closed, "eight": eight, "helix": helix, "noisy": noisy, "quantised": quantised, "twisted": twisted}
 
 FEW = {"cubic": 1.4, "quintic": 1.4, "arcs": 1.15, "lines": 1.15}
-"""One of two forms of a path may take so many times the blocks of the other: spans of splines are halved where the proof
+"""One of two forms of a path may take so many times the blocks of the other: spans of splines are halved where the
+proof
 fails, so that few decisions make many of them."""
 
 
@@ -156,7 +157,9 @@ def test_exact_motions_give_as_many_arcs(shape: str, change: str) -> None:
 @pytest.mark.parametrize("change", ROUNDED)
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("name", FITS)
-def test_scale_place_turn_sense_and_cuts_change_nothing_but_what_rounding_decides(name: str, shape: str, change: str) -> None:
+def test_scale_place_turn_sense_and_cuts_change_nothing_but_what_rounding_decides(
+    name: str, shape: str, change: str
+) -> None:
     points = plain(SHAPES[shape]())
     (one, before), (two, after) = (fitted(points, way, name) for way in (HERE, ROUNDED[change]))
     few = about(blocks(one), blocks(two), FEW[name])
@@ -208,7 +211,9 @@ IN_THE_TEXT = {name: change for name, change in (EXACT | ROUNDED).items() if nam
 @pytest.mark.parametrize("change", IN_THE_TEXT)
 @pytest.mark.parametrize("way", WAYS)
 def test_a_program_of_another_place_size_or_sense_is_smoothed_alike(way: str, change: str) -> None:
-    """In the text all is rounded to the control's decimals, of which a program ten times as large has ten times as many."""
+    """In the text all is rounded to the control's decimals, of which a program ten times as large has ten times as
+    many.
+    """
     points, other = np.round(eight(), 3), IN_THE_TEXT[change]
     count, before = written(points, TOLERANCE, way)
     changed, after = written(other.there(points), TOLERANCE * other.scale, way)

@@ -1,7 +1,7 @@
 """What `smooth` wrote, held against what it was given: from both texts alone, at a million places of each program.
 
-Nothing of our reader, curves or judge is asked, only what the certificate states: no place of a curve is farther from the
-moves that it stands for than the bound of its stretch, and no place of these farther from the curve.
+Nothing of our reader, curves or judge is asked, only what the certificate states: no place of a curve is farther from
+the moves that it stands for than the bound of its stretch, and no place of these farther from the curve.
 """
 
 from __future__ import annotations
@@ -128,10 +128,19 @@ def dense() -> Floats:
 
 
 ADVERSARIES: dict[str, tuple[Callable[[], Floats], float]] = {
-    "bulge": (bulge, 0.02), "crumbs": (tiny_beside_long, 0.02), "zigzag": (zigzag, 0.02), "repeated": (repeated, 0.02),
-    "reversal": (reversal, 0.02), "eight": (eight, 0.02), "closed": (closed, 0.02), "helix": (helix, 0.02), "twisted": (twisted, 0.02),
-    "noisy": (noisy, 0.02), "quantised": (quantised, 0.02), "dense": (dense, 0.01),
-}  # fmt: skip
+    "bulge": (bulge, 0.02),
+    "crumbs": (tiny_beside_long, 0.02),
+    "zigzag": (zigzag, 0.02),
+    "repeated": (repeated, 0.02),
+    "reversal": (reversal, 0.02),
+    "eight": (eight, 0.02),
+    "closed": (closed, 0.02),
+    "helix": (helix, 0.02),
+    "twisted": (twisted, 0.02),
+    "noisy": (noisy, 0.02),
+    "quantised": (quantised, 0.02),
+    "dense": (dense, 0.01),
+}
 
 
 def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -> Smoothed:
@@ -162,7 +171,9 @@ def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -
         out, missed = float(off(curve, polyline).max()), float(off(polyline, curve).max())
         assert out <= bound + EXACT, "the curve leaves the tube"
         assert missed <= bound + CHORDS, "the curve leaves out some of the moves"
-        assert middle is None or off(points, curve).max() <= tolerance + CHORDS, "only between the points there is more room"
+        assert middle is None or off(points, curve).max() <= tolerance + CHORDS, (
+            "only between the points there is more room"
+        )
         one, two = along(made, math.ceil(WALK * share)), spread(points, math.ceil(WALK * share))
         step = max(np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=1)).max() for places in (one, two))
         assert in_order(one, two, bound + step), "the curve does not run in the order of the moves"
@@ -170,7 +181,9 @@ def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -
 
 
 def paired(old: list[str], new: list[str], done: Smoothed) -> dict[int, tuple[int, int]]:
-    """Return the first and last line of each stretch that was written anew, and hold all other lines against the old ones."""
+    """Return the first and last line of each stretch that was written anew, and hold all other lines against the old
+    ones.
+    """
     lines, stop, end = {}, len(old), len(new)
     for k in reversed(range(len(done.pieces))):
         piece = done.pieces[k]
@@ -182,7 +195,9 @@ def paired(old: list[str], new: list[str], done: Smoothed) -> dict[int, tuple[in
         lines[k] = (last - piece.blocks[1] + 1, last)
         stop, end = piece.stretch.first_line - 1, last - piece.blocks[1]
     notes = end - stop
-    assert any(new[:k] + new[k + notes : end] == old[:stop] for k in range(stop + 1)), "what is before the first stretch"
+    assert any(new[:k] + new[k + notes : end] == old[:stop] for k in range(stop + 1)), (
+        "what is before the first stretch"
+    )
     return dict(reversed(lines.items()))
 
 
@@ -215,7 +230,9 @@ def thinned() -> Floats:
 
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("points", [rounded_chords, thinned, lambda: helix()[::8]], ids=["circle", "wave", "helix"])
-def test_in_a_barrel_there_is_more_room_between_the_points_and_only_there(points: Callable[[], Floats], way: str) -> None:
+def test_in_a_barrel_there_is_more_room_between_the_points_and_only_there(
+    points: Callable[[], Floats], way: str
+) -> None:
     done = held(program(points()), 0.01, way, 0.07)
     assert way == "lines" or any(piece.judgement for piece in done.pieces)
     assert way != "arcs" or done.bound > 0.01, "the room is used"

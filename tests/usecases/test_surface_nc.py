@@ -1,4 +1,6 @@
-"""Scenes as NC: every control, every unit, several tools; what was written is read back, and what is wrong in it is found."""
+"""Scenes as NC: every control, every unit, several tools; what was written is read back, and what is wrong in it is
+found.
+"""
 
 import re
 import threading
@@ -25,9 +27,11 @@ from tests.surfaces.surface_places import no_data
 
 SOURCES = sources_of(no_data)
 SCENE = Scene(
-    "two", (Surface("table", plane(0, 0, 30, 20)), Surface("dome", ball(15, 10, -3, 8))),
+    "two",
+    (Surface("table", plane(0, 0, 30, 20)), Surface("dome", ball(15, 10, -3, 8))),
     tools=(Tool(1, 6.0, ToolKind.BALL), Tool(2, 3.0, ToolKind.BULL, corner_radius=0.5)),
-    passes=(Passes(1, pitch=4.0), Passes(2, pitch=4.0, angle_deg=90)))  # fmt: skip
+    passes=(Passes(1, pitch=4.0), Passes(2, pitch=4.0, angle_deg=90)),
+)
 
 
 def computed(**changes: object) -> Computed:
@@ -43,7 +47,10 @@ def test_every_control_reads_back_what_is_proven(post: str, units: Units) -> Non
     except HitofudeError as error:
         assert "inch" in str(error) or "exact" in str(error)
         return
-    assert {finding.kind for finding in done.findings()} <= {FindingKind.LEFT_REACHABLE, FindingKind.RIDGE} and done.time_s > 0
+    assert {finding.kind for finding in done.findings()} <= {
+        FindingKind.LEFT_REACHABLE,
+        FindingKind.RIDGE,
+    } and done.time_s > 0
     assert len(done.files) == (2 if load_post(post).file_per_tool else 1)
     written = sum(len(set(file.nc.lines.tolist())) for file in done.files)
     assert written >= 0.9 * len(done.computed.moves.moves)
@@ -77,7 +84,9 @@ def test_comments_tell_the_surface_and_the_boundary_point_at_its_place() -> None
     done = write_scene_nc(computed(passes=(Passes(1, pitch=4.0),)))
     (file,) = done.files
     lines = file.nc.text.splitlines()
-    row_of = dict(reversed([(line, row) for row, line in enumerate(file.nc.lines.tolist())]))  # the first one of each line
+    row_of = dict(
+        reversed([(line, row) for row, line in enumerate(file.nc.lines.tolist())])
+    )  # the first one of each line
     marks = 0
     for number, line in enumerate(lines, 1):
         found = re.match(r"\(Surface (\d) (table|dome), CR12 crossing at (\S+) (\S+) (\S+)\)", line)
@@ -96,7 +105,9 @@ def test_the_order_of_surfaces_changes_nothing_but_their_numbers() -> None:
     one = computed(surfaces=(*SCENE.surfaces, twice))
     other = computed(surfaces=(twice, *SCENE.surfaces[::-1]))
     assert np.array_equal(one.moves.moves.end, other.moves.moves.end)
-    names = [np.array([*each.names, "none"])[each.moves.surface].tolist() for each in (one, other)]  # NO_SURFACE is the last
+    names = [
+        np.array([*each.names, "none"])[each.moves.surface].tolist() for each in (one, other)
+    ]  # NO_SURFACE is the last
     assert names[0] == names[1] and "another table" in names[0]
 
 
@@ -120,7 +131,10 @@ def test_stock_to_leave_is_left() -> None:
 def test_scallops_are_no_higher_than_asked() -> None:
     made = computed(passes=(Passes(1, scallop=0.02),), surfaces=SCENE.surfaces[:1])
     step = np.diff(made.families[0].planes.offsets).max()
-    assert step == pytest.approx(2 * np.sqrt(2 * 3 * 0.02 - 0.02**2), rel=0.02) and step <= 2 * np.sqrt(2 * 3 * 0.02 - 0.02**2) + 1e-9
+    assert (
+        step == pytest.approx(2 * np.sqrt(2 * 3 * 0.02 - 0.02**2), rel=0.02)
+        and step <= 2 * np.sqrt(2 * 3 * 0.02 - 0.02**2) + 1e-9
+    )
 
 
 def test_computing_can_be_cancelled_and_tells_how_far_it_is() -> None:

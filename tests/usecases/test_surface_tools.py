@@ -1,4 +1,6 @@
-"""Every kind of cutter over scenes that are hard on it: what is written is proven, and dense sampling finds no deeper cut."""
+"""Every kind of cutter over scenes that are hard on it: what is written is proven, and dense sampling finds no deeper
+cut.
+"""
 
 import math
 
@@ -17,9 +19,12 @@ from tests.surfaces.test_drop_cutter import rise
 
 GOUGE = 1e-4
 CUTTERS = {
-    "ball": 'kind = "ball"', "flat": 'kind = "flat"', "bull": 'kind = "bull"\ncorner_radius = 1.0', "v": 'kind = "v"\ntip_angle = 90',
+    "ball": 'kind = "ball"',
+    "flat": 'kind = "flat"',
+    "bull": 'kind = "bull"\ncorner_radius = 1.0',
+    "v": 'kind = "v"\ntip_angle = 90',
     "taper": 'kind = "taper"\ntip_angle = 30\ntip_diameter = 2',
-}  # fmt: skip
+}
 SCENES = {
     "a spire and a saddle": """
 [[surface]]
@@ -35,8 +40,10 @@ name = "sheet"
 trims = [{ circle = [16, 13, 7], keep = "outside" }]
 [surface.shape]
 kind = "bspline"
-points = [[[0, 0, -3], [1, 8, -2], [0, 15, -4], [0, 24, 3], [0, 31, 5]], [[8, -1, 4], [8, 8, 1], [9, 17, -1], [8, 24, 2], [8, 32, 6]],
-    [[16, 1, -3], [17, 7, -1], [15, 15, 5], [15, 24, -3], [15, 31, 2]], [[25, 0, -5], [24, 9, 0], [25, 16, 0], [24, 25, 7], [24, 30, 1]],
+points = [[[0, 0, -3], [1, 8, -2], [0, 15, -4], [0, 24, 3], [0, 31, 5]],
+    [[8, -1, 4], [8, 8, 1], [9, 17, -1], [8, 24, 2], [8, 32, 6]],
+    [[16, 1, -3], [17, 7, -1], [15, 15, 5], [15, 24, -3], [15, 31, 2]],
+    [[25, 0, -5], [24, 9, 0], [25, 16, 0], [24, 25, 7], [24, 30, 1]],
     [[32, 0, 3], [31, 8, 2], [33, 15, 1], [33, 25, -4], [33, 31, 3]]]
 [[surface]]
 name = "ring"
@@ -71,7 +78,10 @@ def pared(tool: Tool, r: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("cutter", CUTTERS)
 def test_what_is_written_is_proven_and_nowhere_too_deep(cutter: str, scene: str) -> None:
-    text = f"[[tool]]\nnumber = 1\ndiameter = 6\n{CUTTERS[cutter]}\n{SCENES[scene]}\n[[passes]]\ntool = 1\npitch = 4.7\nangle_deg = 26.7\n"
+    text = (
+        f"[[tool]]\nnumber = 1\ndiameter = 6\n{CUTTERS[cutter]}\n{SCENES[scene]}\n[[passes]]\ntool = 1\npitch = "
+        "4.7\nangle_deg = 26.7\n"
+    )
     computed = compute(read_scene("hard.toml", text.encode()), sources_of(no_data))
     written = write_scene_nc(computed)
     assert not len(written.unproven)

@@ -1,4 +1,6 @@
-"""What a job writes is read back before anybody gets it; how long it takes; whether it fits the machine; files for each tool."""
+"""What a job writes is read back before anybody gets it; how long it takes; whether it fits the machine; files for each
+tool.
+"""
 
 from __future__ import annotations
 
@@ -65,15 +67,21 @@ def test_without_acceleration_the_time_is_length_over_feed(made: Made) -> None:
     moves = made.program.moves
     cuts = moves.kind != MoveKind.RAPID
     this = finish(made.program, made.job, machine=fast(1e9)).report.data
-    assert this["time_parts_s"]["cut"] == pytest.approx(60 * float(np.sum(moves.lengths()[cuts] / moves.feed[cuts])), rel=1e-4)
+    assert this["time_parts_s"]["cut"] == pytest.approx(
+        60 * float(np.sum(moves.lengths()[cuts] / moves.feed[cuts])), rel=1e-4
+    )
     rapids = np.max(np.abs(moves.end - moves.start), axis=1)[~cuts]  # the axis with the longest way tells
     assert this["time_parts_s"]["rapid"] == pytest.approx(60 * float(np.sum(rapids)) / 5000, rel=1e-3)
     assert this["time_parts_s"]["wait"] == pytest.approx(4.0)
     slow = finish(made.program, made.job, machine=fast(100.0)).report.data
     assert slow["time_s"] > this["time_s"] + 5
     assert "Vertical machining centre" in slow["time_method"]
-    assert sum(tool["time_s"] for tool in slow["tools"]) == pytest.approx(slow["time_parts_s"]["cut"] + slow["time_parts_s"]["rapid"])
-    assert sum(each["time_s"] for each in slow["operations"]) == pytest.approx(sum(tool["time_s"] for tool in slow["tools"]))
+    assert sum(tool["time_s"] for tool in slow["tools"]) == pytest.approx(
+        slow["time_parts_s"]["cut"] + slow["time_parts_s"]["rapid"]
+    )
+    assert sum(each["time_s"] for each in slow["operations"]) == pytest.approx(
+        sum(tool["time_s"] for tool in slow["tools"])
+    )
 
 
 def test_a_machine_that_is_too_small_or_too_slow_is_a_finding(made: Made) -> None:
@@ -98,23 +106,38 @@ def test_a_writer_that_errs_is_refused(made: Made, monkeypatch: pytest.MonkeyPat
         return moves
 
     monkeypatch.setattr(write, "work_moves", wrong)
-    with pytest.raises(HitofudeError, match=r"^LinuxCNC program:\d+: the written path is 0\.0100 mm from the move .* not kept"):
+    with pytest.raises(
+        HitofudeError, match=r"^LinuxCNC program:\d+: the written path is 0\.0100 mm from the move .* not kept"
+    ):
         write_and_check(made.program, made.job, load_post("linuxcnc"), None)
 
 
-@pytest.mark.parametrize(("decimals", "units", "far"), [
-    (0, Units.MM, 0.5), (1, Units.MM, 0.05), (2, Units.INCH, 0.1), (2, Units.MM, 0.0055),
-])  # fmt: skip
-def test_decimals_that_are_too_few_are_a_finding_that_counts(made: Made, decimals: int, units: Units, far: float) -> None:
+@pytest.mark.parametrize(
+    ("decimals", "units", "far"),
+    [
+        (0, Units.MM, 0.5),
+        (1, Units.MM, 0.05),
+        (2, Units.INCH, 0.1),
+        (2, Units.MM, 0.0055),
+    ],
+)
+def test_decimals_that_are_too_few_are_a_finding_that_counts(
+    made: Made, decimals: int, units: Units, far: float
+) -> None:
     post = load_post("linuxcnc")
     few = WordDecimals(decimals, decimals, decimals, decimals, decimals, 1)
-    written = write_and_check(made.program, replace(made.job, out_units=units), replace(post, decimals=Decimals(few, few)), None)
+    written = write_and_check(
+        made.program, replace(made.job, out_units=units), replace(post, decimals=Decimals(few, few)), None
+    )
     (finding,) = written.coarseness(units)
     assert finding.kind is FindingKind.TOLERANCE
     assert finding.counts
     assert finding.amount is not None
     assert far <= finding.amount == written.largest_distance_mm <= 1.01 * units.value * 10.0**-decimals
-    assert f"writes {decimals} decimals: the path written is up to {finding.amount:.3f} mm from the computed one" in finding.text
+    assert (
+        f"writes {decimals} decimals: the path written is up to {finding.amount:.3f} mm from the computed one"
+        in finding.text
+    )
 
 
 def test_the_report_of_a_coarse_post_says_of_which_path_its_gouges_are(made: Made) -> None:
@@ -137,6 +160,8 @@ def test_who_is_to_mend_what_is_refused(made: Made) -> None:
     with pytest.raises(HitofudeError, match=r"it is not kept; Mine is a post of your own: mend its file"):
         write_and_check(made.program, made.job, wrong, None)
     right = write_and_check(made.program, made.job, post, None)
-    broken = check(right.files[0].nc.text.replace("M5", "M4").encode(), right.files[0], Meant(made.program, made.job, post))
+    broken = check(
+        right.files[0].nc.text.replace("M5", "M4").encode(), right.files[0], Meant(made.program, made.job, post)
+    )
     with pytest.raises(HitofudeError, match=r"it is not kept; please report this with the drawing and the post"):
         broken.require("part.ngc")

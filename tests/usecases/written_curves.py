@@ -1,7 +1,7 @@
 """What the words of a program drive along, evaluated without any of our reader, our curves or our judge.
 
-G0 to G3 in all planes with I, J, K from the start, G5.2 as LinuxCNC 2.9 drives it (`biarc` of its emccanon.cc), G6.2; G20,
-G21, G17 to G19. Absolute coordinates, no offsets: what else moves the tool is refused.
+G0 to G3 in all planes with I, J, K from the start, G5.2 as LinuxCNC 2.9 drives it (`biarc` of its emccanon.cc), G6.2;
+G20, G21, G17 to G19. Absolute coordinates, no offsets: what else moves the tool is refused.
 """
 
 from __future__ import annotations
@@ -72,7 +72,13 @@ class _Reader:
     def __init__(self) -> None:
         self.moves: list[Move] = []
         self.spline: list[dict[str, float]] = []
-        self._at, self._motion, self._unit, self._axes, self._first = np.full(3, np.nan), 0.0, 1.0, _AXES[17], np.zeros(3)
+        self._at, self._motion, self._unit, self._axes, self._first = (
+            np.full(3, np.nan),
+            0.0,
+            1.0,
+            _AXES[17],
+            np.zeros(3),
+        )
 
     def take(self, number: int, found: list[tuple[str, str]]) -> None:
         """Do one line."""
@@ -146,7 +152,12 @@ class _Reader:
             return
         knots = np.array([words["K"] for words in self.spline])
         at = _nurbs(points, weights, knots, order - 1)
-        self._add(number, points[-1], lambda t: at(knots[0] + t * (knots[-1] - knots[0])), np.unique(knots - knots[0]) / np.ptp(knots))
+        self._add(
+            number,
+            points[-1],
+            lambda t: at(knots[0] + t * (knots[-1] - knots[0])),
+            np.unique(knots - knots[0]) / np.ptp(knots),
+        )
         self._motion = math.nan
 
 
@@ -209,12 +220,15 @@ def spread(points: Floats, count: int) -> Floats:
 
 
 def off(places: Floats, line: Floats) -> Floats:
-    """Return the distance of places (n, 3) from a polyline (m, 3) of many short chords: the chords at its nearest point, mm.
+    """Return the distance of places (n, 3) from a polyline (m, 3) of many short chords: the chords at its nearest
+    point, mm.
 
     It is never less than the true one, and more only where another chord is nearer whose ends are farther.
     """
     near = cKDTree(line, balanced_tree=False, compact_nodes=False).query(places)[1]
-    return np.minimum(_apart(places, line, np.maximum(near - 1, 0)), _apart(places, line, np.minimum(near, len(line) - 2)))
+    return np.minimum(
+        _apart(places, line, np.maximum(near - 1, 0)), _apart(places, line, np.minimum(near, len(line) - 2))
+    )
 
 
 def _apart(places: Floats, line: Floats, chord: NDArray[np.int64]) -> Floats:

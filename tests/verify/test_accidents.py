@@ -70,10 +70,15 @@ def test_rapids_beyond_the_most_that_are_looked_at_are_told(monkeypatch: pytest.
     monkeypatch.setattr(narrow_rapids, "MOST", 1)
     monkeypatch.setattr(led_ways, "MOST", 1)
     result = done("G0 Z5\nX10 Y10.25\nG1 Z-1 F200\nX20\nG0 X10\nX20\nX10\nZ5\n")
-    assert [(finding.kind, finding.counts, finding.amount) for finding in result.findings] == [(FindingKind.TOLERANCE, False, 2.0)]
+    assert [(finding.kind, finding.counts, finding.amount) for finding in result.findings] == [
+        (FindingKind.TOLERANCE, False, 2.0)
+    ]
     holes = "G0 Z5\nX10 Y10.25\nG1 Z-1 F200\nG0 Z5\nX20\nG1 Z-1\nG0 Z5\n"
     found = done(holes, tool=Tool(1, 0.2, flutes=4)).findings
-    assert [(finding.kind, finding.amount) for finding in found] == [(FindingKind.PLUNGE, 1.0), (FindingKind.TOLERANCE, 1.0)]
+    assert [(finding.kind, finding.amount) for finding in found] == [
+        (FindingKind.PLUNGE, 1.0),
+        (FindingKind.TOLERANCE, 1.0),
+    ]
 
 
 def test_long_ways_are_looked_at_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,7 +141,9 @@ def _shrunk(word: str, by: float) -> str:
 
 
 def test_how_deep_and_where_a_dead_centre_goes() -> None:
-    (plunge,) = of(done("G0 Z5\nX50 Y50\nG1 X50.6 Z-1 F100\nX60\nG0 Z5\n", tool=Tool(1, 6.0, flutes=4)), FindingKind.PLUNGE)
+    (plunge,) = of(
+        done("G0 Z5\nX50 Y50\nG1 X50.6 Z-1 F100\nX60\nG0 Z5\n", tool=Tool(1, 6.0, flutes=4)), FindingKind.PLUNGE
+    )
     assert (plunge.line, plunge.x, plunge.amount) == (6, pytest.approx(50.6), pytest.approx(1.0))
     assert "sideways by only 0.050 mm" in plunge.text
 
@@ -144,11 +151,21 @@ def test_how_deep_and_where_a_dead_centre_goes() -> None:
 HOME = "G0 Z5\nX50 Y50\nG1 Z-2 F100\nX80\n{}G53 G0 {}\n"
 
 
-@pytest.mark.parametrize(("before", "to", "told"), [
-    ("", "X0 Y0", True), ("", "X0", True), ("", "X0 Y0 Z0", True), ("", "Z0\nG53 G0 X0 Y0", False), ("G0 Z1\n", "X0 Y0", False),
-    ("X400\n", "X0 Y0", False), ("X-20\nX320\nX80\n", "X0", False), ("X-20\nX320\nX80\n", "Y0", True),
-    ("Y-20\nY320\nY50\n", "Y0", False), ("Y-20\nY320\nY50\n", "X0", True),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("before", "to", "told"),
+    [
+        ("", "X0 Y0", True),
+        ("", "X0", True),
+        ("", "X0 Y0 Z0", True),
+        ("", "Z0\nG53 G0 X0 Y0", False),
+        ("G0 Z1\n", "X0 Y0", False),
+        ("X400\n", "X0 Y0", False),
+        ("X-20\nX320\nX80\n", "X0", False),
+        ("X-20\nX320\nX80\n", "Y0", True),
+        ("Y-20\nY320\nY50\n", "Y0", False),
+        ("Y-20\nY320\nY50\n", "X0", True),
+    ],
+)
 def test_ways_out_of_the_metal_to_places_that_nobody_knows(before: str, to: str, told: bool) -> None:
     found = rapids(HOME.format(before, to), tool=Tool(1, 10.0))
     assert [finding.line for finding in found] == ([8 + before.count("\n")] if told else [])
@@ -162,21 +179,27 @@ def test_ways_out_over_what_was_faced() -> None:
     assert (finding.line, finding.amount) == (8, pytest.approx(3.0))
 
 
-@pytest.mark.parametrize(("body", "line", "words", "count"), [
-    ("G0 Z5\nG1 Z-1 F100\nX10\nG0 Z5\nX10 Y10\nG1 X20\n", 5, "X and Y are not known", 2),
-    ("G1 X10 Y10 F100\nX20\nG0 Z5\n", 4, "Z is not known", 2),
-    ("G0 Z5\nX50 Y50\nG53 G0 X0 Y0\nG1 Z-3 F100\nG0 Z5\nX0 Y0\n", 7, "X and Y are not known", 1),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("body", "line", "words", "count"),
+    [
+        ("G0 Z5\nG1 Z-1 F100\nX10\nG0 Z5\nX10 Y10\nG1 X20\n", 5, "X and Y are not known", 2),
+        ("G1 X10 Y10 F100\nX20\nG0 Z5\n", 4, "Z is not known", 2),
+        ("G0 Z5\nX50 Y50\nG53 G0 X0 Y0\nG1 Z-3 F100\nG0 Z5\nX0 Y0\n", 7, "X and Y are not known", 1),
+    ],
+)
 def test_feed_where_nobody_knows_is_told(body: str, line: int, words: str, count: int) -> None:
     (finding,) = of(done(body), FindingKind.LEFT_OUT)
     assert (finding.counts, finding.line, finding.amount) == (True, line, count)
     assert f"NC line {line} cuts at a place that the program has not told" in finding.text and words in finding.text
 
 
-@pytest.mark.parametrize("body", [
-    "G1 Z5 F500\nG1 X10 Y10\nZ-1\nG0 Z5\n",
-    "G0 Z5\nX10 Y10\nG1 Z-1 F100\nG53 G1 Z0\n",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "body",
+    [
+        "G1 Z5 F500\nG1 X10 Y10\nZ-1\nG0 Z5\n",
+        "G0 Z5\nX10 Y10\nG1 Z-1 F100\nG53 G1 Z0\n",
+    ],
+)
 def test_feed_that_surely_meets_nothing_is_not_told(body: str) -> None:
     assert not of(done(body), FindingKind.LEFT_OUT)
 
@@ -209,6 +232,8 @@ def test_a_gouge_of_several_programs_names_its_own() -> None:
     whole = SolidPart(SolidStock(box((0, 0, -5), (40, 20, 0))))
     texts = ("G0 Z5\nX10 Y10\nG1 Z-1 F100\nX11\nG0 Z5\n", "G0 Z5\nX30 Y10\nG1 Z-2 F100\nX31\nG0 Z5\n")
     programs = tuple(program(f"{BEGIN}{text}M2\n") for text in texts)
-    setup = CutSetup(programs, {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -5, 40, 20, 0)), whole, ("first.ngc", "second.ngc"))
+    setup = CutSetup(
+        programs, {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -5, 40, 20, 0)), whole, ("first.ngc", "second.ngc")
+    )
     (finding,) = of(cut(setup, COARSE), FindingKind.GOUGE)
     assert " of second.ngc; do not run" in finding.text

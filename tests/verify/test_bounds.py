@@ -1,4 +1,6 @@
-"""Each operation's moves are held against its own area: walls, lines, clamps, floor; what was done on purpose is no gouge."""
+"""Each operation's moves are held against its own area: walls, lines, clamps, floor; what was done on purpose is no
+gouge.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,9 @@ def test_an_operation_may_not_cut_in_the_area_of_another_one() -> None:
     abroad = replace(across(30, -2).program(LEFT, RIGHT), areas=areas)
     assert gouge(abroad, task).max_mm > 3
     assert deepest_of(gouge_depths(abroad, task, by_tool=True)).max_mm <= 0  # the tool may be there, whoever leads it
-    assert deepest_of(gouge_depths(replace(across(0, -5).program(LEFT, RIGHT), areas=areas), task, by_tool=True)).max_mm == pytest.approx(3)
+    assert deepest_of(
+        gouge_depths(replace(across(0, -5).program(LEFT, RIGHT), areas=areas), task, by_tool=True)
+    ).max_mm == pytest.approx(3)
 
 
 def test_the_floor_is_that_of_the_operation_less_what_is_left_on_it() -> None:
@@ -139,7 +143,9 @@ def test_rest_machining_alone_is_judged_as_a_pocket_is() -> None:
     assert measure(program, task).unreachable_mm2 == pytest.approx((4 - 3.14159) * 9, rel=1e-2)
 
 
-@pytest.mark.parametrize(("operation", "told"), [(ContourOperation(Cut(1), Side.ON), False), (ContourOperation(Cut(1)), True)])
+@pytest.mark.parametrize(
+    ("operation", "told"), [(ContourOperation(Cut(1), Side.ON), False), (ContourOperation(Cut(1)), True)]
+)
 def test_a_cutter_with_a_point_may_engrave_but_not_cut_walls(operation: ContourOperation, told: bool) -> None:
     lines = polygon_contour([(0, 0), (40, 0), (40, 30), (0, 30)]).primitives
     part = Part().with_entities(tuple(Entity(k, line) for k, line in enumerate(lines, 1)))

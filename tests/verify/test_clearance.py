@@ -62,15 +62,18 @@ def test_distance_is_that_of_dense_points(first: tuple[float, ...], second: tupl
     assert np.min(np.hypot(*(a - place[0]).T)) <= spacing(a)
 
 
-@pytest.mark.parametrize(("first", "second", "expected"), [
-    ((0, 0, 10, 0, 0, 0, 0, 0), (5, -5, 5, 5, 0, 0, 0, 0), 0.0),
-    ((0, 0, 10, 0, 0, 0, 0, 0), (0, 2, 10, 2, 0, 0, 0, 0), 2.0),
-    ((0, 0, 10, 0, 0, 0, 0, 0), (2, 5, 8, 5, 5, 5, 3, 1), 2.0),
-    ((0, 0, 10, 0, 0, 0, 0, 0), (2, 5, 8, 5, 5, 5, 3, -1), 5.0),
-    ((-1, 0, 1, 0, 0, 0, 1, 1), (9, 0, 11, 0, 10, 0, 1, 1), 8.0),
-    ((3, 0, 3, 0, 0, 0, 3, 1), (5, 0, 5, 0, 0, 0, 5, -1), 2.0),
-    ((4, 4, 4, 4, 0, 0, 0, 0), (0, 0, 10, 0, 0, 0, 0, 0), 4.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("first", "second", "expected"),
+    [
+        ((0, 0, 10, 0, 0, 0, 0, 0), (5, -5, 5, 5, 0, 0, 0, 0), 0.0),
+        ((0, 0, 10, 0, 0, 0, 0, 0), (0, 2, 10, 2, 0, 0, 0, 0), 2.0),
+        ((0, 0, 10, 0, 0, 0, 0, 0), (2, 5, 8, 5, 5, 5, 3, 1), 2.0),
+        ((0, 0, 10, 0, 0, 0, 0, 0), (2, 5, 8, 5, 5, 5, 3, -1), 5.0),
+        ((-1, 0, 1, 0, 0, 0, 1, 1), (9, 0, 11, 0, 10, 0, 1, 1), 8.0),
+        ((3, 0, 3, 0, 0, 0, 3, 1), (5, 0, 5, 0, 0, 0, 5, -1), 2.0),
+        ((4, 4, 4, 4, 0, 0, 0, 0), (0, 0, 10, 0, 0, 0, 0, 0), 4.0),
+    ],
+)
 def test_known_distances(first: tuple[float, ...], second: tuple[float, ...], expected: float) -> None:
     distance, _ = curve_distance(np.array([first], float), np.array([second], float))
     assert distance[0] == pytest.approx(expected, abs=1e-12)

@@ -31,7 +31,9 @@ def told(body: str, tool: Tool = BALL, rate: float | None = None, cells: int = 3
 
 
 def test_a_descent_as_fast_as_a_slot_is_told_where_the_program_plunges_more_slowly() -> None:
-    """The ball has left the slot's round bottom: at a quarter of its radius from the axis it is 3 - sqrt(9 - 0.75²) higher."""
+    """The ball has left the slot's round bottom: at a quarter of its radius from the axis it is 3 - sqrt(9 - 0.75²)
+    higher.
+    """
     (found,) = told(f"{SLOWLY}{SLOT}Z-6\nX30\n")
     assert found.counts and found.line == 8 and (found.x, found.y) == (20.0, 10.0)
     assert found.amount == pytest.approx(5.5 + 3 - (9 - 0.75**2) ** 0.5, abs=0.01)
@@ -47,14 +49,18 @@ def test_the_header_s_rate_counts_for_more_than_the_program_s_own() -> None:
     assert first.counts and first.amount == pytest.approx(4.0) and (first.x, first.y) == (10.0, 10.0)
 
 
-@pytest.mark.parametrize("body", [
-    f"{SLOWLY}{SLOT}Z-6 F300\nX30 F900\n",  # as slowly as the first
-    f"{SLOWLY}{SLOT}Z-1.4\nX30\n",  # less than a quarter of the diameter
-    f"{SLOWLY}{SLOT}X26 Z-6\nX10\n",  # a ramp
-    f"{SLOWLY}{SLOT}G2 X20 Y10 Z-6 I-3 J0 F900\nG1 X30\n",  # a helix
-    f"{SLOWLY}{SLOT}Z-6 F300\nX22 F900\nG0 Z5\nX20\nG1 Z-6\n",  # down where it has been
-    f"{SLOWLY}{SLOT}G0 Z5\nX60\nG1 Z-6\n",  # beside the stock
-], ids=["slow", "shallow", "ramp", "helix", "cleared", "beside"])  # fmt: skip
+@pytest.mark.parametrize(
+    "body",
+    [
+        f"{SLOWLY}{SLOT}Z-6 F300\nX30 F900\n",  # as slowly as the first
+        f"{SLOWLY}{SLOT}Z-1.4\nX30\n",  # less than a quarter of the diameter
+        f"{SLOWLY}{SLOT}X26 Z-6\nX10\n",  # a ramp
+        f"{SLOWLY}{SLOT}G2 X20 Y10 Z-6 I-3 J0 F900\nG1 X30\n",  # a helix
+        f"{SLOWLY}{SLOT}Z-6 F300\nX22 F900\nG0 Z5\nX20\nG1 Z-6\n",  # down where it has been
+        f"{SLOWLY}{SLOT}G0 Z5\nX60\nG1 Z-6\n",  # beside the stock
+    ],
+    ids=["slow", "shallow", "ramp", "helix", "cleared", "beside"],
+)
 def test_other_descents_are_not_told(body: str) -> None:
     assert told(body) == []
 
@@ -83,10 +89,14 @@ passes = [{ tool = 1, pitch = 4 }]
 """
 
 
-def test_programs_of_our_own_are_clean_and_faster_ones_are_not(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_programs_of_our_own_are_clean_and_faster_ones_are_not(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "part.stl").write_bytes(stl(pocketed_block()))
     (tmp_path / "s.toml").write_text(SCENE)
-    assert main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc"), "--quiet"]) == 1  # a wall between two passes
+    assert (
+        main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc"), "--quiet"]) == 1
+    )  # a wall between two passes
     text = (tmp_path / "s.ngc").read_text()
     assert "(hitofude: plunge_mm_min=1,300)" in text
     (tmp_path / "fast.ngc").write_text(re.sub(r"F300\b", "F900", text))

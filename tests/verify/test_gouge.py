@@ -1,4 +1,6 @@
-"""The verdict on hand-made programs: gouges found to the micrometre, rapids through metal found, clean paths let pass."""
+"""The verdict on hand-made programs: gouges found to the micrometre, rapids through metal found, clean paths let
+pass.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,14 @@ ISLAND = Contour((Circle((20.0, 15.0), 4.0, ccw=False),))
 def ring(inset: float) -> Path:
     """T1 (radius 3) along the inside of the 40 x 30 rectangle."""
     low, right, top = inset, 40 - inset, 30 - inset
-    path = Path().into_work(low, low, -1.0).line(right, low, -1.0).line(right, top, -1.0).line(low, top, -1.0).line(low, low, -1.0)
+    path = (
+        Path()
+        .into_work(low, low, -1.0)
+        .line(right, low, -1.0)
+        .line(right, top, -1.0)
+        .line(low, top, -1.0)
+        .line(low, low, -1.0)
+    )
     return path.out_of_work()
 
 
@@ -43,14 +52,23 @@ def test_a_ring_too_near_gouges_by_what_is_missing(depth: float) -> None:
 def test_stock_to_leave_must_be_kept_clear_of() -> None:
     task = job()
     pocket = replace(task.operations[0], cut=replace(task.operations[0].cut, stock_to_leave=0.25))
-    assert gouge(ring(3.0).program(), replace(task, operations=(pocket, task.operations[1]))).max_mm == pytest.approx(0.25)
+    assert gouge(ring(3.0).program(), replace(task, operations=(pocket, task.operations[1]))).max_mm == pytest.approx(
+        0.25
+    )
 
 
 def test_a_move_through_an_island_is_a_gouge_though_its_ends_are_clear() -> None:
     region = replace(square(), islands=(ISLAND,))
     path = Path().into_work(5, 15, -1.0).line(35, 15, -1.0).out_of_work()
     assert gouge(path.program(region), job()).max_mm == pytest.approx(3.0)
-    round_it = Path().into_work(5, 15, -1.0).line(13, 15, -1.0).arc((27.0, 15.0, -1.0), (20.0, 15.0)).line(35, 15, -1.0).out_of_work()
+    round_it = (
+        Path()
+        .into_work(5, 15, -1.0)
+        .line(13, 15, -1.0)
+        .arc((27.0, 15.0, -1.0), (20.0, 15.0))
+        .line(35, 15, -1.0)
+        .out_of_work()
+    )
     assert gouge(round_it.program(region), job()).max_mm <= 1e-12
 
 
@@ -92,7 +110,15 @@ def test_a_rapid_down_into_metal_or_across_below_the_top_is_found() -> None:
 
 
 def test_a_rapid_down_to_a_floor_that_is_cleared_is_safe() -> None:
-    path = Path().into_work(10, 10, -1.0).line(20, 10, -1.0).out_of_work().rapid(15, 10, 5).rapid(15, 10, -0.5).line(15, 10, -2.0)
+    path = (
+        Path()
+        .into_work(10, 10, -1.0)
+        .line(20, 10, -1.0)
+        .out_of_work()
+        .rapid(15, 10, 5)
+        .rapid(15, 10, -0.5)
+        .line(15, 10, -2.0)
+    )
     assert rapids_in_material(path.out_of_work().program(), job()) == ()
     beside = Path().into_work(10, 10, -1.0).line(20, 10, -1.0).out_of_work().rapid(15, 10.01, 5).rapid(15, 10.01, -0.5)
     assert len(rapids_in_material(beside.out_of_work().program(), job())) == 1
@@ -103,7 +129,15 @@ def test_a_rapid_down_where_only_a_smaller_tool_or_a_ramp_has_been_is_found() ->
     path.tool, path.operation = 1, 0
     path.rapid(15, 10, 5).rapid(15, 10, -0.5).out_of_work()
     assert len(rapids_in_material(path.program(), job())) == 1
-    ramp = Path().into_work(10, 10, 0.0).line(20, 10, -1.0).rapid(20, 10, 5).rapid(12, 10, 5).rapid(12, 10, -0.5).out_of_work()
+    ramp = (
+        Path()
+        .into_work(10, 10, 0.0)
+        .line(20, 10, -1.0)
+        .rapid(20, 10, 5)
+        .rapid(12, 10, 5)
+        .rapid(12, 10, -0.5)
+        .out_of_work()
+    )
     assert len(rapids_in_material(ramp.program(), job())) == 1
 
 
@@ -128,7 +162,9 @@ def test_looking_for_gouges_tells_how_far_it_is_and_can_be_stopped() -> None:
     assert told == sorted(set(told))
     told.clear()
     with pytest.raises(Cancelled):
-        gouge_depths(program, job(), progress=Progress(lambda fraction, text: (told.append(fraction), stop.set())[0], stop))
+        gouge_depths(
+            program, job(), progress=Progress(lambda fraction, text: (told.append(fraction), stop.set())[0], stop)
+        )
     assert len(told) == 1
 
 

@@ -1,4 +1,6 @@
-"""Shanks and holders in metal: closed forms, and a slow oracle that steps through a program and looks before each step is cut."""
+"""Shanks and holders in metal: closed forms, and a slow oracle that steps through a program and looks before each step
+is cut.
+"""
 
 from __future__ import annotations
 
@@ -67,7 +69,9 @@ def test_a_holder_touches_what_is_within_its_radius(x: float, touches: bool) -> 
 
 
 def test_a_contact_has_a_place_and_its_motions() -> None:
-    found = look(polyline([(-30, 0, 5), (-30, 0, -20.25), (-10, 0, -20.25), (-10, 0, -22.5), (-30, 0, -22.5), (-30, 0, 5)]))
+    found = look(
+        polyline([(-30, 0, 5), (-30, 0, -20.25), (-10, 0, -20.25), (-10, 0, -22.5), (-30, 0, -22.5), (-30, 0, 5)])
+    )
     (contact,) = found.contacts
     assert (contact.tool, contact.part, contact.first, contact.count) == (1, Part.HOLDER, 0, 5)
     assert contact.motion == 2
@@ -90,7 +94,9 @@ def test_metal_counts_as_it_is_when_the_motion_is_done(far_first: bool) -> None:
 
 
 def beside_a_rib(far_first: bool) -> HolderLook:
-    """A slot, in three motions, beside a rib 23 mm over it that another tool cuts away: after that, and unless `far_first` before it."""
+    """A slot, in three motions, beside a rib 23 mm over it that another tool cuts away: after that, and unless
+    `far_first` before it.
+    """
     clear = [(20.0, -50.0, 0.0), (20.0, 50.0, 0.0)]
     slot = [(8.0, -50.0, -15.0), (8.0, -10.0, -15.0), (8.0, 10.0, -15.0), (8.0, 50.0, -15.0)]
     ribbed = block()
@@ -101,7 +107,9 @@ def beside_a_rib(far_first: bool) -> HolderLook:
     ways = [*([] if far_first else [(slot, 1)]), (clear, 2), (slot, 1)]
     motions = joined([polyline(way) for way, _ in ways])
     numbers = np.concatenate([np.full(len(way) - 1, number, np.int32) for way, number in ways])
-    return holder_contacts(Course(motions, numbers), piece, {1: cutter_of(TOOL), 2: cutter_of(wide)}, {1: TOOL, 2: wide})
+    return holder_contacts(
+        Course(motions, numbers), piece, {1: cutter_of(TOOL), 2: cutter_of(wide)}, {1: TOOL, 2: wide}
+    )
 
 
 SHANK = Tool(1, 6.0, flute_length=10.0, shank_diameter=6.0)
@@ -142,7 +150,9 @@ def test_a_boss_that_a_plunge_cuts_away_is_not_met() -> None:
     assert look(polyline([(0, 0, 5), (0, 0, -30)]), piece=boss).contacts == ()
     found = look(polyline([(-0.1, 0, 5), (0.1, 0, -30)]), piece=boss)
     assert found.contacts == ()
-    (contact,) = look(motions_of(np.array([(0.0, 0, 5)]), np.array([(0.0, 0, -30)]), MotionKind.RAPID), piece=boss).contacts
+    (contact,) = look(
+        motions_of(np.array([(0.0, 0, 5)]), np.array([(0.0, 0, -30)]), MotionKind.RAPID), piece=boss
+    ).contacts
     assert contact.depth == pytest.approx(10.0, abs=1e-5), "a rapid cuts nothing away"
 
 
@@ -196,7 +206,11 @@ def random_program(seed: int) -> Motions:
     parts, at = [polyline([(0, 0, 3), (0, 0, -5)])], np.array([0.0, 0.0, -5.0])
     for _ in range(14):
         sort = rng.integers(0, 6)
-        to = at + (rng.uniform(-6, 6, 3) - (0, 0, 1)) * [(1, 1, 0), (0, 0, 1), (1, 1, 0.7), (0, 0, 1), (1, 1, 1), (1, 1, 0.2)][sort]
+        to = (
+            at
+            + (rng.uniform(-6, 6, 3) - (0, 0, 1))
+            * [(1, 1, 0), (0, 0, 1), (1, 1, 0.7), (0, 0, 1), (1, 1, 1), (1, 1, 0.2)][sort]
+        )
         to = np.clip(to, (-9, -9, -14), (9, 9, 3))
         if sort == 3:
             centre = at + [rng.uniform(1, 3), 0, 0]
@@ -211,7 +225,9 @@ def random_program(seed: int) -> Motions:
 
 TOOLS = {
     "nut": Tool(1, 3.0, stick_out=8.0, holder=((0.0, 3.0), (2.0, 5.0), (2.0, 6.0), (9.0, 6.0))),
-    "ball and shank": Tool(1, 3.0, ToolKind.BALL, flute_length=5.0, shank_diameter=4.0, stick_out=9.0, holder=((0.0, 5.0), (9.0, 5.0))),
+    "ball and shank": Tool(
+        1, 3.0, ToolKind.BALL, flute_length=5.0, shank_diameter=4.0, stick_out=9.0, holder=((0.0, 5.0), (9.0, 5.0))
+    ),
     "long": Tool(1, 4.0, flute_length=6.0, shank_diameter=4.0),
 }
 
@@ -221,7 +237,9 @@ TOOLS = {
 def test_random_deep_programs_touch_as_stepping_through_them_shows(tool: Tool, seed: int) -> None:
     piece, motions = block(15.0, 48, 20.0), random_program(seed)
     less, more = (stepped(motions, tool, piece, wider) for wider in (-TOUCH - 0.03, 0.03))
-    asking = module._Look(Course(motions, np.ones(len(motions), np.int32)), piece, {1: cutter_of(tool)}, {1: tool}, {1: bodies_of(tool)})
+    asking = module._Look(
+        Course(motions, np.ones(len(motions), np.int32)), piece, {1: cutter_of(tool)}, {1: tool}, {1: bodies_of(tool)}
+    )
     asking.done(module.NO_PROGRESS)
     found: dict[tuple[int, Part], float] = {}
     for (row, body), touch in asking._touched.items():
@@ -253,8 +271,12 @@ def test_blocks_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "BLOCKS", 1)
     one = look(motions, tool, piece)
     assert one.least == many.least
-    assert [(each.part, each.first, each.count) for each in one.contacts] == [(each.part, each.first, each.count) for each in many.contacts]
-    assert [each.depth for each in one.contacts] == pytest.approx([each.depth for each in many.contacts], abs=STEP + 1e-5)
+    assert [(each.part, each.first, each.count) for each in one.contacts] == [
+        (each.part, each.first, each.count) for each in many.contacts
+    ]
+    assert [each.depth for each in one.contacts] == pytest.approx(
+        [each.depth for each in many.contacts], abs=STEP + 1e-5
+    )
 
 
 def test_what_cannot_be_afforded_is_counted_and_the_stick_out_stays_enough(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -275,7 +297,9 @@ def test_a_look_tells_how_far_it_is_and_can_be_cancelled() -> None:
 
     course = Course(motions, np.ones(len(motions), np.int32))
     with pytest.raises(Cancelled):
-        holder_contacts(course, block(15.0, 48, 20.0), {1: cutter_of(TOOLS["nut"])}, {1: TOOLS["nut"]}, Progress(listen, stop))
+        holder_contacts(
+            course, block(15.0, 48, 20.0), {1: cutter_of(TOOLS["nut"])}, {1: TOOLS["nut"]}, Progress(listen, stop)
+        )
     assert steps == sorted(steps) and 0.3 < steps[-1] < 0.5
 
 

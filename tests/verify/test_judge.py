@@ -135,7 +135,7 @@ def test_where_nobody_knows_nothing_is_cut() -> None:
     result = cut(replace(setup.setup, programs=(program(text),)))
     assert not result.cut.rapids
     cells = result.cut.heights < 0
-    assert np.count_nonzero(cells) * result.cut.before.grid.pitch ** 2 == pytest.approx(np.pi * 9, rel=0.01)
+    assert np.count_nonzero(cells) * result.cut.before.grid.pitch**2 == pytest.approx(np.pi * 9, rel=0.01)
 
 
 @pytest.mark.parametrize(("flutes", "drilled", "told"), [(4, False, True), (2, False, False), (4, True, False)])
@@ -152,7 +152,9 @@ def test_a_plunge_of_a_mill_that_does_not_cut_at_its_centre(flutes: int, drilled
 
 def test_the_table() -> None:
     text = "G21 G90 G94\nT1 M6\nS1000 M3\nG0 Z5\nX50 Y50\nG1 Z-10.2 F100\nX60\nG0 Z5\nM2\n"
-    result = cut(CutSetup((program(text),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 100, 100, 0))), CutOptions(256))
+    result = cut(
+        CutSetup((program(text),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 100, 100, 0))), CutOptions(256)
+    )
     finding = next(finding for finding in result.findings if finding.kind is FindingKind.BELOW_TABLE)
     assert (finding.line, finding.amount) == (6, pytest.approx(0.2))
 
@@ -213,14 +215,18 @@ def test_stock_to_leave_is_taken_off() -> None:
 @pytest.mark.parametrize("kind", [ToolKind.FLAT, ToolKind.BALL])
 def test_the_certificate_holds_on_a_grid_eight_times_as_fine(shift: float, kind: ToolKind) -> None:
     rng = np.random.default_rng(int(100 * shift))
-    lanes = "".join(f"G1 X{x:.3f} Y{y:.3f} Z{z:.3f} F500\n" for x, y, z in rng.uniform((21 - shift, 0, -4.2), (40, 20, -1), (60, 3)))
+    lanes = "".join(
+        f"G1 X{x:.3f} Y{y:.3f} Z{z:.3f} F500\n" for x, y, z in rng.uniform((21 - shift, 0, -4.2), (40, 20, -1), (60, 3))
+    )
     text = f"G21 G90 G94\nT1 M6\nS1000 M3\nG0 Z5\nX30 Y10\n{lanes}G0 Z5\nM2\n"
     setup = solid_setup(text, Tool(1, 4.0, kind), STEP)
     coarse = cut(setup, CutOptions(100))
     assert coarse.judgement is not None and coarse.judgement.certificate is not None
     fine = cut(replace(setup, part=None), CutOptions(800)).cut
     xs, ys = np.meshgrid(fine.before.grid.xs(), fine.before.grid.ys())
-    down = np.maximum(-4.0 - fine.heights, 0)  # way out of the part: up to the floor right of the step; left of it sideways or up
+    down = np.maximum(
+        -4.0 - fine.heights, 0
+    )  # way out of the part: up to the floor right of the step; left of it sideways or up
     inside = np.where(xs >= 20, np.where(down > 0, down, 0.0), np.minimum(20 - xs + 0 * ys, 0.0 - fine.heights))
     inside[xs < 20] = np.where(fine.heights[xs < 20] < -4, np.hypot(20 - xs[xs < 20], down[xs < 20]), inside[xs < 20])
     deepest = float(np.max(np.where(fine.heights < fine.before.heights, inside, 0.0)))

@@ -1,4 +1,6 @@
-"""Programs against a block with a pocket whose every depth is known: the same verdict however it is wound, and whatever the cells are."""
+"""Programs against a block with a pocket whose every depth is known: the same verdict however it is wound, and whatever
+the cells are.
+"""
 
 import json
 import time
@@ -37,14 +39,28 @@ def pocketing(gouge: float, one_wall: float, floor: float = -4.0) -> str:
 
 def judged(text: str, cells: int, leave: float = 0.0) -> CutProgram:
     stock = BoxStock(StockBox(0, 0, -10, 40, 30, 0))
-    return cut(CutSetup((program(text),), {1: Tool(1, 6.0)}, stock, SolidPart(SolidStock(BLOCK), leave)), CutOptions(cells))
+    return cut(
+        CutSetup((program(text),), {1: Tool(1, 6.0)}, stock, SolidPart(SolidStock(BLOCK), leave)), CutOptions(cells)
+    )
 
 
 def report(tmp_path: Path, triangles: np.ndarray, text: str) -> tuple[int, dict[str, Any]]:
     (tmp_path / "part.stl").write_bytes(stl(triangles))
     (tmp_path / "a.ngc").write_text(text)
-    status = main(["cut", str(tmp_path / "a.ngc"), "--tool=1=flat:6", "--stock=0,0,-10,40,30,0", "--against", str(tmp_path / "part.stl"),
-                   "--grid=128", "--report", str(tmp_path / "r.json"), "--quiet"])  # fmt: skip
+    status = main(
+        [
+            "cut",
+            str(tmp_path / "a.ngc"),
+            "--tool=1=flat:6",
+            "--stock=0,0,-10,40,30,0",
+            "--against",
+            str(tmp_path / "part.stl"),
+            "--grid=128",
+            "--report",
+            str(tmp_path / "r.json"),
+            "--quiet",
+        ]
+    )
     return status, json.loads((tmp_path / "r.json").read_text())
 
 
@@ -54,7 +70,9 @@ def reversed_at(rows: slice) -> np.ndarray:
     return found
 
 
-@pytest.mark.parametrize(("rows", "words"), [(slice(None), "inside out"), (WALL, "2 of 28 triangles"), (FLOOR, "2 of 28 triangles")])
+@pytest.mark.parametrize(
+    ("rows", "words"), [(slice(None), "inside out"), (WALL, "2 of 28 triangles"), (FLOOR, "2 of 28 triangles")]
+)
 def test_the_verdict_is_that_of_the_solid_right_side_out(tmp_path: Path, rows: slice, words: str) -> None:
     text = pocketing(0.3, 1.0)
     expected, found = report(tmp_path, BLOCK, text), report(tmp_path, reversed_at(rows), text)
@@ -62,7 +80,9 @@ def test_the_verdict_is_that_of_the_solid_right_side_out(tmp_path: Path, rows: s
     for key in ("gouge", "left", "worst", "worst_count", "bands", "certificate"):
         assert found[1][key] == expected[1][key]
     assert found[1]["gouge"]["max_mm"] == pytest.approx(1.0, abs=1e-4)
-    assert [said for said in found[1]["assumed"] if words in said] and not [said for said in expected[1]["assumed"] if "triangles" in said]
+    assert [said for said in found[1]["assumed"] if words in said] and not [
+        said for said in expected[1]["assumed"] if "triangles" in said
+    ]
     assert report(tmp_path, reversed_at(rows), pocketing(0.0, 0.0))[0] == 0
 
 
@@ -112,7 +132,9 @@ def test_walls_that_are_asked_too_far_apart_are_told(monkeypatch: pytest.MonkeyP
     said = [finding for finding in judged(pocketing(0.0, 0.0), 256).findings if finding.kind is FindingKind.TOLERANCE]
     assert len(said) == 1 and not said[0].counts and said[0].amount == pytest.approx(4 * (40 + 30 + 20 + 16) / 100)
     monkeypatch.undo()
-    assert not [finding for finding in judged(pocketing(0.0, 0.0), 64).findings if finding.kind is FindingKind.TOLERANCE]
+    assert not [
+        finding for finding in judged(pocketing(0.0, 0.0), 64).findings if finding.kind is FindingKind.TOLERANCE
+    ]
 
 
 def test_distances_are_those_of_every_triangle_asked_in_turn() -> None:
@@ -121,11 +143,17 @@ def test_distances_are_those_of_every_triangle_asked_in_turn() -> None:
     rng = np.random.default_rng(1)
     triangles = rng.random((200, 3, 3)) * rng.choice([0.01, 1.0], (200, 1, 1)) + 3 * rng.random((200, 1, 3))
     places, tree = 5 * rng.random((60, 3)) - 1, TriangleTree.of(triangles)
-    plain = [np.linalg.norm(closest_point(triangles, np.broadcast_to(place, (200, 3))) - place, axis=1).min() for place in places]
+    plain = [
+        np.linalg.norm(closest_point(triangles, np.broadcast_to(place, (200, 3))) - place, axis=1).min()
+        for place in places
+    ]
     assert tree.distances(places) == pytest.approx(plain, abs=1e-12)
     segments = np.column_stack([places, places[:, 2] + 2 * rng.random(60)])
     along = np.linspace(0, 1, 400)
-    dense = [tree.distances(np.column_stack([np.full((400, 2), (x, y)), low + along * (high - low)])).max() for x, y, low, high in segments]
+    dense = [
+        tree.distances(np.column_stack([np.full((400, 2), (x, y)), low + along * (high - low)])).max()
+        for x, y, low, high in segments
+    ]
     deepest = tree.deepest(segments, np.zeros(60), 1e-6)
     assert np.all(deepest >= np.array(dense) - 1e-6) and np.all(deepest <= np.array(dense) + 2 / 399 / 2)
 
@@ -172,8 +200,12 @@ def stepped(wall: float, floor: float, top: float) -> str:
 @pytest.mark.parametrize("cells", [64, 256, pytest.param(1024, marks=pytest.mark.exhaustive)])
 def test_a_gouge_in_a_wall_is_not_told_with_the_height_of_another_place(cells: int) -> None:
     """Behind the wall the top is gouged, too, but not as deep down as the wall is: the two are no one deep place."""
-    setup = CutSetup((program(stepped(0.1, 0.3, 0.3)),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 40, 30, 0)),
-                     SolidPart(SolidStock(step())))  # fmt: skip
+    setup = CutSetup(
+        (program(stepped(0.1, 0.3, 0.3)),),
+        {1: Tool(1, 6.0)},
+        BoxStock(StockBox(0, 0, -10, 40, 30, 0)),
+        SolidPart(SolidStock(step())),
+    )
     judgement = cut(setup, CutOptions(cells)).judgement
     assert judgement is not None and judgement.certificate is not None
     assert judgement.gouge.max_mm == pytest.approx(0.1**0.5, abs=1e-4)  # from the wall's foot
@@ -185,7 +217,9 @@ def test_a_rib_that_is_cut_through_is_half_its_width_deep() -> None:
     """Nowhere is it cut deeper than in its middle; the end of the gouge is the rib's other side."""
     rib = step() * [0.02, 1.0, 1.0] + [10.0, 0.0, 0.0]  # 0.8 mm wide, 0.4 of it 4 mm lower
     text = "\n".join(["G21 G90 G94 G17", "T1 M6", "G0 Z5", "X10.4 Y15", "G1 Z-6 F300", "Y17", "G0 Z5", "M2", ""])
-    setup = CutSetup((program(text),), {1: Tool(1, 3.0)}, BoxStock(StockBox(0, 0, -10, 20, 30, 0)), SolidPart(SolidStock(rib)))
+    setup = CutSetup(
+        (program(text),), {1: Tool(1, 3.0)}, BoxStock(StockBox(0, 0, -10, 20, 30, 0)), SolidPart(SolidStock(rib))
+    )
     for cells in (24, 300):
         judgement = cut(setup, CutOptions(cells)).judgement
         assert judgement is not None and judgement.gouge.max_mm == pytest.approx(0.4, abs=2e-3)
@@ -194,8 +228,12 @@ def test_a_rib_that_is_cut_through_is_half_its_width_deep() -> None:
 @pytest.mark.parametrize("cells", [40, 160])
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (1, 2, 3))])
 @pytest.mark.parametrize("kind", [ToolKind.BALL, ToolKind.FLAT])
-def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(kind: ToolKind, seed: int, cells: int) -> None:
-    """A ball of 80 triangles, cut at random, also below its middle; inside it the surface is as far away as the nearest of all planes."""
+def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(
+    kind: ToolKind, seed: int, cells: int
+) -> None:
+    """A ball of 80 triangles, cut at random, also below its middle; inside it the surface is as far away as the nearest
+    of all planes.
+    """
     from trimesh.creation import icosphere
 
     ball = np.array(icosphere(subdivisions=1, radius=8.0).triangles) + [10.0, 10.0, -8.0]
@@ -230,7 +268,9 @@ def test_the_depth_is_that_of_dense_columns_through_a_solid_with_undercut_faces(
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_the_side_that_two_bodies_touch_in_is_no_surface(turned: bool) -> None:
-    """Of a hole in their seam, whose diagonals differ, no place is deeper than its floor: 5 mm below the top and above the underside."""
+    """Of a hole in their seam, whose diagonals differ, no place is deeper than its floor: 5 mm below the top and above
+    the underside.
+    """
     from tests.simulation.test_target import box
     from tests.surfaces.test_winding import other_diagonal
 

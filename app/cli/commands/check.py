@@ -24,8 +24,9 @@ TOLD = 20
 """Problems and differences that are printed; the report has all."""
 
 EPILOG = """\
-Prints each problem with its place, then extent, length and time. Exit status 0: nothing is wrong; 1: there are problems, or
---compare found other motion; 2: a file cannot be used. Coordinates are those of the program, tool lengths taken off.
+Prints each problem with its place, then extent, length and time. Exit status 0: nothing is wrong; 1: there are
+problems, or --compare found other motion; 2: a file cannot be used. Coordinates are those of the program, tool lengths
+taken off.
 """
 
 
@@ -63,13 +64,29 @@ def _parser() -> OptionParser:
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     parser.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
-    parser.add_argument("--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)")
-    parser.add_argument("--block-delete", choices=["on", "off"], default="on",
-                        help="leave out the blocks that begin with a slash, or do them (default on)")
+    parser.add_argument(
+        "--tool-units", choices=["mm", "in"], default="mm", help="of the lengths in a .tbl (default mm)"
+    )
+    parser.add_argument(
+        "--block-delete",
+        choices=["on", "off"],
+        default="on",
+        help="leave out the blocks that begin with a slash, or do them (default on)",
+    )
     parser.add_argument("--machine", metavar="NAME|FILE", type=typed(machine_named), help=MACHINE_HELP)
     parser.add_argument("--compare", metavar="OTHER.ngc", type=Path, help="another program: where its motion differs")
-    parser.add_argument("--frame", metavar="OUT.ngc", type=Path, help="write a program round the box of the cuts, by rapids, spindle off")
-    parser.add_argument("--restart-at", metavar="LINE", type=int, help="write, to -o, a program that leads in and goes on from this line")
+    parser.add_argument(
+        "--frame",
+        metavar="OUT.ngc",
+        type=Path,
+        help="write a program round the box of the cuts, by rapids, spindle off",
+    )
+    parser.add_argument(
+        "--restart-at",
+        metavar="LINE",
+        type=int,
+        help="write, to -o, a program that leads in and goes on from this line",
+    )
     parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, help="of --restart-at")
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was found, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -81,13 +98,17 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
     if (arguments.restart_at is None) != (arguments.output is None):
         raise InputError("--restart-at LINE and -o OUT.ngc go together; give both or none")
     outputs = {name: path for name in ("frame", "output", "report") if (path := getattr(arguments, name)) is not None}
-    check_outputs(outputs, [path for name in ("program", "tools", "compare") if (path := getattr(arguments, name)) is not None])
+    check_outputs(
+        outputs, [path for name in ("program", "tools", "compare") if (path := getattr(arguments, name)) is not None]
+    )
     return outputs
 
 
 def _options(arguments: argparse.Namespace) -> ExamineOptions:
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
-    return ExamineOptions(dialect, _tools(arguments.tools, arguments.tool_units), arguments.machine, arguments.block_delete == "on")
+    return ExamineOptions(
+        dialect, _tools(arguments.tools, arguments.tool_units), arguments.machine, arguments.block_delete == "on"
+    )
 
 
 def _tools(path: Path | None, units: str) -> Mapping[int, ToolOffset]:
@@ -107,8 +128,11 @@ def _differences(arguments: argparse.Namespace, examined: Examined, progress: Pr
 
 
 def _texts(
-    arguments: argparse.Namespace, outputs: dict[str, Path], examined: Examined, found: tuple[bytes, Differences | None],
-) -> dict[str, bytes]:  # fmt: skip
+    arguments: argparse.Namespace,
+    outputs: dict[str, Path],
+    examined: Examined,
+    found: tuple[bytes, Differences | None],
+) -> dict[str, bytes]:
     """Return what to write, by option."""
     data, differences = found
     texts: dict[str, bytes] = {}
@@ -132,13 +156,24 @@ def _lines(examined: Examined) -> list[str]:
     length, parts = report["length_mm"], report["time_parts_s"]
     count = len(examined.problems)
     what = "no problem" if not count else "1 problem" if count == 1 else f"{count} problems"
-    lines.insert(0, f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {sum(report['moves'].values())} motions in "
-                    f"{report['lines']} lines, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid")
+    lines.insert(
+        0,
+        f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {sum(report['moves'].values())} motions "
+        "in "
+        f"{report['lines']} lines, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
+    )
     for title, box in (("cuts", examined.cut_box), ("all", examined.box)):
-        sides = (f"{axis} {low:.3f} to {high:.3f}" for axis, low, high in zip("XYZ", box.low, box.high, strict=True) if low == low)
+        sides = (
+            f"{axis} {low:.3f} to {high:.3f}"
+            for axis, low, high in zip("XYZ", box.low, box.high, strict=True)
+            if low == low
+        )
         lines.append(f"  {title}: {', '.join(sides) or 'nothing'} mm")
-    lines.append(f"  time: {_clock(report['time_s'])} min (cut {_clock(parts['cut'])}, rapid {_clock(parts['rapid'])}, dwells and "
-                 f"tool changes {_clock(parts['wait'])}), machine: {examined.machine.title}")
+    lines.append(
+        f"  time: {_clock(report['time_s'])} min (cut {_clock(parts['cut'])}, rapid {_clock(parts['rapid'])}, dwells "
+        "and "
+        f"tool changes {_clock(parts['wait'])}), machine: {examined.machine.title}"
+    )
     lines += [f"  {_tool_words(tool)}: {_clock(tool['time_s'])} min" for tool in report["tools"]]
     return lines
 
@@ -162,7 +197,10 @@ def _clock(seconds: float) -> str:
 def _difference_lines(path: Path | None, differences: Differences | None) -> list[str]:
     if path is None or differences is None:
         return []
-    lines = [f"  {'-' if differences.same_motion else '!'} line {item.a.first_line} and {path.name}:{item.b.first_line}: "
-             f"{item.kind.value}{': ' if item.text else ''}{item.text}" for item in differences.items[:TOLD]]
+    lines = [
+        f"  {'-' if differences.same_motion else '!'} line {item.a.first_line} and {path.name}:{item.b.first_line}: "
+        f"{item.kind.value}{': ' if item.text else ''}{item.text}"
+        for item in differences.items[:TOLD]
+    ]
     more = [f"  - {len(differences.items) - TOLD} more differences"] if len(differences.items) > TOLD else []
     return [f"{path.name}: {'the same motion' if differences.same_motion else 'other motion'}", *lines, *more]

@@ -1,4 +1,6 @@
-"""`hitofude cut`: cuts any NC program out of its stock, compares what is left with the part, writes what was asked for."""
+"""`hitofude cut`: cuts any NC program out of its stock, compares what is left with the part, writes what was asked
+for.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,11 @@ def cut_command(argv: Sequence[str], stopped: Stopping) -> int:
     wishes = _wishes(arguments)
     ready = setup_of(_programs(arguments, progress.part(0.0, 0.2)), wishes, progress.part(0.2, 0.25))
     _ensure_window(arguments.window, ready)
-    done = cut(ready.setup, CutOptions(arguments.grid, arguments.window, engine=Engine(arguments.engine)), progress.part(0.25, 0.95))
+    done = cut(
+        ready.setup,
+        CutOptions(arguments.grid, arguments.window, engine=Engine(arguments.engine)),
+        progress.part(0.25, 0.95),
+    )
     report = cut_report(done, ready)
     texts = dict(_texts(outputs, ready, done, report))
     progress.step(1.0)
@@ -87,8 +93,10 @@ def _programs(arguments: argparse.Namespace, progress: Progress) -> tuple[Examin
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     options = ExamineOptions(dialect, tool_offsets(_rows(arguments)), block_delete=arguments.block_delete == "on")
     count = len(arguments.programs)
-    return tuple(examine(path.name, read_input(path), options, progress.part(k / count, (k + 1) / count))
-                 for k, path in enumerate(arguments.programs))
+    return tuple(
+        examine(path.name, read_input(path), options, progress.part(k / count, (k + 1) / count))
+        for k, path in enumerate(arguments.programs)
+    )
 
 
 def _wishes(arguments: argparse.Namespace) -> Wishes:
@@ -101,18 +109,34 @@ def _wishes(arguments: argparse.Namespace) -> Wishes:
         told.append(_tools(arguments))
     against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
     beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
-    return _with_stock(Wishes(
-        tuple(told), job, None, against, beside, arguments.depth, arguments.stock_to_leave, tuple(arguments.layer),
-        arguments.units, arguments.origin, arguments.join_tolerance, arguments.tolerance, dict(arguments.holder),
-        reading(arguments),
-    ), arguments.stock)  # fmt: skip
+    return _with_stock(
+        Wishes(
+            tuple(told),
+            job,
+            None,
+            against,
+            beside,
+            arguments.depth,
+            arguments.stock_to_leave,
+            tuple(arguments.layer),
+            arguments.units,
+            arguments.origin,
+            arguments.join_tolerance,
+            arguments.tolerance,
+            dict(arguments.holder),
+            reading(arguments),
+        ),
+        arguments.stock,
+    )
 
 
 def _rows(arguments: argparse.Namespace) -> tuple[TableRow, ...]:
     """Return the control's tool table as --tools tells it."""
     if arguments.tools is None:
         return ()
-    return read_rows(arguments.tools.name, read_input(arguments.tools), Units.INCH if arguments.tool_units == "in" else Units.MM)
+    return read_rows(
+        arguments.tools.name, read_input(arguments.tools), Units.INCH if arguments.tool_units == "in" else Units.MM
+    )
 
 
 def _tools(arguments: argparse.Namespace) -> ToolsTold:
@@ -138,8 +162,10 @@ def _with_stock(wishes: Wishes, given: Corners | Path | None) -> Wishes:
 def _ensure_window(window: tuple[float, float, float, float] | None, ready: Ready) -> None:
     x0, y0, x1, y1 = box = ready.setup.stock.box
     if window is not None and not (window[0] < x1 and window[2] > x0 and window[1] < y1 and window[3] > y0):
-        raise InputError(f"--window {','.join(f'{value:g}' for value in window)} is beside the stock, "
-                         f"{','.join(f'{value:.3f}' for value in box)}; choose a part of it")
+        raise InputError(
+            f"--window {','.join(f'{value:g}' for value in window)} is beside the stock, "
+            f"{','.join(f'{value:.3f}' for value in box)}; choose a part of it"
+        )
 
 
 def _warning_lines(warnings: tuple[str, ...]) -> Iterator[str]:

@@ -19,9 +19,10 @@ from ..signals import Stopping, undisturbed
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
 _USUAL = FigureOptions()
 EPILOG = """\
-Cuts zigzags over a curved die of 100 mm, A and B with the moves and radii that were printed, C with more and finer ones, in every way
-there is, one after the other in one process, and prints how long the best run of each took. Other work on the machine shows in the
-times; ratios between the columns suffer less. Exit status 0: done; 2: something cannot be used; 130: cancelled.
+Cuts zigzags over a curved die of 100 mm, A and B with the moves and radii that were printed, C with more and finer
+ones, in every way there is, one after the other in one process, and prints how long the best run of each took. Other
+work on the machine shows in the times; ratios between the columns suffer less. Exit status 0: done; 2: something
+cannot be used; 130: cancelled.
 """
 
 
@@ -41,7 +42,9 @@ def figure11_command(argv: Sequence[str], stopped: Stopping) -> int:
     arguments = _parser().parse_args(argv)
     if arguments.report is not None:
         check_outputs({"report": arguments.report}, [])
-    done = figure_eleven(FigureOptions(arguments.programs, arguments.grid, arguments.repeat), shown_progress(arguments.quiet, stopped))
+    done = figure_eleven(
+        FigureOptions(arguments.programs, arguments.grid, arguments.repeat), shown_progress(arguments.quiet, stopped)
+    )
     if arguments.report is not None:
         with undisturbed():
             write_together({arguments.report: (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()})
@@ -51,13 +54,28 @@ def figure11_command(argv: Sequence[str], stopped: Stopping) -> int:
 
 
 def _parser() -> OptionParser:
-    about = "Measure how long plain software, the published depth buffer, and this program's engines take for the same cuts."
+    about = (
+        "Measure how long plain software, the published depth buffer, and this program's engines take for the same "
+        "cuts."
+    )
     parser = OptionParser("figure11", ("", ""), about, EPILOG)
-    parser.add_argument("--programs", metavar="A,B,C", type=typed(_programs), default=tuple(PROGRAMS), help="which (default all)")
-    parser.add_argument("--grid", metavar="N", type=typed(_whole("cells", LEAST_CELLS, MOST_CELLS)), default=_USUAL.cells,
-                        help=f"cells along each side, {LEAST_CELLS} to {MOST_CELLS} (default {_USUAL.cells})")
-    parser.add_argument("--repeat", metavar="N", type=typed(_whole("runs", 1, MOST_RUNS)), default=_USUAL.repeat,
-                        help=f"runs, of which the best one counts, 1 to {MOST_RUNS} (default {_USUAL.repeat})")
+    parser.add_argument(
+        "--programs", metavar="A,B,C", type=typed(_programs), default=tuple(PROGRAMS), help="which (default all)"
+    )
+    parser.add_argument(
+        "--grid",
+        metavar="N",
+        type=typed(_whole("cells", LEAST_CELLS, MOST_CELLS)),
+        default=_USUAL.cells,
+        help=f"cells along each side, {LEAST_CELLS} to {MOST_CELLS} (default {_USUAL.cells})",
+    )
+    parser.add_argument(
+        "--repeat",
+        metavar="N",
+        type=typed(_whole("runs", 1, MOST_RUNS)),
+        default=_USUAL.repeat,
+        help=f"runs, of which the best one counts, 1 to {MOST_RUNS} (default {_USUAL.repeat})",
+    )
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     return parser

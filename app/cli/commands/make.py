@@ -36,7 +36,9 @@ def make_command(argv: Sequence[str], stopped: Stopping) -> int:
     options = _with_job(make_options(arguments), arguments.job)
     times = StageTimes() if arguments.timings else None
     progress = shown_progress(arguments.quiet, stopped)
-    made = make(arguments.drawing.name, read_input(arguments.drawing), options, times.watch(progress) if times else progress)
+    made = make(
+        arguments.drawing.name, read_input(arguments.drawing), options, times.watch(progress) if times else progress
+    )
     if times:
         made = replace(made, report=made.report.with_timings(times.seconds()))
     names = [file.named(arguments.output) for file in made.files]
@@ -74,13 +76,19 @@ def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
         from ...formats.plot.plot import plot
         from ...usecases.picture import picture_of
 
-        texts["image"] = plot(picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower())
+        texts["image"] = plot(
+            picture_of(made.job.part.name, made.program, made.coverage), outputs["image"].suffix.lower()
+        )
     others = {outputs[name]: text for name, text in texts.items() if name in outputs}
     if {identity(path) for path in names} & {identity(path) for path in others}:
-        raise InputError(f"--output {outputs['output']} makes {', '.join(map(str, names))}, and one of these is another output; "
-                         "give every file its own name")
+        raise InputError(
+            f"--output {outputs['output']} makes {', '.join(map(str, names))}, and one of these is another output; "
+            "give every file its own name"
+        )
     with undisturbed():
-        write_together(others | {name: file.nc.text.encode("ascii") for name, file in zip(names, made.files, strict=True)})
+        write_together(
+            others | {name: file.nc.text.encode("ascii") for name, file in zip(names, made.files, strict=True)}
+        )
 
 
 def _summary(made: Made, names: list[Path]) -> None:

@@ -21,8 +21,9 @@ from ..parser import OptionParser, number, typed
 from ..signals import Stopping, undisturbed
 
 EPILOG = """\
-What is written is read back and proven: nowhere are curve and moves farther apart than T, both ways and in order. Corners, feeds,
-spindle, tools and comments stay in place. Exit status 0: done; 1: a stretch could not be proven and stayed as it was; 2: bad input.
+What is written is read back and proven: nowhere are curve and moves farther apart than T, both ways and in order.
+Corners, feeds, spindle, tools and comments stay in place. Exit status 0: done; 1: a stretch could not be proven and
+stayed as it was; 2: bad input.
 """
 
 
@@ -56,27 +57,67 @@ def smooth_command(argv: Sequence[str], stopped: Stopping) -> int:
 
 
 def _parser() -> OptionParser:
-    about = "Write the straight moves of an NC program as fewer lines, as arcs, or as splines, within a tolerance that is proven."
+    about = (
+        "Write the straight moves of an NC program as fewer lines, as arcs, or as splines, within a tolerance that "
+        "is proven."
+    )
     parser = OptionParser("smooth", ("program", "the NC program and -o OUT.ngc"), about, EPILOG)
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
     parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, required=True, help="the smoothed program")
-    parser.add_argument("--tolerance", metavar="T", type=number("tolerance"), default=0.01,
-                        help="how far curve and moves may be apart, both ways (default 0.01 mm)")
-    parser.add_argument("--as", dest="form", choices=[form.value for form in Form], default=Form.ARCS.value,
-                        help="what is written (default arcs)")
-    parser.add_argument("--region", metavar="cylinder|barrel:MID", type=_region, default=None,
-                        help="the tube's shape: T wide all along, or MID wide half way between two points (default cylinder)")
-    parser.add_argument("--degree", type=int, choices=[3, 5], default=3,
-                        help="of splines (default 3); 5, which no control knows, goes out as cubics near it")
-    parser.add_argument("--corner", metavar="ANGLE", type=_angle, default=math.radians(30),
-                        help="bends above it are kept, degrees (default 30)")
-    parser.add_argument("--bend", metavar="DEG", type=_angle, default=BEND,
-                        help="by how much neighbouring lines and arcs may bend, or as the moves do there; more only where that saves "
-                        "blocks (default 0.5)")
-    parser.add_argument("--post", metavar="NAME", type=typed(load_post),
-                        help="the control that all of it is written for, and read back as (default: the program's own)")
-    parser.add_argument("--dialect", choices=[dialect.value for dialect in Dialect],
-                        help="the control that the program is for (default: as the text looks)")
+    parser.add_argument(
+        "--tolerance",
+        metavar="T",
+        type=number("tolerance"),
+        default=0.01,
+        help="how far curve and moves may be apart, both ways (default 0.01 mm)",
+    )
+    parser.add_argument(
+        "--as",
+        dest="form",
+        choices=[form.value for form in Form],
+        default=Form.ARCS.value,
+        help="what is written (default arcs)",
+    )
+    parser.add_argument(
+        "--region",
+        metavar="cylinder|barrel:MID",
+        type=_region,
+        default=None,
+        help="the tube's shape: T wide all along, or MID wide half way between two points (default cylinder)",
+    )
+    parser.add_argument(
+        "--degree",
+        type=int,
+        choices=[3, 5],
+        default=3,
+        help="of splines (default 3); 5, which no control knows, goes out as cubics near it",
+    )
+    parser.add_argument(
+        "--corner",
+        metavar="ANGLE",
+        type=_angle,
+        default=math.radians(30),
+        help="bends above it are kept, degrees (default 30)",
+    )
+    parser.add_argument(
+        "--bend",
+        metavar="DEG",
+        type=_angle,
+        default=BEND,
+        help="by how much neighbouring lines and arcs may bend, or as the moves do there; more only where that saves "
+        "blocks (default 0.5)",
+    )
+    parser.add_argument(
+        "--post",
+        metavar="NAME",
+        type=typed(load_post),
+        help="the control that all of it is written for, and read back as (default: the program's own)",
+    )
+    parser.add_argument(
+        "--dialect",
+        choices=[dialect.value for dialect in Dialect],
+        help="the control that the program is for (default: as the text looks)",
+    )
     add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -88,7 +129,9 @@ def _region(text: str) -> float | None:
         return None
     kind, _, middle = text.partition(":")
     if kind != "barrel" or not middle:
-        raise argparse.ArgumentTypeError(f"is wrong: '{text}' is no region; write cylinder, or barrel:0.05 with the radius in the middle")
+        raise argparse.ArgumentTypeError(
+            f"is wrong: '{text}' is no region; write cylinder, or barrel:0.05 with the radius in the middle"
+        )
     return number("radius in the middle")(middle)
 
 
@@ -104,15 +147,24 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     effective = effective_method(arguments)
     return SmoothOptions(
-        arguments.tolerance, Form(arguments.form), arguments.region, arguments.degree, arguments.corner, post, dialect, effective,
+        arguments.tolerance,
+        Form(arguments.form),
+        arguments.region,
+        arguments.degree,
+        arguments.corner,
+        post,
+        dialect,
+        effective,
         arguments.bend,
-    )  # fmt: skip
+    )
 
 
 def _lines(done: Smoothed) -> list[str]:
     """Return what was done, for people."""
     head, *rest = certificate(done)
-    kept = [f"  - {n} move{'s' if n > 1 else ''} left alone: {reason.value}" for reason, n in done.found.left.items() if n]
+    kept = [
+        f"  - {n} move{'s' if n > 1 else ''} left alone: {reason.value}" for reason, n in done.found.left.items() if n
+    ]
     found = [*finding_lines(findings(done)), *_warnings(done)]
     return [f"{done.name}: {head.partition(': ')[2]}", *(f"  {line}" for line in rest), *kept, *found]
 

@@ -1,4 +1,6 @@
-"""`hitofude surface`: tool paths over the surfaces of a scene, told apart by surface: NC, plot, table of points, report."""
+"""`hitofude surface`: tool paths over the surfaces of a scene, told apart by surface: NC, plot, table of points,
+report.
+"""
 
 from __future__ import annotations
 
@@ -22,11 +24,12 @@ from ..parser import OptionParser, number
 from ..signals import Stopping, undisturbed
 
 EPILOG = """\
-The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each cutting plane the
-topmost of all surfaces is followed; where the path passes from one to another, the boundary point is solved for. Every move of the
-written program is read back and proven to go nowhere deeper into a surface than 0.0001 mm; it is cut out of the stock, and what the
-same tools reach and leave is told with its place. Files that the scene names are looked for
-beside it. Exit status 0: done and proven; 1: with findings, or a move could not be proven; 2: bad input; 130: cancelled.
+The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each
+cutting plane the topmost of all surfaces is followed; where the path passes from one to another, the boundary point is
+solved for. Every move of the written program is read back and proven to go nowhere deeper into a surface than 0.0001
+mm; it is cut out of the stock, and what the same tools reach and leave is told with its place. Files that the scene
+names are looked for beside it. Exit status 0: done and proven; 1: with findings, or a move could not be proven; 2: bad
+input; 130: cancelled.
 """
 
 
@@ -50,7 +53,9 @@ def surface_command(argv: Sequence[str], stopped: Stopping) -> int:
     scene = read_scene(path.name, read_input(path))
     sources = sources_of(lambda name: read_input(path.parent / name))
     computed = compute(scene, sources, progress.part(0.0, 0.5))
-    written = write_scene_nc(computed, progress.part(0.5, 0.7)) if "output" in outputs or arguments.loop is not None else None
+    written = (
+        write_scene_nc(computed, progress.part(0.5, 0.7)) if "output" in outputs or arguments.loop is not None else None
+    )
     report = surface_report(computed, written)
     if written is not None and arguments.loop is not None:
         report.data["loop"] = closed_loop(written, sources, arguments.loop, progress.part(0.7, 1.0))
@@ -66,30 +71,61 @@ def surface_command(argv: Sequence[str], stopped: Stopping) -> int:
 
 
 def _parser() -> OptionParser:
-    about = "Compute tool paths over the surfaces of a scene, told apart by surface, and prove that they go into none of them."
+    about = (
+        "Compute tool paths over the surfaces of a scene, told apart by surface, and prove that they go into none of "
+        "them."
+    )
     parser = OptionParser("surface", ("scene", "the scene and -o OUT.ngc"), about, EPILOG)
     parser.add_argument("scene", metavar="SCENE.toml", type=Path, help="surfaces, stock, tools and passes")
-    parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, help="the NC program; one a tool where the control changes none")
-    parser.add_argument("--plot", metavar="OUT.svg|pdf|hpgl", type=Path,
-                        help="the paths drawn in the order of generation, by surface; also .plt and .png")
-    parser.add_argument("--view", choices=list(VIEWS), default="isometric", help="from where the plot is seen (default isometric)")
-    parser.add_argument("--look", choices=[look.value for look in Look], default=Look.COLOURS.value,
-                        help="what tells parts of the plot apart: colours of surfaces (default), line types of surfaces, or tools")
-    parser.add_argument("--draw", choices=[drawn.value for drawn in Drawn], default=Drawn.PATHS.value,
-                        help="what is plotted: the cutters' paths (default), the compound surface, or both")
-    parser.add_argument("--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table")
-    parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was computed and proven, as JSON")
-    parser.add_argument("--loop", metavar="T", type=number("loop"),
-                        help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report")
+    parser.add_argument(
+        "-o", "--output", metavar="OUT.ngc", type=Path, help="the NC program; one a tool where the control changes none"
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="OUT.svg|pdf|hpgl",
+        type=Path,
+        help="the paths drawn in the order of generation, by surface; also .plt and .png",
+    )
+    parser.add_argument(
+        "--view", choices=list(VIEWS), default="isometric", help="from where the plot is seen (default isometric)"
+    )
+    parser.add_argument(
+        "--look",
+        choices=[look.value for look in Look],
+        default=Look.COLOURS.value,
+        help="what tells parts of the plot apart: colours of surfaces (default), line types of surfaces, or tools",
+    )
+    parser.add_argument(
+        "--draw",
+        choices=[drawn.value for drawn in Drawn],
+        default=Drawn.PATHS.value,
+        help="what is plotted: the cutters' paths (default), the compound surface, or both",
+    )
+    parser.add_argument(
+        "--points", metavar="OUT.csv", type=Path, help="the compound surface and its boundary points as a table"
+    )
+    parser.add_argument(
+        "--report", metavar="R.json", type=Path, help="everything that was computed and proven, as JSON"
+    )
+    parser.add_argument(
+        "--loop",
+        metavar="T",
+        type=number("loop"),
+        help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report",
+    )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     return parser
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
     """Return the files to write by their option, checked before any work is done."""
-    outputs = {name: path for name in ("output", "plot", "points", "report") if (path := getattr(arguments, name)) is not None}
+    outputs = {
+        name: path for name in ("output", "plot", "points", "report") if (path := getattr(arguments, name)) is not None
+    }
     if not outputs:
-        raise InputError("surface has nothing to write; add -o OUT.ngc, --plot OUT.svg, --points OUT.csv or --report R.json")
+        raise InputError(
+            "surface has nothing to write; add -o OUT.ngc, --plot OUT.svg, --points OUT.csv or --report R.json"
+        )
     if "plot" in outputs and outputs["plot"].suffix.lower() not in FORMATS:
         raise InputError(f"--plot {outputs['plot']}: a plot is one of {', '.join(FORMATS)}; change the name")
     if arguments.loop is not None and "report" not in outputs:
@@ -99,8 +135,11 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
 
 
 def _texts(
-    arguments: argparse.Namespace, outputs: dict[str, Path], computed: Computed, written: WrittenScene | None,
-) -> Iterator[tuple[Path, bytes]]:  # fmt: skip
+    arguments: argparse.Namespace,
+    outputs: dict[str, Path],
+    computed: Computed,
+    written: WrittenScene | None,
+) -> Iterator[tuple[Path, bytes]]:
     """Yield what to write, by file."""
     if "points" in outputs:
         yield outputs["points"], scene_points_csv(computed)

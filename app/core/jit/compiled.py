@@ -25,13 +25,14 @@ _COMPILING = threading.RLock()
 class Kernel:
     """A function compiled for one signature.
 
-    Importing its module costs nothing; the first call finds the machine code in the store, or has it compiled. A name that
-    begins with an underscore is called by kernels alone.
+    Importing its module costs nothing; the first call finds the machine code in the store, or has it compiled. A name
+    that begins with an underscore is called by kernels alone.
 
     Attributes:
         signature: in numba's words.
         counts: whether it counts who holds an array.
-        compile_missing: has a kernel compiled that is not in the store; set by the package, for what compiles knows kernels.
+        compile_missing: has a kernel compiled that is not in the store; set by the package, for what compiles knows
+            kernels.
     """
 
     compile_missing: ClassVar[Callable[[Kernel], None]]
@@ -117,8 +118,9 @@ class Kernel:
                 code = numba_door.compile_to(made, self.signature)
             except Exception as error:
                 cause = " ".join(str(error).split())[:200]
-                raise HitofudeError(f"{self.name} cannot be compiled, so what needs it will not work: "
-                                    f"{type(error).__name__}: {cause}") from error
+                raise HitofudeError(
+                    f"{self.name} cannot be compiled, so what needs it will not work: {type(error).__name__}: {cause}"
+                ) from error
             if _store().folder is not None:
                 _store().write(self.entry, code())
             return made
@@ -128,7 +130,9 @@ class Kernel:
 
     def _first_call(self, *arguments: Any) -> Any:
         if self.inner:
-            raise TypeError(f"{self.name} is called by kernels alone; name it without underscore to call it from Python")
+            raise TypeError(
+                f"{self.name} is called by kernels alone; name it without underscore to call it from Python"
+            )
         if not _store().has(self.entry) and self._for_callers is None:
             Kernel.compile_missing(self)
         self._call = self._ready()
@@ -144,8 +148,8 @@ def kernel(signature: str, counts: bool = True) -> Callable[[Compiled], Compiled
 
     Args:
         signature: such as "float64(float64[:, ::1], int64)".
-        counts: whether it counts who holds an array, as it must if it makes one. Where an array goes through a short loop and a call
-            or two, counting takes longer than these; its caller holds it anyhow.
+        counts: whether it counts who holds an array, as it must if it makes one. Where an array goes through a short
+            loop and a call or two, counting takes longer than these; its caller holds it anyhow.
     """
 
     def registered(function: Compiled) -> Compiled:

@@ -1,4 +1,6 @@
-"""A process that compiles: it reads names of kernels from stdin, a line each, and answers each with a line when it is kept."""
+"""A process that compiles: it reads names of kernels from stdin, a line each, and answers each with a line when it is
+kept.
+"""
 
 from __future__ import annotations
 

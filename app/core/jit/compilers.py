@@ -1,7 +1,8 @@
-"""As many compiling processes as there are cores: what somebody waits for first, then what the imported modules may want.
+"""As many compiling processes as there are cores: what somebody waits for first, then what the imported modules may
+want.
 
-They are processes and not threads since compiling holds the interpreter, which would freeze the window. A kernel is given
-out once the kernels that it calls are in the store, so that none is compiled twice.
+They are processes and not threads since compiling holds the interpreter, which would freeze the window. A kernel is
+given out once the kernels that it calls are in the store, so that none is compiled twice.
 """
 
 from __future__ import annotations
@@ -60,7 +61,9 @@ class _Plan:
         self.wanted = asked | self.wanted if first else self.wanted | asked
 
     def next(self) -> Kernel | None:
-        """Take one whose callees are there, the likeliest to be wanted soon; None where all wait for others, or nothing is left."""
+        """Take one whose callees are there, the likeliest to be wanted soon; None where all wait for others, or nothing
+        is left.
+        """
         left = (kernel for entry, kernel in self.wanted.items() if entry not in self.done and entry not in self.given)
         ready = [kernel for kernel in left if all(each.entry in self.done for each in kernel.callees)]
         if not ready:
@@ -96,7 +99,8 @@ class Compilers:
         atexit.register(self.close)
 
     def demand(self, *kernels: Kernel) -> None:
-        """Have kernels compiled, and wait for it; where there can be no processes, nothing is done, and the caller compiles.
+        """Have kernels compiled, and wait for it; where there can be no processes, nothing is done, and the caller
+        compiles.
 
         Raises:
             Cancelled: what waits was told to stop, see `app.core.progress.told_waits`.
@@ -151,8 +155,15 @@ class Compilers:
     def _process(self) -> subprocess.Popen[str]:
         environment = os.environ | {FOLDER_VARIABLE: str(self._kept.folder)}
         command = [sys.executable, "-P", "-c", _PROGRAM]
-        return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                                env=environment, text=True, encoding="utf-8")
+        return subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+            text=True,
+            encoding="utf-8",
+        )
 
     def _feed(self, process: subprocess.Popen[str]) -> None:
         """Give one process kernel after kernel until nothing is left, or it is gone."""

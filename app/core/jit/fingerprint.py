@@ -1,7 +1,8 @@
-"""What a kernel's machine code depends on, as one digest: its code, its signature, and every constant and kernel that it names.
+"""What a kernel's machine code depends on, as one digest: its code, its signature, and every constant and kernel that
+it names.
 
-A digest of the content needs no file times and no list of versions: a kernel that has not changed is found again after an
-update, and one whose inner kernel or constant changed, in whatever file, is not.
+A digest of the content needs no file times and no list of versions: a kernel that has not changed is found again after
+an update, and one whose inner kernel or constant changed, in whatever file, is not.
 """
 
 from __future__ import annotations
@@ -44,8 +45,12 @@ def digest(text: str, function: FunctionType) -> str:
 
 
 def named_globals(function: FunctionType) -> frozenset[str]:
-    """Return the names that a function's code uses and that its module defines; attributes of the same name are among them."""
-    return frozenset(name for code in _codes(function.__code__) for name in code.co_names if name in function.__globals__)
+    """Return the names that a function's code uses and that its module defines; attributes of the same name are among
+    them.
+    """
+    return frozenset(
+        name for code in _codes(function.__code__) for name in code.co_names if name in function.__globals__
+    )
 
 
 def _codes(code: CodeType) -> Iterator[CodeType]:
@@ -82,4 +87,6 @@ def _value_parts(value: Any, name: str) -> Iterator[bytes]:
     elif value is None or isinstance(value, bool | int | float | complex | str | bytes | np.generic):
         yield f"{type(value).__name__} {value!r}".encode()
     else:
-        raise TypeError(f"{name} is a {type(value).__name__}: a kernel may name numbers, tuples, arrays, modules and other kernels")
+        raise TypeError(
+            f"{name} is a {type(value).__name__}: a kernel may name numbers, tuples, arrays, modules and other kernels"
+        )

@@ -21,7 +21,9 @@ class _Without:
     def __init__(self, library: str) -> None:
         self._library, self._thread = library, threading.get_ident()
 
-    def find_spec(self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
         """Refuse the library, and leave all others to whoever comes next."""
         if name.split(".")[0] == self._library and threading.get_ident() == self._thread:
             raise ImportError(f"{name} is not needed here")
@@ -30,7 +32,9 @@ class _Without:
 
 @contextmanager
 def _without_scipy() -> Iterator[None]:
-    """Let numba do without scipy, which it would import for linear algebra that no kernel uses: 0.16 s of every start."""
+    """Let numba do without scipy, which it would import for linear algebra that no kernel uses: 0.16 s of every
+    start.
+    """
     hidden = _Without("scipy")
     sys.meta_path.insert(0, hidden)
     try:
@@ -49,7 +53,9 @@ def _numba() -> Any:
 
 
 def _no_plugins() -> ModuleType:
-    """Stand in for numba's look for extensions among all installed packages, of which no kernel needs one: it reads mail headers first."""
+    """Stand in for numba's look for extensions among all installed packages, of which no kernel needs one: it reads
+    mail headers first.
+    """
     plugins = ModuleType("numba.core.entrypoints")
     vars(plugins)["init_all"] = lambda: None
     return sys.modules.setdefault(plugins.__name__, plugins)
@@ -84,9 +90,9 @@ def dispatcher(function: FunctionType, counts: bool, called_from_python: bool) -
         counts: whether it counts who holds an array.
         called_from_python: False: only kernels call it, so that it needs no door for Python.
     """
-    return _numba().njit(nogil=True, error_model="numpy", _nrt=counts, no_cfunc_wrapper=True, no_cpython_wrapper=not called_from_python)(
-        function
-    )
+    return _numba().njit(
+        nogil=True, error_model="numpy", _nrt=counts, no_cfunc_wrapper=True, no_cpython_wrapper=not called_from_python
+    )(function)
 
 
 def compile_to(made: Any, signature: str) -> Callable[[], bytes]:
@@ -134,7 +140,9 @@ class _MachineCode:
 
 
 class _Unpickler(pickle.Unpickler):
-    """Makes the environments of compiled functions without importing what these were written in: 0.15 s for one sorted array."""
+    """Makes the environments of compiled functions without importing what these were written in: 0.15 s for one sorted
+    array.
+    """
 
     def find_class(self, module: str, name: str) -> Any:
         """Return what a name of a module stands for."""
@@ -170,13 +178,30 @@ def load(made: Any, code: bytes) -> None:
     for each in reloaded:
         each()
     context = made.targetctx
-    _numba().core.runtime.nrt.rtsys.initialize(context)  # what counts who holds an array; without effect but for the first time
+    _numba().core.runtime.nrt.rtsys.initialize(
+        context
+    )  # what counts who holds an array; without effect but for the first time
     machine_code = _MachineCode(context.codegen(), library[2][0])
     for each in environments:
         context.codegen().set_env(each.env_name, each)
     entry = context.get_executable(machine_code, function, environment)
-    made.add_overload(CompileResult(target_context=context, typing_context=None, library=machine_code, environment=environment,
-                                    entry_point=entry, fndesc=function, type_annotation="", signature=signature, objectmode=False,
-                                    lifted=(), typing_error=None, call_helper=None, metadata=None, reload_init=reloaded,
-                                    referenced_envs=environments))
+    made.add_overload(
+        CompileResult(
+            target_context=context,
+            typing_context=None,
+            library=machine_code,
+            environment=environment,
+            entry_point=entry,
+            fndesc=function,
+            type_annotation="",
+            signature=signature,
+            objectmode=False,
+            lifted=(),
+            typing_error=None,
+            call_helper=None,
+            metadata=None,
+            reload_init=reloaded,
+            referenced_envs=environments,
+        )
+    )
     made.disable_compile()

@@ -1,7 +1,8 @@
-"""The folder that keeps machine code from start to start: only what this user wrote is read, and what is damaged is thrown away.
+"""The folder that keeps machine code from start to start: only what this user wrote is read, and what is damaged is
+thrown away.
 
-An entry is one file: a check sum, then a pickle. Unpickling runs code, so an entry counts only in a folder, and as a file,
-that belongs to this user and that nobody else may write.
+An entry is one file: a check sum, then a pickle. Unpickling runs code, so an entry counts only in a folder, and as a
+file, that belongs to this user and that nobody else may write.
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ class Store:
             data = _read_own(path)
         except OSError:
             return None
-        head, content = data[: _HEAD_SIZE], data[_HEAD_SIZE:]
+        head, content = data[:_HEAD_SIZE], data[_HEAD_SIZE:]
         if head == _head(name, content):
             return content
         self.drop(name)
@@ -99,7 +100,9 @@ class Store:
         return True
 
     def sweep(self) -> None:
-        """Remove what nobody has used for `UNUSED_DAYS`, here and in the folders of other versions, and what killed runs left."""
+        """Remove what nobody has used for `UNUSED_DAYS`, here and in the folders of other versions, and what killed
+        runs left.
+        """
         if self.folder is None:
             return
         now = time.time()
@@ -117,7 +120,10 @@ class Store:
 
     def _say(self, why: str) -> None:
         if not self._silent and sys.stderr is not None:
-            print(f"hitofude: compiled inner loops cannot be kept ({why}), so every start compiles them anew", file=sys.stderr)
+            print(
+                f"hitofude: compiled inner loops cannot be kept ({why}), so every start compiles them anew",
+                file=sys.stderr,
+            )
         self._silent = True
 
 
@@ -151,7 +157,9 @@ def _is_own(status: os.stat_result) -> bool:
 
 
 def _own_folder(folder: Path) -> bool:
-    """Make a folder of this user's alone, or say whether there is one: no link, not somebody else's, not open to others."""
+    """Make a folder of this user's alone, or say whether there is one: no link, not somebody else's, not open to
+    others.
+    """
     try:
         with suppress(FileExistsError):
             folder.mkdir(mode=0o700)
@@ -180,8 +188,8 @@ def _all_own(base: Path, *names: str) -> Path | None:
 def open_store(version: str) -> Store:
     """Return the store of one version of compiler and processor, in the first place that is safe and can be written.
 
-    That is the user's cache folder; else one in the temporary folder that is this user's alone; else a fresh one, removed
-    when the program ends.
+    That is the user's cache folder; else one in the temporary folder that is this user's alone; else a fresh one,
+    removed when the program ends.
     """
     own = f"hitofude-{os.geteuid()}" if hasattr(os, "geteuid") else "hitofude"
     for base in (Path(platformdirs.user_cache_dir("hitofude")), Path(tempfile.gettempdir()) / own):

@@ -19,7 +19,10 @@ def chosen_curves(words: Arguments, session: Session, verb: str) -> dict[int, Cu
     ids = ids or session.selection
     curves = {e.id: e.curve for e in session.part.entities if e.id in ids}
     if ids and not curves:
-        raise InputError(f"Only points, construction lines and dimensions are chosen; select curves to {verb}, or write their numbers.")
+        raise InputError(
+            f"Only points, construction lines and dimensions are chosen; select curves to {verb}, or write their "
+            "numbers."
+        )
     if not curves:
         raise InputError(f"Nothing is selected; select what to {verb}, or write its numbers after the command.")
     words.takes(curves.values())

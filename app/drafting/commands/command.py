@@ -126,14 +126,28 @@ class Transform:
         part = session.part
         check_ids(part, self.ids)
         if not self.keep:
-            return replace(session, part=replace(part, entities=tuple(
-                replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e for e in part.entities), notes=tuple(
-                replace(n, shape=transformed_note(n.shape, self.maps[0])) if n.id in self.ids else n for n in part.notes)))
+            return replace(
+                session,
+                part=replace(
+                    part,
+                    entities=tuple(
+                        replace(e, curve=transformed(e.curve, self.maps[0])) if e.id in self.ids else e
+                        for e in part.entities
+                    ),
+                    notes=tuple(
+                        replace(n, shape=transformed_note(n.shape, self.maps[0])) if n.id in self.ids else n
+                        for n in part.notes
+                    ),
+                ),
+            )
         chosen, noted = [e for e in part.entities if e.id in self.ids], [n for n in part.notes if n.id in self.ids]
         ids = count(part.next_id())
         copies = tuple(replace(e, id=next(ids), curve=transformed(e.curve, to)) for to in self.maps for e in chosen)
         notes = tuple(replace(n, id=next(ids), shape=transformed_note(n.shape, to)) for to in self.maps for n in noted)
-        return replace(session, part=replace(part, entities=part.entities + copies, notes=part.notes + notes, used_id=next(ids) - 1))
+        return replace(
+            session,
+            part=replace(part, entities=part.entities + copies, notes=part.notes + notes, used_id=next(ids) - 1),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,9 +204,14 @@ class SetLayer:
             part = replace(part, layers=(*part.layers, Layer(self.layer)))
         if not self.ids:
             return replace(session, part=part, layer=self.layer)
-        return replace(session, part=replace(part, entities=tuple(
-            replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities), notes=tuple(
-            replace(n, layer=self.layer) if n.id in self.ids else n for n in part.notes)))
+        return replace(
+            session,
+            part=replace(
+                part,
+                entities=tuple(replace(e, layer=self.layer) if e.id in self.ids else e for e in part.entities),
+                notes=tuple(replace(n, layer=self.layer) if n.id in self.ids else n for n in part.notes),
+            ),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +235,9 @@ class SetLook:
         """
         layers = session.part.layers
         if all(layer.name != self.layer for layer in layers):
-            raise InputError(f"There is no layer {self.layer}; the drawing has {', '.join(layer.name for layer in layers)}.")
+            raise InputError(
+                f"There is no layer {self.layer}; the drawing has {', '.join(layer.name for layer in layers)}."
+            )
         changed = tuple(replace(layer, **self.change) if layer.name == self.layer else layer for layer in layers)  # type: ignore[arg-type]
         return replace(session, part=replace(session.part, layers=changed))
 

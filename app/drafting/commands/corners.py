@@ -1,7 +1,8 @@
 """Corners of two curves: rounded by an arc that touches both, made sharp, or cut across. Curves in, curves out.
 
-One length is the same as none, WELD. A side that the digits of a drawing leave too short by more is refused and not stretched, unlike a gap
-that a tool fits by its name (`tolerances.NOMINAL`): there a path errs within its tolerance, here the drawing itself would.
+One length is the same as none, WELD. A side that the digits of a drawing leave too short by more is refused and not
+stretched, unlike a gap that a tool fits by its name (`tolerances.NOMINAL`): there a path errs within its tolerance,
+here the drawing itself would.
 """
 
 from __future__ import annotations
@@ -16,10 +17,14 @@ from .drafting import beside, between, touch_of, way_ahead
 from .split import split
 
 _CLOSE = 1e-9
-"""Radians; an arc that is less than a half turn by less touches curves that lie side by side, where there is no corner."""
+"""Radians; an arc that is less than a half turn by less touches curves that lie side by side, where there is no
+corner.
+"""
 
 _SMOOTH = 1e-3
-"""Radians; the sine of a bend below which two curves go on in one another. Curves are drawn, and written, with such bends."""
+"""Radians; the sine of a bend below which two curves go on in one another. Curves are drawn, and written, with such
+bends.
+"""
 
 Side = Line | Arc | Circle
 Filleted = tuple[Side, Arc, Side]
@@ -29,8 +34,8 @@ def fillet(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> Fillet
     """Return two curves shortened or lengthened to an arc that touches both, and the arc; circles stay whole.
 
     Args:
-        near: where each curve was pointed at; these sides stay, and of all arcs that touch the one nearest to them is taken.
-            Places so near the corner that the arc cuts them off stand for their sides of the corner.
+        near: where each curve was pointed at; these sides stay, and of all arcs that touch the one nearest to them is
+            taken. Places so near the corner that the arc cuts them off stand for their sides of the corner.
 
     Raises:
         InputError: no arc of this radius touches both on these sides.
@@ -40,7 +45,9 @@ def fillet(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> Fillet
         return first, Arc(arc.end, arc.start, arc.centre, not arc.ccw), second
     found = _fillets(a, b, radius, near) or _fillets(a, b, radius, _beyond_corner(a, b, near))
     if not found:
-        raise InputError(f"No arc of radius {radius:.3f} mm touches both curves here; use another radius, or point at other sides.")
+        raise InputError(
+            f"No arc of radius {radius:.3f} mm touches both curves here; use another radius, or point at other sides."
+        )
     _, first, arc, second = min(found, key=lambda each: each[0])
     return first, arc, second
 
@@ -55,7 +62,9 @@ def sharp(a: Line | Arc, b: Line | Arc, near: tuple[Point, Point]) -> tuple[Line
         first, second = _shortened(a, corner, near[0]), _shortened(b, corner, near[1])
         if first is not None and second is not None:
             return first, second
-    raise InputError("Both curves do not meet, however far they go on; point at other sides, or choose curves that meet.")
+    raise InputError(
+        "Both curves do not meet, however far they go on; point at other sides, or choose curves that meet."
+    )
 
 
 def is_smooth(a: Line | Arc, b: Line | Arc, joint: Point) -> bool:
@@ -94,7 +103,9 @@ def _cut_back(line: Line, corner: Point, size: float, near: Point) -> tuple[Line
 
 
 def _beyond_corner(a: Side, b: Side, near: tuple[Point, Point]) -> tuple[Point, Point]:
-    """Return the ends, away from the corner of two curves, of the sides that were pointed at; the places themselves without a corner."""
+    """Return the ends, away from the corner of two curves, of the sides that were pointed at; the places themselves
+    without a corner.
+    """
     corners = meets(a, b, extended=True)
     if not corners:
         return near
@@ -128,7 +139,9 @@ def _fillets(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> list
 
 def _centres(a: Side, b: Side, radius: float) -> list[Point]:
     """Return the centres of circles that touch both curves extended: where their parallels at the radius meet."""
-    return [p for one in _parallels(a, radius) for other in _parallels(b, radius) for p in meets(one, other, extended=True)]
+    return [
+        p for one in _parallels(a, radius) for other in _parallels(b, radius) for p in meets(one, other, extended=True)
+    ]
 
 
 def _parallels(curve: Side, away: float) -> list[Curve]:
@@ -142,7 +155,9 @@ def _kept(curve: Side, at: Point, near: Point) -> Side | None:
 
 
 def _shortened(curve: Line | Arc, at: Point, near: Point) -> Line | Arc | None:
-    """Return the part of a curve, extended, that ends at a point and holds the place pointed at; None where nothing would stay."""
+    """Return the part of a curve, extended, that ends at a point and holds the place pointed at; None where nothing
+    would stay.
+    """
     place = touch_of(curve, near)
     if math.dist(at, place) < WELD:
         place = max((curve.start, curve.end), key=lambda p: math.dist(p, at))
@@ -173,7 +188,9 @@ def _heading(curve: Line | Arc, at: Point) -> complex:
 
 
 def _turns_left(kept: Side, touch: tuple[Point, Point], centre: Point) -> bool:
-    """Return whether the arc between two touching points runs counter-clockwise: on from what it follows, of circles the short way."""
+    """Return whether the arc between two touching points runs counter-clockwise: on from what it follows, of circles
+    the short way.
+    """
     spoke, other = (complex(p[0] - centre[0], p[1] - centre[1]) for p in touch)
     if isinstance(kept, Circle):
         return (spoke.conjugate() * other).imag > 0

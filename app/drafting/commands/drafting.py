@@ -14,7 +14,9 @@ from ..curves.shapes import shown
 from .split import split
 
 _WHOLE = 1e-9
-"""Radians of an ellipse's parameter by which a whole turn may be short: an angle, whatever the size, so no length says it."""
+"""Radians of an ellipse's parameter by which a whole turn may be short: an angle, whatever the size, so no length says
+it.
+"""
 
 
 def trimmed(curve: Curve, at: Point, edges: Iterable[Curve]) -> tuple[Curve, ...]:
@@ -63,9 +65,16 @@ def extended(curve: Curve, at: Point, edges: Iterable[Curve]) -> Curve:
     forward = math.dist(at, curve.end) <= math.dist(at, curve.start)
     found = [p for edge in edges for p in _met_ahead(curve, edge) if not between(curve, p)]
     ends = curve.start, curve.end  # an arc that went on to its own other end would be a circle
-    ahead = [(way, p) for p in found if (way := way_ahead(curve, p, forward)) > WELD and min(math.dist(p, end) for end in ends) > WELD]
+    ahead = [
+        (way, p)
+        for p in found
+        if (way := way_ahead(curve, p, forward)) > WELD and min(math.dist(p, end) for end in ends) > WELD
+    ]
     if not ahead:
-        raise InputError(f"No edge lies ahead of the end at {shown(curve.end if forward else curve.start)}; draw one, or give the length.")
+        raise InputError(
+            f"No edge lies ahead of the end at {shown(curve.end if forward else curve.start)}; draw one, or give the "
+            "length."
+        )
     to = min(ahead)[1]
     start, end = (curve.start, to) if forward else (to, curve.end)
     return Line(start, end) if isinstance(curve, Line) else Arc(start, end, curve.centre, curve.ccw)
@@ -168,7 +177,8 @@ def beside(line: Line, away: float) -> tuple[Line, Line]:
 def touch_of(curve: Line | Arc | Circle, centre: Point, radius: float = 0.0) -> Point:
     """Return the point of the endless line or whole circle that is nearest to a centre.
 
-    Of a circle that another of `radius` about the centre holds within itself it is the farthest point: there they touch.
+    Of a circle that another of `radius` about the centre holds within itself it is the farthest point: there they
+    touch.
     """
     if not isinstance(curve, Line):
         away = math.dist(centre, curve.centre)

@@ -42,7 +42,11 @@ def _halves(circle: Circle) -> tuple[Arc, Arc]:
 def explode(words: Arguments, session: Session) -> Rework:
     """Turn circles, ellipses and splines into lines and arcs."""
     curves = chosen_curves(words, session, "explode")
-    pieces = {number: made for number, curve in curves.items() if not isinstance(curve, Line | Arc) and (made := exploded(curve))}
+    pieces = {
+        number: made
+        for number, curve in curves.items()
+        if not isinstance(curve, Line | Arc) and (made := exploded(curve))
+    }
     if not pieces:
         raise InputError("Lines and arcs are as simple as curves can be; choose circles, ellipses or splines.")
     count = sum(map(len, pieces.values()))

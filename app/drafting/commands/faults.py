@@ -50,8 +50,8 @@ class Fault:
 def found_faults(part: Part, tolerance: float, progress: Progress = NO_PROGRESS) -> tuple[Fault, ...]:
     """Return every fault of the curves that are seen and not locked, kind by kind.
 
-    What is tiny or drawn twice is not looked at again, so that one mistake is one fault. Overlaps are found among lines, and
-    among arcs and circles; duplicates and gaps among all curves.
+    What is tiny or drawn twice is not looked at again, so that one mistake is one fault. Overlaps are found among
+    lines, and among arcs and circles; duplicates and gaps among all curves.
 
     Args:
         part: the drawing.
@@ -66,8 +66,12 @@ def found_faults(part: Part, tolerance: float, progress: Progress = NO_PROGRESS)
         progress.step(share / 4, "Looking")
         here = look(curves, tolerance)
         found += here
-        gone = {number for fault in here if fault.kind in (FaultKind.TINY, FaultKind.DUPLICATE)
-                for number in (fault.ids if fault.kind is FaultKind.TINY else fault.ids[1:])}
+        gone = {
+            number
+            for fault in here
+            if fault.kind in (FaultKind.TINY, FaultKind.DUPLICATE)
+            for number in (fault.ids if fault.kind is FaultKind.TINY else fault.ids[1:])
+        }
         curves = {number: curve for number, curve in curves.items() if number not in gone}
     return tuple(found)
 
@@ -93,7 +97,9 @@ def duplicates(curves: Mapping[int, Curve], tolerance: float) -> list[Fault]:
         else:
             found.append(Fault(FaultKind.DUPLICATE, (known, number), middle_of(curve), 0.0))
     numbers = sorted(first_of.values())
-    for first, second in ((numbers[a], numbers[b]) for a, b in _pairs([_mark(curves[number]) for number in numbers], 3 * tolerance)):
+    for first, second in (
+        (numbers[a], numbers[b]) for a, b in _pairs([_mark(curves[number]) for number in numbers], 3 * tolerance)
+    ):
         if gone & {first, second} or type(curves[first]) is not type(curves[second]):
             continue
         between = apart(curves[first], curves[second])
@@ -118,7 +124,10 @@ def apart(a: Curve, b: Curve) -> float:
     if isinstance(a, Circle) and isinstance(b, Circle):
         return math.dist(a.centre, b.centre) + abs(a.radius - b.radius)
     if isinstance(a, Line) and isinstance(b, Line):
-        return min(max(math.dist(a.start, b.start), math.dist(a.end, b.end)), max(math.dist(a.start, b.end), math.dist(a.end, b.start)))
+        return min(
+            max(math.dist(a.start, b.start), math.dist(a.end, b.end)),
+            max(math.dist(a.start, b.end), math.dist(a.end, b.start)),
+        )
     one, other = _shares(a), _shares(b)
     return float(min(np.hypot(*(one - other).T).max(), np.hypot(*(one - other[::-1]).T).max()))
 
@@ -131,7 +140,9 @@ def _shares(curve: Curve) -> NDArray[np.float64]:
 
 
 def overlaps(curves: Mapping[int, Curve], tolerance: float) -> list[Fault]:
-    """Return pairs of lines on one straight line, and of arcs and circles on one circle, that share more than the tolerance."""
+    """Return pairs of lines on one straight line, and of arcs and circles on one circle, that share more than the
+    tolerance.
+    """
     lines = {number: curve for number, curve in curves.items() if isinstance(curve, Line)}
     rounds = {number: curve for number, curve in curves.items() if isinstance(curve, Arc | Circle)}
     return [*_of_lines(lines, tolerance), *_of_rounds(rounds, tolerance)]
@@ -149,7 +160,7 @@ def _of_lines(lines: Mapping[int, Line], tolerance: float) -> list[Fault]:
     sorted_low, reach, found = low[order], float((high - low).max()), list[Fault]()
     for at, number in enumerate(numbers):
         first = np.searchsorted(sorted_low, low[at] - reach - tolerance)
-        near = order[first:np.searchsorted(sorted_low, high[at] + tolerance, side="right")]
+        near = order[first : np.searchsorted(sorted_low, high[at] + tolerance, side="right")]
         near = near[(sizes[near] < sizes[at]) | ((sizes[near] == sizes[at]) & (near > at))]
         away, way = ends[near] - ends[at, 0], (ends[at, 1] - ends[at, 0]) / sizes[at]
         on = (np.abs(away[:, :, 0] * way[1] - away[:, :, 1] * way[0]) <= tolerance).all(axis=1)
@@ -164,7 +175,10 @@ def _of_lines(lines: Mapping[int, Line], tolerance: float) -> list[Fault]:
 def along(line: Line, way: float) -> Point:
     """Return the point of a line at a way from its start, mm."""
     share = float(way) / math.dist(line.start, line.end)
-    return (line.start[0] + (line.end[0] - line.start[0]) * share, line.start[1] + (line.end[1] - line.start[1]) * share)
+    return (
+        line.start[0] + (line.end[0] - line.start[0]) * share,
+        line.start[1] + (line.end[1] - line.start[1]) * share,
+    )
 
 
 def _of_rounds(rounds: Mapping[int, Arc | Circle], tolerance: float) -> list[Fault]:
@@ -178,7 +192,10 @@ def _of_rounds(rounds: Mapping[int, Arc | Circle], tolerance: float) -> list[Fau
         curve = rounds[long]
         if (size := turn * curve.radius) > tolerance:
             middle = first + turn / 2
-            place = (curve.centre[0] + curve.radius * math.cos(middle), curve.centre[1] + curve.radius * math.sin(middle))
+            place = (
+                curve.centre[0] + curve.radius * math.cos(middle),
+                curve.centre[1] + curve.radius * math.sin(middle),
+            )
             found.append(Fault(FaultKind.OVERLAP, (long, short), place, size))
     return found
 
@@ -191,7 +208,9 @@ def turn_of(curve: Arc | Circle) -> tuple[float, float]:
 
 
 def common_turn(a: Arc | Circle, b: Arc | Circle) -> tuple[float, float] | None:
-    """Return the longest stretch of angles that two arcs of one circle share: its beginning, and how far it goes, radians."""
+    """Return the longest stretch of angles that two arcs of one circle share: its beginning, and how far it goes,
+    radians.
+    """
     (first, turn), (other, there) = turn_of(a), turn_of(b)
     ahead = (other - first) % math.tau
     best = (ahead, min(there, turn - ahead)) if ahead < turn else (0.0, 0.0)
@@ -223,7 +242,9 @@ def point_of(curve: Curve, last: bool) -> Point:
 
 
 def meetings(curves: Mapping[int, Curve], tolerance: float) -> list[list[End]]:
-    """Return groups of ends of different curves, none farther from another of its group than the tolerance; nearest first."""
+    """Return groups of ends of different curves, none farther from another of its group than the tolerance; nearest
+    first.
+    """
     at = defaultdict[tuple[int, int], list[End]](list)
     for number, curve in curves.items():
         if math.dist(curve.start, curve.end) > tolerance:

@@ -23,8 +23,10 @@ from .select import reachable
 _LARGEST = 10.0
 _ROUNDS = 4
 _WORDS = {
-    FaultKind.TINY: ("tiny curve removed", "tiny curves removed"), FaultKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
-    FaultKind.OVERLAP: ("overlap removed", "overlaps removed"), FaultKind.GAP: ("gap closed", "gaps closed"),
+    FaultKind.TINY: ("tiny curve removed", "tiny curves removed"),
+    FaultKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
+    FaultKind.OVERLAP: ("overlap removed", "overlaps removed"),
+    FaultKind.GAP: ("gap closed", "gaps closed"),
 }
 _SHARE = 2.0
 """To look for faults, time and again, costs so many times what it costs to take the curves apart."""
@@ -47,7 +49,11 @@ class Heal:
     def reply(self) -> str:
         """A short sentence for the log."""
         counts = self.counts
-        told = [f"{counts[kind]} {one if counts[kind] == 1 else many}" for kind, (one, many) in _WORDS.items() if kind in counts]
+        told = [
+            f"{counts[kind]} {one if counts[kind] == 1 else many}"
+            for kind, (one, many) in _WORDS.items()
+            if kind in counts
+        ]
         return f"{', '.join(told)}." if told else "Nothing to mend."
 
     def carried_out(self, session: Session) -> Session:
@@ -55,8 +61,11 @@ class Heal:
         if not self.curves:
             return session
         part, now = session.part, self.curves
-        entities = tuple(replace(e, curve=curve) if (curve := now.get(e.id, e.curve)) is not e.curve and curve is not None else e
-                         for e in part.entities if now.get(e.id, e.curve) is not None)  # fmt: skip
+        entities = tuple(
+            replace(e, curve=curve) if (curve := now.get(e.id, e.curve)) is not e.curve and curve is not None else e
+            for e in part.entities
+            if now.get(e.id, e.curve) is not None
+        )
         return session.with_part(replace(part, entities=entities, used_id=part.next_id() - 1))
 
 
@@ -93,11 +102,21 @@ class _Work:
                 self.counts[FaultKind.OVERLAP] += self._cut(long, short)
 
     def _merge(self, long: int, short: int, taken: _Ends) -> bool:
-        """Put one curve in the place of two of a layer, unless another curve ends where an end of theirs would be no more."""
+        """Put one curve in the place of two of a layer, unless another curve ends where an end of theirs would be no
+        more.
+        """
         stays, goes = self.curves[long], self.curves[short]
-        if self.layers[long] != self.layers[short] or isinstance(stays, Ellipse | Spline) or isinstance(goes, Ellipse | Spline):
+        if (
+            self.layers[long] != self.layers[short]
+            or isinstance(stays, Ellipse | Spline)
+            or isinstance(goes, Ellipse | Spline)
+        ):
             return False
-        ends = [p for number in (long, short) for p in self.ends.get(number, (self.curves[number].start, self.curves[number].end))]
+        ends = [
+            p
+            for number in (long, short)
+            for p in self.ends.get(number, (self.curves[number].start, self.curves[number].end))
+        ]
         made = merged(stays, goes, ends, self.tolerance)
         if made is None:
             return False
@@ -110,7 +129,9 @@ class _Work:
         return True
 
     def _cut(self, long: int, short: int) -> bool:
-        """Cut the shorter of two that overlap down to what the longer one leaves of it; return whether anything changed."""
+        """Cut the shorter of two that overlap down to what the longer one leaves of it; return whether anything
+        changed.
+        """
         stays, goes = self.curves[long], self.curves[short]
         left: Curve | None = goes
         if isinstance(stays, Line) and isinstance(goes, Line):
@@ -124,17 +145,25 @@ class _Work:
         return left is not goes
 
     def _close(self, meeting: list[tuple[int, bool]]) -> bool:
-        """Move ends to one point; return whether they were apart. Ends that cannot move, of ellipses, are where the others go."""
+        """Move ends to one point; return whether they were apart. Ends that cannot move, of ellipses, are where the
+        others go.
+        """
         points = [point_of(self.curves[number], last) for number, last in meeting]
         if all(point == points[0] for point in points):
             return False
-        fixed = {point for point, (number, _) in zip(points, meeting, strict=True) if "end" not in properties_of(self.curves[number])}
+        fixed = {
+            point
+            for point, (number, _) in zip(points, meeting, strict=True)
+            if "end" not in properties_of(self.curves[number])
+        }
         middle = (sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points))
         to = next(iter(fixed), middle)
         return len(fixed) <= 1 and brought_to(to, self.curves, meeting, self._with_end)
 
     def _with_end(self, number: int, last: bool, to: Point) -> Curve | None:
-        """Return a curve with an end elsewhere; None where that would take it farther from where it was drawn than the tolerance."""
+        """Return a curve with an end elsewhere; None where that would take it farther from where it was drawn than the
+        tolerance.
+        """
         curve = self.curves[number]
         if point_of(curve, last) == to:
             return curve
@@ -188,7 +217,9 @@ def _line_left(stays: Line, goes: Line, tolerance: float) -> Line | None:
 
 
 def _arc_left(stays: Arc | Circle, goes: Arc | Circle, tolerance: float) -> Curve | None:
-    """Return what of an arc lies beyond another of its circle; None where nothing does, the arc itself where it is cut in two."""
+    """Return what of an arc lies beyond another of its circle; None where nothing does, the arc itself where it is cut
+    in two.
+    """
     both = common_turn(goes, stays)
     if both is None or isinstance(goes, Circle):
         return None if both is not None else goes
@@ -222,5 +253,7 @@ def heal(words: Arguments, session: Session) -> Heal:
         work.once()
         if work.curves == was:
             break
-    changed = {number: work.curves.get(number) for number, curve in before.items() if work.curves.get(number) is not curve}
+    changed = {
+        number: work.curves.get(number) for number, curve in before.items() if work.curves.get(number) is not curve
+    }
     return Heal(changed, {kind: count for kind, count in work.counts.items() if count})

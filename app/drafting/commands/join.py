@@ -1,4 +1,6 @@
-"""The command `join`: small gaps close where the curves meet, and pieces that are one line, arc or ellipse become one."""
+"""The command `join`: small gaps close where the curves meet, and pieces that are one line, arc or ellipse become
+one.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ def join(words: Arguments, session: Session) -> Rework:
     """Close the gaps among some curves, and make one of pieces that go on in one another; layers are not mixed."""
     within = words.length("how far apart ends may be") if words.accept("within") else JOIN
     if not WELD < within <= _LARGEST:
-        raise InputError(f"Ends within {within:g} mm cannot be joined; the distance is greater than 0 and at most {_LARGEST:g} mm.")
+        raise InputError(
+            f"Ends within {within:g} mm cannot be joined; the distance is greater than 0 and at most {_LARGEST:g} mm."
+        )
     drawn = chosen_curves(words, session, "join")
     met, gaps = gaps_closed(drawn, within)
     layers = {e.id: e.layer for e in session.part.entities if e.id in drawn}
@@ -34,7 +38,9 @@ def join(words: Arguments, session: Session) -> Rework:
         for numbers, made in _runs(chain, layers):
             curves.update(dict.fromkeys(numbers))
             curves[min(numbers)] = made
-    pieces = {number: (curve,) if curve is not None else () for number, curve in curves.items() if curve is not drawn[number]}
+    pieces = {
+        number: (curve,) if curve is not None else () for number, curve in curves.items() if curve is not drawn[number]
+    }
     merged = sum(not made for made in pieces.values())
     left, loops = len(drawn) - merged, sum(chain.closed for chain in chains)
     became = f"{counted(len(drawn), 'curve')} became {left}" if merged else f"{counted(left, 'curve')} as before"
@@ -45,7 +51,8 @@ def join(words: Arguments, session: Session) -> Rework:
 def gaps_closed(drawn: Mapping[int, Curve], within: float) -> tuple[dict[int, Curve], int]:
     """Return curves whose ends, where they are no farther apart than a distance, meet; and how many gaps there were.
 
-    Two lines or arcs go on, or back, to where they cross; other ends go to their middle, or to the end that cannot move.
+    Two lines or arcs go on, or back, to where they cross; other ends go to their middle, or to the end that cannot
+    move.
     """
     curves, gaps = dict(drawn), 0
     for meeting in meetings(curves, within):
@@ -55,7 +62,9 @@ def gaps_closed(drawn: Mapping[int, Curve], within: float) -> tuple[dict[int, Cu
     return curves, gaps
 
 
-def brought_to(to: Point, curves: dict[int, Curve], meeting: list[End], with_end: Callable[[int, bool, Point], Curve | None]) -> bool:
+def brought_to(
+    to: Point, curves: dict[int, Curve], meeting: list[End], with_end: Callable[[int, bool, Point], Curve | None]
+) -> bool:
     """Move ends to a point, in place, where all of them can be; return whether they were apart and are no more.
 
     Args:
@@ -74,7 +83,9 @@ def _meeting_point(curves: list[Curve], points: list[Point], within: float) -> P
     if fixed or all(point == points[0] for point in points):
         return next(iter(fixed), points[0])
     if len(curves) == 2 and isinstance(curves[0], Line | Arc) and isinstance(curves[1], Line | Arc):
-        crossing = [p for p in meets(curves[0], curves[1], extended=True) if max(math.dist(p, end) for end in points) <= within]
+        crossing = [
+            p for p in meets(curves[0], curves[1], extended=True) if max(math.dist(p, end) for end in points) <= within
+        ]
         if crossing:
             return min(crossing, key=lambda p: math.dist(p, points[0]) + math.dist(p, points[1]))
     return (sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points))
@@ -98,7 +109,11 @@ def _runs(chain: Chain, layers: Mapping[int, str]) -> list[tuple[list[int], Curv
     """Return which neighbours of a chain are one curve, and that curve."""
     runs = list[tuple[list[int], list[Point], Curve]]()
     for number, curve in zip(chain.numbers, chain.curves, strict=True):
-        if runs and layers[runs[-1][0][0]] == layers[number] and (longer := _one(runs[-1][2], curve, runs[-1][1])) is not None:
+        if (
+            runs
+            and layers[runs[-1][0][0]] == layers[number]
+            and (longer := _one(runs[-1][2], curve, runs[-1][1])) is not None
+        ):
             runs[-1] = ([*runs[-1][0], number], [*runs[-1][1], curve.start], longer)
         else:
             runs.append(([number], [], curve))
@@ -133,17 +148,27 @@ def _one_line(a: Line, b: Line, joints: list[Point]) -> Line | None:
     onward = (a.end[0] - x) * (ex - b.start[0]) + (a.end[1] - y) * (ey - b.start[1]) > 0
     if not onward or size <= WELD:
         return None
-    return Line(a.start, b.end) if all(abs((px - x) * dy - (py - y) * dx) <= CURVE * size for px, py in (*joints, a.end)) else None
+    return (
+        Line(a.start, b.end)
+        if all(abs((px - x) * dy - (py - y) * dx) <= CURVE * size for px, py in (*joints, a.end))
+        else None
+    )
 
 
 def _one_arc(a: Arc, b: Arc) -> Arc | Circle | None:
     from ...geometry.chaining.pieces import equally_far  # not when the window opens
 
-    if a.ccw != b.ccw or math.dist(a.centre, b.centre) + abs(a.radius - b.radius) > CURVE or abs(a.sweep + b.sweep) > math.tau + 1e-6:
+    if (
+        a.ccw != b.ccw
+        or math.dist(a.centre, b.centre) + abs(a.radius - b.radius) > CURVE
+        or abs(a.sweep + b.sweep) > math.tau + 1e-6
+    ):
         return None
     if math.dist(a.start, b.end) <= WELD:
         return Circle(a.centre, a.radius, a.ccw)
-    return Arc(a.start, b.end, equally_far(a.start, b.end, a.centre), a.ccw) if abs(a.sweep + b.sweep) < _WHOLE else None
+    return (
+        Arc(a.start, b.end, equally_far(a.start, b.end, a.centre), a.ccw) if abs(a.sweep + b.sweep) < _WHOLE else None
+    )
 
 
 def _one_ellipse(a: Ellipse, b: Ellipse) -> Ellipse | None:

@@ -33,13 +33,19 @@ class RenameLayer:
         part = session.part
         check_layer(part, self.layer)
         if any(layer.name == self.to for layer in part.layers):
-            raise InputError(f"There is a layer {self.to} already; choose another name, or put the curves on it with layer.")
+            raise InputError(
+                f"There is a layer {self.to} already; choose another name, or put the curves on it with layer."
+            )
         layers = tuple(replace(layer, name=self.to) if layer.name == self.layer else layer for layer in part.layers)
         entities = tuple(replace(e, layer=self.to) if e.layer == self.layer else e for e in part.entities)
         notes = tuple(replace(n, layer=self.to) if n.layer == self.layer else n for n in part.notes)
         current = self.to if session.layer == self.layer else session.layer
-        return replace(session, part=replace(part, layers=layers, entities=entities, notes=notes), layer=current,
-                       renamed=(*session.renamed, (self.layer, self.to)))
+        return replace(
+            session,
+            part=replace(part, layers=layers, entities=entities, notes=notes),
+            layer=current,
+            renamed=(*session.renamed, (self.layer, self.to)),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,8 +156,13 @@ def remove(words: Arguments, session: Session) -> RemoveLayer:
 
 def with_layer_renamed(job: Job, old: str, new: str) -> Job:
     """Return the job whose operations and keep-out areas call a layer by its new name."""
+
     def named(names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(new if name == old else name for name in names)
 
-    operations = tuple(replace(o, cut=replace(o.cut, layers=named(o.cut.layers))) if old in o.cut.layers else o for o in job.operations)
-    return replace(job, operations=operations, layer_names=named(job.layer_names), keep_out_layers=named(job.keep_out_layers))
+    operations = tuple(
+        replace(o, cut=replace(o.cut, layers=named(o.cut.layers))) if old in o.cut.layers else o for o in job.operations
+    )
+    return replace(
+        job, operations=operations, layer_names=named(job.layer_names), keep_out_layers=named(job.keep_out_layers)
+    )

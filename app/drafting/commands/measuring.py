@@ -55,7 +55,9 @@ class Measures:
 
 
 def measures(curves: Mapping[int, Curve]) -> Measures:
-    """Return what one or more curves measure; extent and centroid of ellipses and splines by arcs within 1 µm of them."""
+    """Return what one or more curves measure; extent and centroid of ellipses and splines by arcs within 1 µm of
+    them.
+    """
     length = sum(map(_length, curves.values()))
     loops = [chain for chain in chained(curves) if chain.closed]
     area, centroid = _areas(loops) if loops else (0.0, None)
@@ -65,7 +67,9 @@ def measures(curves: Mapping[int, Curve]) -> Measures:
 
 
 def _length(curve: Curve) -> float:
-    """Return the length of a curve, mm; of an ellipse or a spline from chords, and half as many, to 1e-9 of its size."""
+    """Return the length of a curve, mm; of an ellipse or a spline from chords, and half as many, to 1e-9 of its
+    size.
+    """
     if not isinstance(curve, Ellipse | Spline):
         return curve_length(curve)
     if isinstance(curve, Ellipse):
@@ -97,7 +101,9 @@ def _areas(loops: list[Chain]) -> tuple[float, Point | None]:
 
 
 def _swept(pieces: tuple[Primitive, ...]) -> tuple[float, Point]:
-    """Return the signed area, mm2, and the centroid of what lines and arcs enclose: a polygon and segments of circles."""
+    """Return the signed area, mm2, and the centroid of what lines and arcs enclose: a polygon and segments of
+    circles.
+    """
     if isinstance(whole := pieces[0], Circle):
         return math.pi * whole.radius**2, whole.centre
     ox, oy = pieces[0].start

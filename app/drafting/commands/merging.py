@@ -11,7 +11,9 @@ from .faults import turn_of
 _WHOLE = math.tau - 1e-9
 
 
-def merged(stays: Line | Arc | Circle, goes: Line | Arc | Circle, ends: Sequence[Point], tolerance: float) -> Line | Arc | Circle | None:
+def merged(
+    stays: Line | Arc | Circle, goes: Line | Arc | Circle, ends: Sequence[Point], tolerance: float
+) -> Line | Arc | Circle | None:
     """Return the curve that two which overlap are together, in the direction of the first; None where they are not one.
 
     Args:

@@ -1,7 +1,8 @@
 """The parallel of a whole chain of curves: corners joined, arcs stay arcs, and what would come too near is cut out.
 
-Every line and arc is moved aside, and every corner that opens is bridged by an arc about it. All these are cut where they meet,
-and a piece stays where nothing of the chain is nearer than the distance; at last corners are made sharp where there is room.
+Every line and arc is moved aside, and every corner that opens is bridged by an arc about it. All these are cut where
+they meet, and a piece stays where nothing of the chain is nearer than the distance; at last corners are made sharp
+where there is room.
 """
 
 from __future__ import annotations
@@ -26,14 +27,17 @@ from .sharp_corners import sharpened
 from .split import split
 
 _NEAR = WELD / 100
-"""By so much, mm, a piece may come nearer than the distance: more than a foot is off by rounding a kilometre from zero. Less than WELD,
+"""By so much, mm, a piece may come nearer than the distance: more than a foot is off by rounding a kilometre from zero.
+Less than WELD,
 as what goes on beyond the place where two parallels cross comes nearer by no more than its length times their bend."""
 
 _SLIGHT = 2e-3
 """A turn, rad, so slight that what two parallels overlap there could not be told from what stays."""
 
 _BACK = 1e-9
-"""A turn, rad, that is less than a half turn by less goes straight back; a length cannot say that, as both sides may be long."""
+"""A turn, rad, that is less than a half turn by less goes straight back; a length cannot say that, as both sides may be
+long.
+"""
 
 
 def chain_parallel(contour: Chain, away: float, side: Point, rounded: bool = False) -> list[tuple[int, Line | Arc]]:
@@ -54,8 +58,16 @@ def chain_parallel(contour: Chain, away: float, side: Point, rounded: bool = Fal
     left = _is_left(pieces, contour.closed, side)
     pieces = pieces if left else _turned(pieces)
     found = _kept(pieces, contour.closed, away)
-    groups = [[found[number] for number in each.numbers] for each in chained(dict(enumerate(m.curve for m in found))) if not _thin(each)]
-    made = list(flattened.from_iterable(groups)) if rounded else sharpened(groups, away, lambda a, b: _near(_boxes(a), _boxes(b)))
+    groups = [
+        [found[number] for number in each.numbers]
+        for each in chained(dict(enumerate(m.curve for m in found)))
+        if not _thin(each)
+    ]
+    made = (
+        list(flattened.from_iterable(groups))
+        if rounded
+        else sharpened(groups, away, lambda a, b: _near(_boxes(a), _boxes(b)))
+    )
     return [(m.source, m.curve) for m in (made if left else _turned(made))]
 
 
@@ -64,7 +76,9 @@ def _pieces(contour: Chain) -> list[Moved]:
     found = list[Moved]()
     for number, curve in zip(contour.numbers, contour.curves, strict=True):
         for piece in simple(curve):
-            if not isinstance(piece, Circle) and (made := _between(piece, found[-1].curve.end if found else piece.start, piece.end)):
+            if not isinstance(piece, Circle) and (
+                made := _between(piece, found[-1].curve.end if found else piece.start, piece.end)
+            ):
                 found.append(Moved(made, number))
     if contour.closed and found and (made := _between(found[-1].curve, found[-1].curve.start, found[0].curve.start)):
         found[-1] = Moved(made, found[-1].source)
@@ -122,8 +136,11 @@ def _kept(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
         middle = (float(middles[k, 0]), float(middles[k, 1]))
         if k not in gone and math.dist(foot(pieces[source].curve, middle), middle) < away - _NEAR:
             gone.add(k)
-    return [Moved(piece, m.source, m.corner if piece == m.curve else None) for k, (m, piece) in enumerate(parts)
-            if k not in gone and isinstance(piece, Line | Arc)]  # fmt: skip
+    return [
+        Moved(piece, m.source, m.corner if piece == m.curve else None)
+        for k, (m, piece) in enumerate(parts)
+        if k not in gone and isinstance(piece, Line | Arc)
+    ]
 
 
 def _raw(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
@@ -148,7 +165,10 @@ def _raw(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
 
 def _aside(curve: Line | Arc, away: float) -> Line | Arc | None:
     """Return a line or arc moved to its left; None for an arc that is as narrow as that."""
-    start, end = _beside(curve.start, direction(curve, curve.start), away), _beside(curve.end, direction(curve, curve.end), away)
+    start, end = (
+        _beside(curve.start, direction(curve, curve.start), away),
+        _beside(curve.end, direction(curve, curve.end), away),
+    )
     if isinstance(curve, Line):
         return Line(start, end)
     inside = curve.ccw and curve.radius <= away + WELD

@@ -129,7 +129,9 @@ def _swept(arc: Arc, sweep: float) -> Arc:
 def _arc_length(arc: Arc, length: float) -> Arc:
     around = math.tau * arc.radius
     if not 0 < length < around:
-        raise InputError(f"The length is {length:.3f} mm; on this radius it must be greater than 0 and less than {around:.3f} mm.")
+        raise InputError(
+            f"The length is {length:.3f} mm; on this radius it must be greater than 0 and less than {around:.3f} mm."
+        )
     return _swept(arc, math.degrees(length / arc.radius))
 
 
@@ -163,8 +165,12 @@ _PROPERTIES: Mapping[type, Mapping[str, Property]] = {
         "end": Property(_P, lambda c: c.end, lambda c, p: _line(c.start, p), "The start stays."),
         "middle": Property(_P, _middle, lambda c, p: _moved(c, _middle(c), p), "The whole line moves."),
         "length": Property(_L, lambda c: math.dist(c.start, c.end), _lengthened, "Start and direction stay."),
-        "angle": Property(_A, lambda c: _angle(c.start, c.end), lambda c, a: _line(c.start, _away(c.start, math.dist(c.start, c.end), a)),
-                          "The line turns about its start."),
+        "angle": Property(
+            _A,
+            lambda c: _angle(c.start, c.end),
+            lambda c, a: _line(c.start, _away(c.start, math.dist(c.start, c.end), a)),
+            "The line turns about its start.",
+        ),
     },
     Arc: {
         "start": Property(_P, lambda c: c.start, lambda c, p: _bent(c, p, c.end), "End and sweep stay."),
@@ -179,21 +185,39 @@ _PROPERTIES: Mapping[type, Mapping[str, Property]] = {
         "centre": Property(_P, lambda c: c.centre, lambda c, p: replace(c, centre=p), "The radius stays."),
         "radius": Property(_L, lambda c: c.radius, _sized, "The centre stays."),
         "diameter": Property(_L, lambda c: 2 * c.radius, lambda c, d: _sized(c, d / 2), "The centre stays."),
-        "length": Property(_L, lambda c: math.tau * c.radius, lambda c, v: _sized(c, v / math.tau), "The centre stays."),
+        "length": Property(
+            _L, lambda c: math.tau * c.radius, lambda c, v: _sized(c, v / math.tau), "The centre stays."
+        ),
     },
     Ellipse: {
         "centre": Property(_P, lambda c: c.centre, lambda c, p: _moved(c, c.centre, p), "The whole ellipse moves."),
-        "major": Property(_L, lambda c: _half_axes(c)[0], lambda c, v: _with_half_axes(c, v, _half_axes(c)[1]),
-                          "Centre, direction and the other half axis stay."),
-        "minor": Property(_L, lambda c: _half_axes(c)[1], lambda c, v: _with_half_axes(c, _half_axes(c)[0], v),
-                          "Centre, direction and the other half axis stay."),
+        "major": Property(
+            _L,
+            lambda c: _half_axes(c)[0],
+            lambda c, v: _with_half_axes(c, v, _half_axes(c)[1]),
+            "Centre, direction and the other half axis stay.",
+        ),
+        "minor": Property(
+            _L,
+            lambda c: _half_axes(c)[1],
+            lambda c, v: _with_half_axes(c, _half_axes(c)[0], v),
+            "Centre, direction and the other half axis stay.",
+        ),
         "angle": Property(_A, lambda c: _angle((0.0, 0.0), c.major), _turned, "The ellipse turns about its centre."),
     },
     Spline: {
-        "start": Property(_P, lambda c: c.start, lambda c, p: replace(c, control_points=(p, *c.control_points[1:])),
-                          "The other control points stay."),
-        "end": Property(_P, lambda c: c.end, lambda c, p: replace(c, control_points=(*c.control_points[:-1], p)),
-                        "The other control points stay."),
+        "start": Property(
+            _P,
+            lambda c: c.start,
+            lambda c, p: replace(c, control_points=(p, *c.control_points[1:])),
+            "The other control points stay.",
+        ),
+        "end": Property(
+            _P,
+            lambda c: c.end,
+            lambda c, p: replace(c, control_points=(*c.control_points[:-1], p)),
+            "The other control points stay.",
+        ),
     },
     Mark: {"place": Property(_P, lambda n: n.at, lambda n, p: replace(n, at=p), "The point moves.")},
     Guide: {

@@ -66,8 +66,8 @@ def note_grips(shape: Shape) -> tuple[Grip, ...]:
 def pulled(curve: Curve, grip: Grip, to: Point) -> Curve:
     """Return a curve with one of its grips at another point.
 
-    The middle of a line and every centre take the whole along; an end of an arc keeps the other end and the angle of the
-    arc; its middle keeps both ends; a quadrant or the end of an axis keeps the centre.
+    The middle of a line and every centre take the whole along; an end of an arc keeps the other end and the angle of
+    the arc; its middle keeps both ends; a quadrant or the end of an axis keeps the centre.
 
     Raises:
         InputError: nothing would be left of the curve.
@@ -94,7 +94,7 @@ def pulled_note(shape: Shape, grip: Grip, to: Point) -> Shape:
         return replace(shape, through=to)
     if grip.hold is Hold.PLACE:
         return replace(shape, place=to)
-    return replace(shape, points=(*shape.points[:grip.index], to, *shape.points[grip.index + 1:]))
+    return replace(shape, points=(*shape.points[: grip.index], to, *shape.points[grip.index + 1 :]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,22 +115,38 @@ class Pull:
         """Return the session with the grips at their new place.
 
         Raises:
-            InputError: an id that the part does not have, one without a grip at the point, or nothing would be left of a curve.
+            InputError: an id that the part does not have, one without a grip at the point, or nothing would be left of
+                a curve.
         """
         part = session.part
         notes = {note.id for note in part.notes} & self.ids
         check_ids(part, self.ids - notes)
         entities = tuple(
-            replace(e, curve=pulled(e.curve, self._grip(e.id, grips(e.curve)), self.to)) if e.id in self.ids else e for e in part.entities)
-        return replace(session, last=self.to, part=replace(part, entities=entities, notes=tuple(
-            replace(n, shape=pulled_note(n.shape, self._grip(n.id, note_grips(n.shape)), self.to)) if n.id in notes else n
-            for n in part.notes)))
+            replace(e, curve=pulled(e.curve, self._grip(e.id, grips(e.curve)), self.to)) if e.id in self.ids else e
+            for e in part.entities
+        )
+        return replace(
+            session,
+            last=self.to,
+            part=replace(
+                part,
+                entities=entities,
+                notes=tuple(
+                    replace(n, shape=pulled_note(n.shape, self._grip(n.id, note_grips(n.shape)), self.to))
+                    if n.id in notes
+                    else n
+                    for n in part.notes
+                ),
+            ),
+        )
 
     def _grip(self, number: int, among: tuple[Grip, ...]) -> Grip:
         nearest = min(among, key=lambda grip: math.dist(grip.at, self.at))
         if math.dist(nearest.at, self.at) > WELD:
-            raise InputError(f"{number} is not held at {self.at[0]:.3f},{self.at[1]:.3f}; the nearest place to pull it by is "
-                             f"{nearest.at[0]:.3f},{nearest.at[1]:.3f}.")
+            raise InputError(
+                f"{number} is not held at {self.at[0]:.3f},{self.at[1]:.3f}; the nearest place to pull it by is "
+                f"{nearest.at[0]:.3f},{nearest.at[1]:.3f}."
+            )
         return nearest
 
 
@@ -149,7 +165,9 @@ def pull(words: Arguments, session: Session) -> Pull:
 
 
 def held_at(part: Part, ids: frozenset[int], at: Point) -> frozenset[int]:
-    """Return which of these are pulled together at a point: all that have an end there, else the first that is held there at all."""
+    """Return which of these are pulled together at a point: all that have an end there, else the first that is held
+    there at all.
+    """
     ends, others = set(), list[int]()
     for entity in part.entities:
         if entity.id in ids:
@@ -158,7 +176,9 @@ def held_at(part: Part, ids: frozenset[int], at: Point) -> frozenset[int]:
                 ends.add(entity.id)
             elif holds:
                 others.append(entity.id)
-    others += [n.id for n in part.notes if n.id in ids and any(math.dist(grip.at, at) <= WELD for grip in note_grips(n.shape))]
+    others += [
+        n.id for n in part.notes if n.id in ids and any(math.dist(grip.at, at) <= WELD for grip in note_grips(n.shape))
+    ]
     return frozenset(ends) or frozenset(others[:1])
 
 
@@ -205,8 +225,13 @@ def _pulled_ellipse(curve: Ellipse, index: int, to: Point) -> Ellipse:
     if ratio <= 1:
         return replace(curve, major=(major.real, major.imag), ratio=ratio)
     swapped, quarter = major * 1j * ratio, math.pi / 2
-    return replace(curve, major=(swapped.real, swapped.imag), ratio=1 / ratio,
-                   start_parameter=curve.start_parameter - quarter, end_parameter=curve.end_parameter - quarter)
+    return replace(
+        curve,
+        major=(swapped.real, swapped.imag),
+        ratio=1 / ratio,
+        start_parameter=curve.start_parameter - quarter,
+        end_parameter=curve.end_parameter - quarter,
+    )
 
 
 def _pulled_spline(curve: Spline, index: int, to: Point) -> Spline:

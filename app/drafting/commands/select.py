@@ -45,7 +45,8 @@ class Select:
 
     Attributes:
         ids: chosen by number; CHAIN takes what joins these end to end, too.
-        box: x0, y0, x1, y1 with x0 <= x1 and y0 <= y1, mm; WINDOW takes what lies wholly inside, CROSSING also what reaches in.
+        box: x0, y0, x1, y1 with x0 <= x1 and y0 <= y1, mm; WINDOW takes what lies wholly inside, CROSSING also what
+            reaches in.
     """
 
     by: By
@@ -72,7 +73,10 @@ class Select:
         return replace(session, selection=found)
 
     def _found(self, part: Part) -> frozenset[int]:
-        return frozenset([e.id for e in reachable(part) if self._takes(e)] + [n.id for n in reachable_notes(part) if self._takes_note(n)])
+        return frozenset(
+            [e.id for e in reachable(part) if self._takes(e)]
+            + [n.id for n in reachable_notes(part) if self._takes_note(n)]
+        )
 
     def _takes_note(self, note: Note) -> bool:
         if self.by is By.LAYER:
@@ -137,8 +141,11 @@ def note_crosses(shape: Shape, box: Box) -> bool:
     if isinstance(shape, Mark):
         return note_inside(shape, box)
     if isinstance(shape, Guide):
-        sides = [(x - shape.through[0]) * math.sin(shape.angle) - (y - shape.through[1]) * math.cos(shape.angle)
-                 for x in box[::2] for y in box[1::2]]
+        sides = [
+            (x - shape.through[0]) * math.sin(shape.angle) - (y - shape.through[1]) * math.cos(shape.angle)
+            for x in box[::2]
+            for y in box[1::2]
+        ]
         return min(sides) <= 0 <= max(sides)
     if inside((*shape.place, *shape.place), box):
         return True

@@ -1,4 +1,6 @@
-"""Corners of a parallel made sharp: the curves on both sides go on until they meet, where that runs into nothing else."""
+"""Corners of a parallel made sharp: the curves on both sides go on until they meet, where that runs into nothing
+else.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,8 @@ class _Tip:
 
 
 def sharpened(groups: Sequence[Sequence[Moved]], away: float, near: Near) -> list[Moved]:
-    """Return the pieces of a parallel with sharp corners in place of arcs that go round corners, where there is room for them.
+    """Return the pieces of a parallel with sharp corners in place of arcs that go round corners, where there is room
+    for them.
 
     Args:
         groups: chains of pieces in the direction of travel.
@@ -70,7 +73,10 @@ def _tip(pieces: Sequence[Moved], places: tuple[int, int, int], away: float) -> 
         return []
     middle = middle_of(arc.curve)
     for at in sorted(meets(a.curve, b.curve, extended=True), key=lambda p: math.dist(p, middle)):
-        if math.dist(at, arc.corner) > _FARTHEST * away or min(math.dist(at, a.curve.end), math.dist(at, b.curve.start)) <= WELD:
+        if (
+            math.dist(at, arc.corner) > _FARTHEST * away
+            or min(math.dist(at, a.curve.end), math.dist(at, b.curve.start)) <= WELD
+        ):
             continue
         ways = _onward(a.curve, a.curve.end, at, forward=True), _onward(b.curve, b.curve.start, at, forward=False)
         if ways[0] is not None and ways[1] is not None:
@@ -79,7 +85,9 @@ def _tip(pieces: Sequence[Moved], places: tuple[int, int, int], away: float) -> 
 
 
 def _onward(curve: Line | Arc, end: Point, at: Point, forward: bool) -> Line | Arc | None:
-    """Return what leads from an end of a curve on to a point of the endless line or whole circle; None where it lies behind."""
+    """Return what leads from an end of a curve on to a point of the endless line or whole circle; None where it lies
+    behind.
+    """
     way = direction(curve, end) * (1 if forward else -1)
     if (way.conjugate() * complex(at[0] - end[0], at[1] - end[1])).real <= 0:
         return None

@@ -17,7 +17,8 @@ from ..curves.meet import nearest_parameter
 def split(curve: Curve, points: Sequence[Point]) -> tuple[Curve, ...]:
     """Return the pieces of a curve between points on it, in its direction, each ending exactly at its point.
 
-    Points at its ends, and points that repeat, cut nothing. A circle or whole ellipse needs two points; with fewer it stays whole.
+    Points at its ends, and points that repeat, cut nothing. A circle or whole ellipse needs two points; with fewer it
+    stays whole.
     """
     if isinstance(curve, Line):
         return tuple(Line(a, b) for a, b in _neighbours(curve, sorted(points, key=lambda p: math.dist(p, curve.start))))
@@ -64,7 +65,11 @@ def _ellipse(curve: Ellipse, points: Sequence[Point]) -> tuple[Curve, ...]:
     if whole and len(places) < 2:
         return (curve,)
     small = WELD / math.hypot(*curve.major)
-    cuts = [*places, places[0] + math.tau] if whole else [first, *(t for t in places if first + small < t < last - small), last]
+    cuts = (
+        [*places, places[0] + math.tau]
+        if whole
+        else [first, *(t for t in places if first + small < t < last - small), last]
+    )
     pieces = tuple(replace(curve, start_parameter=a, end_parameter=b) for a, b in pairwise(cuts))
     return pieces if curve.ccw else pieces[::-1]
 
@@ -92,8 +97,8 @@ def _halves(curve: Spline, at: float) -> tuple[Spline, Spline]:
     if missing > 0:
         made = insert(at, made, m=missing)
     first = int(np.searchsorted(made.t, at, side="left"))
-    low = _as_spline(p, [*made.t[:first + p], at], made.c[:first], bool(curve.weights))
-    return low, _as_spline(p, [at, *made.t[first:]], made.c[first - 1:], bool(curve.weights))
+    low = _as_spline(p, [*made.t[: first + p], at], made.c[:first], bool(curve.weights))
+    return low, _as_spline(p, [at, *made.t[first:]], made.c[first - 1 :], bool(curve.weights))
 
 
 def _as_spline(degree: int, knots: Sequence[float], control: np.ndarray, rational: bool) -> Spline:

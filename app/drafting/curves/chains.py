@@ -46,13 +46,19 @@ def chained(curves: Mapping[int, Curve]) -> list[Chain]:
         ahead = _walk(last, at, nodes, done)
         closed = bool(ahead) and ahead[-1][2] == first and len(at[first]) == 2
         behind = [] if closed else _walk(first, at, nodes, done)
-        way = [*((n, not forward) for n, forward, _ in reversed(behind)), (number, True), *((n, forward) for n, forward, _ in ahead)]
+        way = [
+            *((n, not forward) for n, forward, _ in reversed(behind)),
+            (number, True),
+            *((n, forward) for n, forward, _ in ahead),
+        ]
         turned = tuple(curves[n] if forward else reversed_curve(curves[n]) for n, forward in way)
         found.append(Chain(tuple(n for n, _ in way), turned, closed))
     return found
 
 
-def _walk(node: int, at: Mapping[int, list[int]], nodes: Mapping[int, tuple[int, int]], done: set[int]) -> list[tuple[int, bool, int]]:
+def _walk(
+    node: int, at: Mapping[int, list[int]], nodes: Mapping[int, tuple[int, int]], done: set[int]
+) -> list[tuple[int, bool, int]]:
     """Return what follows from a node: number, whether forward, and the node where it ends."""
     way = list[tuple[int, bool, int]]()
     while len(at[node]) == 2:
@@ -68,7 +74,9 @@ def _walk(node: int, at: Mapping[int, list[int]], nodes: Mapping[int, tuple[int,
 
 
 def _nodes(curves: Mapping[int, Curve]) -> dict[int, tuple[int, int]]:
-    """Return for each curve numbers of the points where it starts and ends; ends within WELD of one another are one point."""
+    """Return for each curve numbers of the points where it starts and ends; ends within WELD of one another are one
+    point.
+    """
     cells: dict[tuple[int, int], list[tuple[int, Point]]] = {}
     count = 0
 

@@ -1,6 +1,8 @@
-"""Where curves meet, the nearest point of a curve, and where lines from a point touch it: for snaps, trims and the language.
+"""Where curves meet, the nearest point of a curve, and where lines from a point touch it: for snaps, trims and the
+language.
 
-Lines, arcs and circles in closed form; ellipses and splines from samples, refined by Newton's method to 1e-12 of their size.
+Lines, arcs and circles in closed form; ellipses and splines from samples, refined by Newton's method to 1e-12 of their
+size.
 """
 
 from __future__ import annotations
@@ -166,7 +168,13 @@ def _refined(a: Curve, b: Curve, within: Box | None) -> list[Point]:
     (at_a, ta, pa), (at_b, tb, pb) = _sampled(a), _sampled(b)
     found: list[Point] = []
     for i, j, s, u in _crossing_chords((pa, rows_a), (pb, rows_b)):
-        point = _newton(at_a, at_b, (ta[i] + s * (ta[i + 1] - ta[i]), tb[j] + u * (tb[j + 1] - tb[j])), (ta[0], ta[-1]), (tb[0], tb[-1]))
+        point = _newton(
+            at_a,
+            at_b,
+            (ta[i] + s * (ta[i + 1] - ta[i]), tb[j] + u * (tb[j + 1] - tb[j])),
+            (ta[0], ta[-1]),
+            (tb[0], tb[-1]),
+        )
         if point is not None and all(math.dist(point, p) > 1e-9 * (1 + math.hypot(*point)) for p in found):
             found.append(point)
     return found
@@ -203,7 +211,9 @@ def _crossing_chords(a: Chords, b: Chords) -> list[tuple[int, int, float, float]
     return [(int(rows_a[i]), int(rows_b[j]), float(s[i, j]), float(t[i, j])) for i, j in zip(*found, strict=True)]
 
 
-def _newton(a: At, b: At, start: tuple[float, float], range_a: tuple[float, float], range_b: tuple[float, float]) -> Point | None:
+def _newton(
+    a: At, b: At, start: tuple[float, float], range_a: tuple[float, float], range_b: tuple[float, float]
+) -> Point | None:
     s, t = start
     (s0, s1), (t0, t1) = sorted(range_a), sorted(range_b)
     hs, ht = 1e-6 * (s1 - s0), 1e-6 * (t1 - t0)
@@ -225,7 +235,9 @@ def _newton(a: At, b: At, start: tuple[float, float], range_a: tuple[float, floa
 
 
 def nearest_parameter(curve: Curve, point: Point) -> float:
-    """Return the parameter of the point of a curve that is nearest to a point: an angle, a share of a line, a spline's knot value."""
+    """Return the parameter of the point of a curve that is nearest to a point: an angle, a share of a line, a spline's
+    knot value.
+    """
     at, parameters, points = _sampled(curve)
     best = int(np.argmin(np.hypot(*(points - point).T)))
     low, high = float(parameters[max(best - 1, 0)]), float(parameters[min(best + 1, len(parameters) - 1)])
@@ -237,7 +249,9 @@ def nearest_parameter(curve: Curve, point: Point) -> float:
 
 
 def _polished(at: At, t: float, point: Point, span: tuple[float, float]) -> float:
-    """Return a parameter at which the way to the point stands square on the curve: distances alone tell it to half the digits."""
+    """Return a parameter at which the way to the point stands square on the curve: distances alone tell it to half the
+    digits.
+    """
     low, high = min(span), max(span)
     step = 1e-5 * (high - low)
 

@@ -17,10 +17,14 @@ if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
 _ROUNDING = 1e-12
-"""Distances that differ by no more than this share of the coordinates are the same but for the last digits of a number."""
+"""Distances that differ by no more than this share of the coordinates are the same but for the last digits of a
+number.
+"""
 
 _FIT = 1e-3
-"""Ends of an arc whose distances from the centre differ by up to this are drawn with the centre moved between them, mm."""
+"""Ends of an arc whose distances from the centre differ by up to this are drawn with the centre moved between them,
+mm.
+"""
 
 
 def shown(point: Point) -> str:
@@ -53,7 +57,9 @@ def rectangle(a: Point, b: Point) -> tuple[Line, ...]:
     """
     (x0, x1), (y0, y1) = sorted((a[0], b[0])), sorted((a[1], b[1]))
     if x1 - x0 < WELD or y1 - y0 < WELD:
-        raise InputError(f"The rectangle is {x1 - x0:.3f} by {y1 - y0:.3f} mm; give opposite corners that differ in x and in y.")
+        raise InputError(
+            f"The rectangle is {x1 - x0:.3f} by {y1 - y0:.3f} mm; give opposite corners that differ in x and in y."
+        )
     return lines_through([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], close=True)
 
 
@@ -82,8 +88,10 @@ def arc_about(start: Point, end: Point, centre: Point, ccw: bool = True) -> Arc:
     if abs(a - b) <= _ROUNDING * max(a, *map(abs, (*start, *end))) and min(a, b) >= WELD:
         return Arc(start, end, centre, ccw)
     if abs(a - b) > _FIT or min(a, b) < WELD:
-        raise InputError(f"The start is {a:.3f} mm from the centre and the end {b:.3f} mm; both must be equally far. "
-                         f"Move the end to {shown(on_circle(end, centre, a))}.")
+        raise InputError(
+            f"The start is {a:.3f} mm from the centre and the end {b:.3f} mm; both must be equally far. "
+            f"Move the end to {shown(on_circle(end, centre, a))}."
+        )
     dx, dy = end[0] - start[0], end[1] - start[1]
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
     along = ((centre[0] - middle[0]) * dx + (centre[1] - middle[1]) * dy) / (dx * dx + dy * dy)
@@ -108,7 +116,9 @@ def arc_through(start: Point, via: Point, end: Point) -> Arc:
     cross = ax * by - ay * bx
     height = abs(cross) / math.hypot(bx, by)
     if height < WELD:
-        raise InputError(f"The three points of the arc lie on a straight line at {shown(via)}; move the middle one off it.")
+        raise InputError(
+            f"The three points of the arc lie on a straight line at {shown(via)}; move the middle one off it."
+        )
     aa, bb = ax * ax + ay * ay, bx * bx + by * by
     centre = (start[0] + (by * aa - ay * bb) / (2 * cross), start[1] + (ax * bb - bx * aa) / (2 * cross))
     return Arc(start, end, centre, ccw=cross > 0)
@@ -172,7 +182,9 @@ def arc_of_radius(start: Point, end: Point, radius: float, ccw: bool = True, lar
     if chord < WELD:
         raise InputError(f"The arc begins and ends at {shown(start)}; draw a full circle with circle x,y r.")
     if chord > 2 * radius * (1 + 1e-12):
-        raise InputError(f"The ends are {chord:.3f} mm apart, more than the diameter; the radius must be {chord / 2:.3f} mm or more.")
+        raise InputError(
+            f"The ends are {chord:.3f} mm apart, more than the diameter; the radius must be {chord / 2:.3f} mm or more."
+        )
     off = math.sqrt(max(radius * radius - chord * chord / 4, 0.0)) * (1 if ccw != large else -1)
     ux, uy = (end[0] - start[0]) / chord, (end[1] - start[1]) / chord
     centre = ((start[0] + end[0]) / 2 - off * uy, (start[1] + end[1]) / 2 + off * ux)
@@ -214,9 +226,21 @@ def rounded_rectangle(a: Point, b: Point, radius: float) -> tuple[Line | Arc, ..
     (x0, y0), (x1, y1) = sides[0].start, sides[1].end
     room = min(x1 - x0, y1 - y0) / 2
     if not WELD <= radius <= room:
-        raise InputError(f"The radius is {radius:.3f} mm; it must be greater than 0 and at most {room:.3f} mm, half the shorter side.")
+        raise InputError(
+            f"The radius is {radius:.3f} mm; it must be greater than 0 and at most {room:.3f} mm, half the shorter "
+            "side."
+        )
     r, made = radius, list[Line | Arc]()
-    points = [(x0 + r, y0), (x1 - r, y0), (x1, y0 + r), (x1, y1 - r), (x1 - r, y1), (x0 + r, y1), (x0, y1 - r), (x0, y0 + r)]
+    points = [
+        (x0 + r, y0),
+        (x1 - r, y0),
+        (x1, y0 + r),
+        (x1, y1 - r),
+        (x1 - r, y1),
+        (x0 + r, y1),
+        (x0, y1 - r),
+        (x0, y0 + r),
+    ]
     centres = [(x1 - r, y0 + r), (x1 - r, y1 - r), (x0 + r, y1 - r), (x0 + r, y0 + r)]
     for k in range(4):
         p, q, onward = points[2 * k], points[2 * k + 1], points[(2 * k + 2) % 8]
@@ -235,7 +259,9 @@ def polygon(centre: Point, corners: int, first: Point) -> tuple[Line, ...]:
     if radius < WELD:
         raise InputError("The polygon has no size; give a corner away from its centre.")
     turns = [begin + math.tau * k / corners for k in range(1, corners)]
-    return lines_through([first, *((centre[0] + radius * math.cos(t), centre[1] + radius * math.sin(t)) for t in turns)], close=True)
+    return lines_through(
+        [first, *((centre[0] + radius * math.cos(t), centre[1] + radius * math.sin(t)) for t in turns)], close=True
+    )
 
 
 def slot(a: Point, b: Point, width: float) -> tuple[Line | Arc, ...]:
@@ -246,13 +272,17 @@ def slot(a: Point, b: Point, width: float) -> tuple[Line | Arc, ...]:
     """
     size, r = math.dist(a, b), width / 2
     if size < WELD or r < WELD:
-        raise InputError(f"The slot is {size:.3f} mm between its centres and {width:.3f} mm wide; both must be greater than 0.")
+        raise InputError(
+            f"The slot is {size:.3f} mm between its centres and {width:.3f} mm wide; both must be greater than 0."
+        )
     ox, oy = (b[1] - a[1]) / size * r, -(b[0] - a[0]) / size * r
     p, q, s, t = (a[0] + ox, a[1] + oy), (b[0] + ox, b[1] + oy), (b[0] - ox, b[1] - oy), (a[0] - ox, a[1] - oy)
     return (Line(p, q), Arc(q, s, b), Line(s, t), Arc(t, p, a))
 
 
-def ellipse(centre: Point, end: Point, half: float, span: tuple[float, float] = (0.0, math.tau), ccw: bool = True) -> Ellipse:
+def ellipse(
+    centre: Point, end: Point, half: float, span: tuple[float, float] = (0.0, math.tau), ccw: bool = True
+) -> Ellipse:
     """Return an ellipse, or a part of it.
 
     Args:
@@ -293,7 +323,9 @@ def spline_through(points: list[Point], close: bool = False) -> Spline:
 
 
 def _clamped(made: CubicSpline, points: Points) -> Spline:
-    """Return a piecewise cubic through points as a B-spline with threefold knots, which holds every point to the last digit."""
+    """Return a piecewise cubic through points as a B-spline with threefold knots, which holds every point to the last
+    digit.
+    """
     x = made.x
     knots = np.concatenate([[x[0]] * 4, *([k] * 3 for k in x[1:-1]), [x[-1]] * 4])
     starts, ends = points[:-1], points[1:]

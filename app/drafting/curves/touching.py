@@ -1,4 +1,6 @@
-"""Where the way from a point to an ellipse or a spline stands square on it or touches it: every such place, to the last digits."""
+"""Where the way from a point to an ellipse or a spline stands square on it or touches it: every such place, to the last
+digits.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,9 @@ Ways = Callable[[Numbers], tuple[Points, Points]]
 
 
 def square_points(curve: Ellipse | Spline, base: Point) -> list[Point]:
-    """Return the points of a curve where the way from a point stands square on it, mm, in the order of its parameter."""
+    """Return the points of a curve where the way from a point stands square on it, mm, in the order of its
+    parameter.
+    """
     return _places(curve, base, lambda way, along: np.einsum("ij,ij->i", way, along))
 
 
@@ -33,9 +37,15 @@ def spline_tangents(curve: Spline, base: Point) -> list[Point]:
 
 
 def _places(curve: Ellipse | Spline, base: Point, product: Callable[[Points, Points], Numbers]) -> list[Point]:
-    """Return the points where a product of way and direction vanishes, found by halving between samples of opposite signs."""
+    """Return the points where a product of way and direction vanishes, found by halving between samples of opposite
+    signs.
+    """
     ways = _of_ellipse(curve, base) if isinstance(curve, Ellipse) else _of_spline(curve, base)
-    spans = np.linspace(curve.start_parameter, curve.end_parameter, 13) if isinstance(curve, Ellipse) else np.unique(curve.knots)
+    spans = (
+        np.linspace(curve.start_parameter, curve.end_parameter, 13)
+        if isinstance(curve, Ellipse)
+        else np.unique(curve.knots)
+    )
     at = np.append(np.linspace(spans[:-1], spans[1:], _SAMPLES, endpoint=False, axis=1).ravel(), spans[-1])
     signs = np.sign(product(*ways(at)))
     rows = np.flatnonzero((signs[:-1] * signs[1:] < 0) | (signs[:-1] == 0))
@@ -75,8 +85,13 @@ def _of_ellipse(curve: Ellipse, base: Point) -> Ways:
 def _of_spline(curve: Spline, base: Point) -> Ways:
     """A point of a rational spline is p / w; the direction is that of p' w - p w', and no quotient is needed."""
     weights = curve.weights or (1.0,) * len(curve.control_points)
-    weighted = tuple(((x - base[0]) * w, (y - base[1]) * w) for (x, y), w in zip(curve.control_points, weights, strict=True))
-    p, w = Spline(curve.degree, weighted, curve.knots), Spline(curve.degree, tuple((w, 0.0) for w in weights), curve.knots)
+    weighted = tuple(
+        ((x - base[0]) * w, (y - base[1]) * w) for (x, y), w in zip(curve.control_points, weights, strict=True)
+    )
+    p, w = (
+        Spline(curve.degree, weighted, curve.knots),
+        Spline(curve.degree, tuple((w, 0.0) for w in weights), curve.knots),
+    )
     p_on, w_on = derivative(p), derivative(w)
 
     def ways(t: Numbers) -> tuple[Points, Points]:

@@ -71,7 +71,11 @@ class Arguments:
 
     def accept(self, *words: str) -> str:
         """Step over the next argument when it is one of these words, and return it in lower case; else return ""."""
-        if self.more and isinstance(name := self._command.arguments[self._at], s.Name) and (word := name.text.lower()) in words:
+        if (
+            self.more
+            and isinstance(name := self._command.arguments[self._at], s.Name)
+            and (word := name.text.lower()) in words
+        ):
             self._at += 1
             return word
         return ""
@@ -168,7 +172,7 @@ class Arguments:
 
     def _text_of(self, expression: s.Expression) -> str:
         first = self._command.place.start
-        return self._command.text[expression.place.start - first:expression.place.end - first]
+        return self._command.text[expression.place.start - first : expression.place.end - first]
 
     def _is_word(self) -> bool:
         """Return whether the next argument is a word that stands for nothing: one of the command's own."""

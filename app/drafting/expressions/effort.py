@@ -1,7 +1,7 @@
 """What a text repeats, counted as work: a few lines within one another must not keep a reader busy for minutes.
 
-The work is told from what is done, never from a clock, so that the same text ends alike on every machine. Lines that stand
-in no repeat and no command of the user's own count nothing: they cost as much as their text is long.
+The work is told from what is done, never from a clock, so that the same text ends alike on every machine. Lines that
+stand in no repeat and no command of the user's own count nothing: they cost as much as their text is long.
 """
 
 from __future__ import annotations
@@ -13,7 +13,9 @@ from . import syntax as s
 from .values import wrong
 
 MOST_WORK = 2_000_000
-"""Of what is repeated; a unit is about a millionth of a second, and a text is to be read within five, on a busy machine too."""
+"""Of what is repeated; a unit is about a millionth of a second, and a text is to be read within five, on a busy machine
+too.
+"""
 _BLOCK, _VALUE, _COMMAND, _LETTER = 5.0, 3.0, 30.0, 1.0
 """A turn of a block, an expression that stands alone, a command, and each letter of either."""
 _SPLINE = 250.0
@@ -53,12 +55,16 @@ class Effort:
 
     def command(self, place: s.Place, word: str) -> None:
         """Count what a command costs before it touches curves."""
-        self._count(_COMMAND + _LETTER * (place.end - place.start) + (_SPLINE if word in ("spline", "sp") else 0.0), place)
+        self._count(
+            _COMMAND + _LETTER * (place.end - place.start) + (_SPLINE if word in ("spline", "sp") else 0.0), place
+        )
 
     def added(self, curves: Iterable[Curve], kept: int, place: s.Place) -> None:
         """Count curves that were added to others."""
         if self._inside:
-            steep = sum(_STEEP * curve.degree**2 for curve in curves if isinstance(curve, Spline) and curve.degree > _EASY)
+            steep = sum(
+                _STEEP * curve.degree**2 for curve in curves if isinstance(curve, Spline) and curve.degree > _EASY
+            )
             self._count(_MADE + steep + _KEPT * kept, place)
 
     def changed(self, count: int, passed: int, place: s.Place) -> None:
@@ -66,7 +72,9 @@ class Effort:
         self._count(_CHANGED * count + _PASSED * passed, place)
 
     def taken(self, curves: Iterable[Curve], share: float, place: s.Place) -> None:
-        """Count curves that a command takes apart, to measure, join, offset, explode or heal them; or a share of that."""
+        """Count curves that a command takes apart, to measure, join, offset, explode or heal them; or a share of
+        that.
+        """
         if self._inside:
             self._count(share * sum(map(_taken_apart, curves)), place)
 

@@ -14,6 +14,7 @@ from .values import Curves, Length, Scope, Value, kind_of, wrong
 
 _LARGEST = 1e7
 
+
 def number_of(expression: s.Expression, scope: Scope) -> float:
     """Return the number that an expression states.
 
@@ -51,7 +52,8 @@ def value_of(expression: s.Expression, scope: Scope) -> Value:
     """Return what an expression stands for.
 
     Raises:
-        CommandError: a name is unknown, a unit does not belong here, an operand is no number, a result has no finite size.
+        CommandError: a name is unknown, a unit does not belong here, an operand is no number, a result has no finite
+            size.
     """
     match expression:
         case s.Quantity():
@@ -99,7 +101,9 @@ def _named(name: s.Name, scope: Scope) -> Value:
         return math.pi
     if scope.names is None:
         raise wrong(f"'{name.text}' is no number; write a number such as 12.5 or 1in+8mm.", name.place)
-    raise wrong(f"'{name.text}' has no value; say let {name.text} = … before, or write a number or a point.", name.place)
+    raise wrong(
+        f"'{name.text}' has no value; say let {name.text} = … before, or write a number or a point.", name.place
+    )
 
 
 def _signed(value: Value, place: s.Place) -> Value:
@@ -143,7 +147,13 @@ def _chained(chain: s.Chain, scope: Scope) -> Value:
     value = value_of(chain.operands[0], scope)
     before = chain.operands[0]
     for operator, operand in zip(chain.operators, chain.operands[1:], strict=True):
-        if operator == "/" and _is_plain(before) and isinstance(operand, s.Quantity) and operand.unit and isinstance(value, float):
+        if (
+            operator == "/"
+            and _is_plain(before)
+            and isinstance(operand, s.Quantity)
+            and operand.unit
+            and isinstance(value, float)
+        ):
             size = number_of(operand, scope)  # 1/4in is a quarter of an inch, as on a drill's box
             value = _like(size, _quotient(value, operand.value, operand.place) * (size / operand.value))
         elif operator == "/":

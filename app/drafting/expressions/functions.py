@@ -86,9 +86,16 @@ FUNCTIONS: Mapping[str, Function] = {
     "radius": Function("c", "radius(curve)", radius_of, gives_length=True),
     "length": Function("c", "length(curve)", curve_length, gives_length=True),
     "foot": Function("pe", "foot(point, curve)", lambda p, c: foot(c, p)),
-    "meet": Function("eep", "meet(curve, curve, near)", lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet")),
-    "tangent": Function("pcp", "tangent(from, curve, near)",
-                        lambda p, c, near: _nearest(tangent_points(c, p), near, "tangent from this point")),
+    "meet": Function(
+        "eep",
+        "meet(curve, curve, near)",
+        lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet"),
+    ),
+    "tangent": Function(
+        "pcp",
+        "tangent(from, curve, near)",
+        lambda p, c, near: _nearest(tangent_points(c, p), near, "tangent from this point"),
+    ),
 }
 """Every function by its name; angles in degrees."""
 
@@ -105,7 +112,9 @@ def call(written: s.Call, values: Sequence[Value], scope: Scope) -> Value:
     function = FUNCTIONS.get(written.function.text)
     if function is None:
         word = written.function.text
-        raise wrong(f"'{word}' is no function; use one of {known_words(word, list(FUNCTIONS))}.", written.function.place)
+        raise wrong(
+            f"'{word}' is no function; use one of {known_words(word, list(FUNCTIONS))}.", written.function.place
+        )
     given = _taken(function, written, _alike(list(values), scope) if function.keeps_length else list(values), scope)
     try:
         value = function.does(*given)
@@ -114,7 +123,11 @@ def call(written: s.Call, values: Sequence[Value], scope: Scope) -> Value:
     except InputError as error:
         raise wrong(str(error), written.place) from None
     if isinstance(value, int | float):
-        return Length(value) if function.gives_length or (function.keeps_length and isinstance(given[0], Length)) else float(value)
+        return (
+            Length(value)
+            if function.gives_length or (function.keeps_length and isinstance(given[0], Length))
+            else float(value)
+        )
     return value
 
 

@@ -1,7 +1,7 @@
 """The grammar of the shape language, and reading a text by it.
 
-A blank outside brackets ends an argument, so `10,10 -5,3` is two points and `(w + 2)` one number; `;` ends a statement as a
-line does, a backslash at the end of a line takes the next one along, `#` begins a remark.
+A blank outside brackets ends an argument, so `10,10 -5,3` is two points and `(w + 2)` one number; `;` ends a statement
+as a line does, a backslash at the end of a line takes the next one along, `#` begins a remark.
 """
 
 from __future__ import annotations
@@ -86,7 +86,8 @@ _VALUE_BEFORE = "let x="
 
 
 class _Blanks:
-    """Drops the blanks that count for nothing: in brackets, in statements that are no commands, and at the ends of a line.
+    """Drops the blanks that count for nothing: in brackets, in statements that are no commands, and at the ends of a
+    line.
 
     On the way it refuses what is nested too deeply to be meant.
     """
@@ -120,7 +121,9 @@ class _Blanks:
 @cache
 def _parser() -> Lark:
     units = "|".join(sorted((u for u in ALL_UNITS if u.isalpha()), key=len, reverse=True))
-    return Lark(_GRAMMAR.replace("EVERY", units), start="script", parser="lalr", postlex=_Blanks(), propagate_positions=True)
+    return Lark(
+        _GRAMMAR.replace("EVERY", units), start="script", parser="lalr", postlex=_Blanks(), propagate_positions=True
+    )
 
 
 def read_script(text: str) -> tuple[s.Statement, ...]:
@@ -140,7 +143,9 @@ def read_value(text: str) -> s.Expression:
     """
     stray = next((at for at, letter in enumerate(text) if letter in ";\n\r#\\"), None)
     if stray is not None:
-        raise CommandError(f"'{text[stray]}' is no part of a number; write a number such as 12.5 or 1in+8mm.", stray + 1)
+        raise CommandError(
+            f"'{text[stray]}' is no part of a number; write a number such as 12.5 or 1in+8mm.", stray + 1
+        )
     (statement,) = _read(_VALUE_BEFORE + text, len(_VALUE_BEFORE))
     assert isinstance(statement, s.Let)
     return statement.value
@@ -224,13 +229,13 @@ class _Builder(Transformer[Token, Any]):
 
     def define(self, meta: Any, parts: list[Any]) -> s.Define:
         place = self._place(meta)
-        source = self._source[place.start:place.end]
+        source = self._source[place.start : place.end]
         return s.Define(self._named(parts[1]), tuple(map(self._named, parts[2:-1])), parts[-1], place, source)
 
     def command(self, meta: Any, parts: list[Any]) -> s.Command:
         named = len(parts) > 2 and isinstance(parts[-1], _Label)
         place = self._place(meta)
-        text = self._source[place.start:place.end]
+        text = self._source[place.start : place.end]
         label = parts[-1].name if named else None
         return s.Command(self._named(parts[0]), tuple(parts[1:-1] if named else parts[1:]), label, text, place)
 
@@ -276,7 +281,11 @@ class _Builder(Transformer[Token, Any]):
 
 
 _EXPECTED = (
-    ("NUMBER", "a number, a point or a name"), ("NAME", "a name"), ("EQUAL", "'='"), ("LPAR", "'('"), ("RPAR", "')'"),
+    ("NUMBER", "a number, a point or a name"),
+    ("NAME", "a name"),
+    ("EQUAL", "'='"),
+    ("LPAR", "'('"),
+    ("RPAR", "')'"),
     ("_END", "end"),
 )
 
@@ -286,14 +295,21 @@ def _explained(wrong: UnexpectedInput, source: str) -> CommandError:
     expected = set(getattr(wrong, "expected", None) or getattr(wrong, "allowed", None) or ())
     if isinstance(wrong, UnexpectedToken):
         token = wrong.token
-        line, column, found, ends = token.line or 1, token.column or 1, str(token), token.type in ("_END_OF_LINE", "$END")
+        line, column, found, ends = (
+            token.line or 1,
+            token.column or 1,
+            str(token),
+            token.type in ("_END_OF_LINE", "$END"),
+        )
         if token.type == "$END":
             example = "repeat 3 as k; circle 10*k,0 2; end"
-            return CommandError(f"The text ends within a block; add end, or write it in one line: {example}.", column, line)
+            return CommandError(
+                f"The text ends within a block; add end, or write it in one line: {example}.", column, line
+            )
     else:
         assert isinstance(wrong, UnexpectedCharacters)
         line, column, found, ends = wrong.line, wrong.column, source[wrong.pos_in_stream or 0], False
-    before = source.split("\n")[line - 1][:column - 1]
+    before = source.split("\n")[line - 1][: column - 1]
     if before.count("(") <= before.count(")"):
         expected.discard("RPAR")  # the parser's tables look no farther than one word
     wanted = next((words for name, words in _EXPECTED if name in expected), "the end of the line")

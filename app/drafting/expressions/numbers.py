@@ -11,7 +11,8 @@ _PLAIN = re.compile(r"-?\d{1,7}(\.\d+)?", re.ASCII)
 def length(text: str, plain: float = 1.0) -> float:
     """Return the length that a text such as `12.5`, `1in + 8mm`, `1/4in` or `(3+4)*2` states, mm.
 
-    A number without a unit counts in `plain` mm; a unit right after a fraction of plain numbers belongs to the fraction.
+    A number without a unit counts in `plain` mm; a unit right after a fraction of plain numbers belongs to the
+    fraction.
 
     Raises:
         CommandError: not a number, an unknown unit, a division by zero, or beyond 10 km.

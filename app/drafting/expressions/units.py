@@ -6,8 +6,16 @@ import math
 from collections.abc import Mapping
 
 LENGTH_UNITS: Mapping[str, float] = {
-    "mm": 1.0, "cm": 10.0, "m": 1000.0, "um": 1e-3, "µm": 1e-3,
-    "in": 25.4, '"': 25.4, "ft": 304.8, "thou": 0.0254, "mil": 0.0254,
+    "mm": 1.0,
+    "cm": 10.0,
+    "m": 1000.0,
+    "um": 1e-3,
+    "µm": 1e-3,
+    "in": 25.4,
+    '"': 25.4,
+    "ft": 304.8,
+    "thou": 0.0254,
+    "mil": 0.0254,
 }
 """Size of each length unit, mm."""
 

@@ -20,7 +20,9 @@ class Curves:
 
 
 class Length(float):
-    """A number that is known to be a length, mm; one that is not counts, wherever a length is wanted, in the unit of the text."""
+    """A number that is known to be a length, mm; one that is not counts, wherever a length is wanted, in the unit of
+    the text.
+    """
 
 
 Value = float | Point | Curves

@@ -28,7 +28,12 @@ MOST_CURVES = 100_000
 
 _DEEPEST_CALL = 40
 _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
-    "<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+    "<": operator.lt,
+    ">": operator.gt,
+    "<=": operator.le,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
 }
 
 
@@ -123,7 +128,9 @@ class Interpreter:
             if not isinstance(further, s.Choose):
                 break
             statement = further
-        return Outcome(self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No.")
+        return Outcome(
+            self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No."
+        )
 
     def _holds(self, statement: s.Choose, session: Session) -> bool:
         self._effort.value(statement.left.place)
@@ -137,14 +144,18 @@ class Interpreter:
         """Count the curves that a command has added, changed or passed."""
         old, new = before.part.entities, after.part.entities
         if draws or len(new) > len(old):
-            self._effort.added((e.curve for e in new[len(old):]), len(old) + len(before.part.notes), written.place)
+            self._effort.added((e.curve for e in new[len(old) :]), len(old) + len(before.part.notes), written.place)
         else:
-            self._effort.changed(0 if new is old else sum(a is not b for a, b in zip(old, new, strict=False)), len(old), written.place)
+            self._effort.changed(
+                0 if new is old else sum(a is not b for a, b in zip(old, new, strict=False)), len(old), written.place
+            )
 
     def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
         if len(written.arguments) != len(own.parameters):
             shown = " ".join(word.text for word in (own.name, *own.parameters))
-            raise wrong(f"'{own.name.text}' takes {counted(len(own.parameters), 'value')}; write {shown}.", written.place)
+            raise wrong(
+                f"'{own.name.text}' takes {counted(len(own.parameters), 'value')}; write {shown}.", written.place
+            )
         values = {p.text: value_of(a, session.scope) for p, a in zip(own.parameters, written.arguments, strict=True)}
         self._depth += 1
         if self._depth > _DEEPEST_CALL:
@@ -162,7 +173,10 @@ class Interpreter:
         self._effort.value(written.times.place)
         times = number_of(written.times, session.scope)
         if times != int(times) or not 0 <= times <= MOST_STATEMENTS:
-            raise wrong(f"This is {number_text(times)}; repeat wants a whole number from 0 to {MOST_STATEMENTS}.", written.times.place)
+            raise wrong(
+                f"This is {number_text(times)}; repeat wants a whole number from 0 to {MOST_STATEMENTS}.",
+                written.times.place,
+            )
         outside = session.names.get(written.index.text) if written.index else None
         self._effort.begin()
         for count in range(int(times)):
@@ -216,9 +230,51 @@ def _check_name(name: s.Name) -> None:
         raise wrong(f"'{name.text}' is a word of the language; choose another name.", name.place)
 
 
-RESERVED = frozenset({
-    "add", "after", "all", "and", "arc", "as", "before", "by", "ccw", "center", "centre", "close", "copy", "crossing", "cw", "define",
-    "degree", "diameter", "else", "end", "font", "from", "if", "knots", "large", "let", "none", "on", "over", "pi", "polar", "radius",
-    "remove", "repeat", "round", "side", "through", "times", "to", "units", "weights", "window", "within",
-})
+RESERVED = frozenset(
+    {
+        "add",
+        "after",
+        "all",
+        "and",
+        "arc",
+        "as",
+        "before",
+        "by",
+        "ccw",
+        "center",
+        "centre",
+        "close",
+        "copy",
+        "crossing",
+        "cw",
+        "define",
+        "degree",
+        "diameter",
+        "else",
+        "end",
+        "font",
+        "from",
+        "if",
+        "knots",
+        "large",
+        "let",
+        "none",
+        "on",
+        "over",
+        "pi",
+        "polar",
+        "radius",
+        "remove",
+        "repeat",
+        "round",
+        "side",
+        "through",
+        "times",
+        "to",
+        "units",
+        "weights",
+        "window",
+        "within",
+    }
+)
 """Words that commands look for among their arguments."""

@@ -8,23 +8,20 @@
     arc on P                                      onward from the curve drawn last, without a corner
     circle P r                              ci    also: circle P through P, circle diameter P P, circle through P P P
     rect P P [round r]                      re
-    polygon n P P                           pg    corners, centre, a corner; with side before the last point: the middle of a side
-    slot P P width                          sl
-    ellipse P P half [from a to a] [cw]     el    centre, end of a half axis, length of the other
-    spline P P P … [close]                  sp    through points
-    spline degree n P P … [knots k …] [weights w …]    by control points
-    point P     guide P P | P angle | across P | up P     dimension P P place P [across|up] | CURVE place P | angle P P P place P
-    text P height "words" [font "name or file"] [angle a]
+    polygon n P P                           pg    corners, centre, a corner; with side before the last point: the middle
+    of a side slot P P width                          sl ellipse P P half [from a to a] [cw]     el    centre, end of a
+    half axis, length of the other spline P P P … [close]                  sp    through points spline degree n P P …
+    [knots k …] [weights w …]    by control points point P     guide P P | P angle | across P | up P     dimension P P
+    place P [across|up] | CURVE place P | angle P P P place P text P height "words" [font "name or file"] [angle a]
 
     select all | none | CURVES | window P P | crossing P P | layer NAME | chain CURVES     (before it: add, remove)
     delete [CURVES]     reverse [CURVES]     layer NAME [CURVES]     undo     redo     clear
     pull [CURVES] P to P      (an end, middle, centre, quadrant, control point, and what hangs on it)
     hide NAME     show NAME     lock NAME     unlock NAME     colour NAME "#rrggbb" | none     (of layers)
-    set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep; layer NAME
-    rename layer NAME to NAME     order layer NAME before|after NAME     remove layer NAME     heal tolerance [CURVES]
-    move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES]
-    rotate P angle [copy] [CURVES]     scale P factor [copy] [CURVES]     mirror P P [copy] [CURVES]
-    array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
+    set [CURVES] start P     also: end, middle, centre, place P; length, radius, diameter, major, minor; angle, sweep;
+    layer NAME rename layer NAME to NAME     order layer NAME before|after NAME     remove layer NAME     heal tolerance
+    [CURVES] move @dx,dy [CURVES]     copy @dx,dy [times n] [CURVES] rotate P angle [copy] [CURVES]     scale P factor
+    [copy] [CURVES]     mirror P P [copy] [CURVES] array n n @dx,dy [CURVES]     array polar P n [over angle] [CURVES]
 
     trim CURVE P [by CURVES]     extend CURVE P [to CURVES]     break CURVE P [P]     offset d P [CURVES] [round]
     join [within d] [CURVES]     explode [CURVES]     measure P P     measure [CURVES]
@@ -33,9 +30,9 @@
     let w = 60 + 2     let p = mid(a, b)     circle p w/4 as hole
     repeat 6 as i … end     if w > 50 … else … end     define bolt(c, r) … end
 
-P is `x,y`, `r<angle`, `@dx,dy`, `@r<angle`, or anything that is a point. CURVES are numbers such as 4 7-9 and names given by
-`as`; without any what is selected is meant. Numbers take units and arithmetic (`1in+8mm`) and are mm and degrees without a
-unit; functions are those of `functions`.
+P is `x,y`, `r<angle`, `@dx,dy`, `@r<angle`, or anything that is a point. CURVES are numbers such as 4 7-9 and names
+given by `as`; without any what is selected is meant. Numbers take units and arithmetic (`1in+8mm`) and are mm and
+degrees without a unit; functions are those of `functions`.
 """
 
 from __future__ import annotations
@@ -66,10 +63,35 @@ from .read_text import text
 Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.LayerCommand | Select | Undo | Redo
 
 ALIASES = {
-    "li": "line", "l": "line", "pl": "polyline", "ar": "arc", "a": "arc", "ci": "circle", "c": "circle", "re": "rect",
-    "rectangle": "rect", "del": "delete", "erase": "delete", "mo": "move", "se": "select", "la": "layer", "u": "undo",
-    "pg": "polygon", "sl": "slot", "el": "ellipse", "sp": "spline", "co": "copy", "ro": "rotate", "mi": "mirror", "tr": "trim",
-    "ex": "extend", "br": "break", "fi": "fillet", "cha": "chamfer", "o": "offset", "color": "colour",
+    "li": "line",
+    "l": "line",
+    "pl": "polyline",
+    "ar": "arc",
+    "a": "arc",
+    "ci": "circle",
+    "c": "circle",
+    "re": "rect",
+    "rectangle": "rect",
+    "del": "delete",
+    "erase": "delete",
+    "mo": "move",
+    "se": "select",
+    "la": "layer",
+    "u": "undo",
+    "pg": "polygon",
+    "sl": "slot",
+    "el": "ellipse",
+    "sp": "spline",
+    "co": "copy",
+    "ro": "rotate",
+    "mi": "mirror",
+    "tr": "trim",
+    "ex": "extend",
+    "br": "break",
+    "fi": "fillet",
+    "cha": "chamfer",
+    "o": "offset",
+    "color": "colour",
 }
 """Short and other words for the commands."""
 
@@ -99,16 +121,52 @@ def read(written: syntax.Command, session: Session, effort: Effort | None = None
 
 
 _READERS: dict[str, Callable[[Arguments, Session], Command]] = {
-    "line": draw.line, "polyline": draw.polyline, "arc": draw.arc, "circle": draw.circle_of, "rect": draw.rect,
-    "polygon": draw.polygon_of, "slot": draw.slot_of, "ellipse": draw.ellipse_of, "spline": draw.spline_of,
-    "point": notes.point, "guide": notes.guide, "dimension": notes.dimension, "text": text,
-    "select": edit.select, "delete": edit.delete, "move": edit.move, "copy": edit.copy, "rotate": edit.rotate, "scale": edit.scale,
-    "mirror": edit.mirror, "array": edit.array, "reverse": edit.reverse, "layer": edit.layer,
-    "hide": edit.hide, "show": edit.show, "lock": edit.lock, "unlock": edit.unlock, "colour": edit.colour,
-    "trim": rework.trim, "extend": rework.extend, "break": rework.break_at, "fillet": corners.fillet_of, "chamfer": corners.chamfer_of,
-    "offset": rework.offset, "join": join, "explode": explode, "measure": measure,
-    "pull": pull, "set": set_property, "rename": layers.rename, "order": layers.order, "remove": layers.remove, "heal": heal,
-    "clear": lambda words, session: Clear(), "undo": lambda words, session: Undo(), "redo": lambda words, session: Redo(),
+    "line": draw.line,
+    "polyline": draw.polyline,
+    "arc": draw.arc,
+    "circle": draw.circle_of,
+    "rect": draw.rect,
+    "polygon": draw.polygon_of,
+    "slot": draw.slot_of,
+    "ellipse": draw.ellipse_of,
+    "spline": draw.spline_of,
+    "point": notes.point,
+    "guide": notes.guide,
+    "dimension": notes.dimension,
+    "text": text,
+    "select": edit.select,
+    "delete": edit.delete,
+    "move": edit.move,
+    "copy": edit.copy,
+    "rotate": edit.rotate,
+    "scale": edit.scale,
+    "mirror": edit.mirror,
+    "array": edit.array,
+    "reverse": edit.reverse,
+    "layer": edit.layer,
+    "hide": edit.hide,
+    "show": edit.show,
+    "lock": edit.lock,
+    "unlock": edit.unlock,
+    "colour": edit.colour,
+    "trim": rework.trim,
+    "extend": rework.extend,
+    "break": rework.break_at,
+    "fillet": corners.fillet_of,
+    "chamfer": corners.chamfer_of,
+    "offset": rework.offset,
+    "join": join,
+    "explode": explode,
+    "measure": measure,
+    "pull": pull,
+    "set": set_property,
+    "rename": layers.rename,
+    "order": layers.order,
+    "remove": layers.remove,
+    "heal": heal,
+    "clear": lambda words, session: Clear(),
+    "undo": lambda words, session: Undo(),
+    "redo": lambda words, session: Redo(),
 }
 
 COMMANDS = tuple(_READERS)

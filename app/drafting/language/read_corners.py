@@ -52,7 +52,9 @@ def chamfer_of(words: Arguments, session: Session) -> Rework:
 def _side(curve: Curve) -> Side:
     if isinstance(curve, Line | Arc | Circle):
         return curve
-    raise InputError("An ellipse or a spline is no line and no arc; only corners of these can be rounded. Explode it before.")
+    raise InputError(
+        "An ellipse or a spline is no line and no arc; only corners of these can be rounded. Explode it before."
+    )
 
 
 def _open(curve: Curve) -> Line | Arc:
@@ -118,5 +120,7 @@ def _joints(curves: dict[int, Curve]) -> Iterator[tuple[int, int, Point]]:
 
 def _beside_joint(a: Curve, b: Curve, joint: Point) -> Near:
     """Return a place on each of two curves between their joint and their middle."""
-    first, second = (foot(curve, ((joint[0] + x) / 2, (joint[1] + y) / 2)) for curve in (a, b) for x, y in [middle_of(curve)])
+    first, second = (
+        foot(curve, ((joint[0] + x) / 2, (joint[1] + y) / 2)) for curve in (a, b) for x, y in [middle_of(curve)]
+    )
     return first, second

@@ -82,7 +82,9 @@ def _arc_between(words: Arguments) -> Arc:
 def _arc_onward(words: Arguments, session: Session) -> Arc:
     before = next((e.curve for e in reversed(session.part.entities) if e.curve.end == session.last), None)
     if before is None:
-        raise words.wrong("Nothing that was drawn ends at the last point; draw a line or an arc before, or give a centre.")
+        raise words.wrong(
+            "Nothing that was drawn ends at the last point; draw a line or an arc before, or give a centre."
+        )
     return arc_along(session.last, _heading(before), words.point("the end of the arc"))
 
 
@@ -109,7 +111,9 @@ def circle_of(words: Arguments, session: Session) -> Draw:
     else:
         centre = words.point("the centre x,y")
         through = words.accept("through")
-        made = circle(centre, math.dist(centre, words.point("a point of the circle")) if through else words.length("the radius"))
+        made = circle(
+            centre, math.dist(centre, words.point("a point of the circle")) if through else words.length("the radius")
+        )
     curve: Curve = reversed_curve(made) if words.accept("cw") else made
     return Draw("Circle", (curve,), f"radius {made.radius:.3f} mm", made.centre)
 
@@ -117,7 +121,9 @@ def circle_of(words: Arguments, session: Session) -> Draw:
 def rect(words: Arguments, session: Session) -> Draw:
     """A rectangle by opposite corners; with round corners where a radius is given."""
     a, b = words.point("a corner x,y"), words.point("the opposite corner x,y")
-    curves: tuple[Curve, ...] = rounded_rectangle(a, b, words.length("the radius")) if words.accept("round") else rectangle(a, b)
+    curves: tuple[Curve, ...] = (
+        rounded_rectangle(a, b, words.length("the radius")) if words.accept("round") else rectangle(a, b)
+    )
     return Draw("Rectangle", curves, f"{abs(b[0] - a[0]):.3f} by {abs(b[1] - a[1]):.3f} mm", b)
 
 
@@ -179,9 +185,11 @@ def _nurbs(words: Arguments) -> Spline:
     if not knots:
         inner = count - degree
         knots = [0.0] * degree + [k / inner for k in range(inner + 1)] + [1.0] * degree
-    clamped = len(knots) == count + degree + 1 and len(set(knots[:degree + 1])) == len(set(knots[-degree - 1:])) == 1
+    clamped = len(knots) == count + degree + 1 and len(set(knots[: degree + 1])) == len(set(knots[-degree - 1 :])) == 1
     if not clamped or any(b < a for a, b in itertools.pairwise(knots)) or knots[0] == knots[-1]:
-        raise words.wrong(f"There must be {count + degree + 1} knots that do not fall, the first and the last {degree + 1} alike.")
+        raise words.wrong(
+            f"There must be {count + degree + 1} knots that do not fall, the first and the last {degree + 1} alike."
+        )
     if weights and (len(weights) != count or min(weights) <= 0):
         raise words.wrong(f"There must be {count} weights, all greater than 0.")
     return Spline(degree, tuple(points), tuple(knots), tuple(weights))

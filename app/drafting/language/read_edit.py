@@ -91,7 +91,11 @@ def array(words: Arguments, session: Session) -> Transform:
 def reverse(words: Arguments, session: Session) -> Rework:
     """Let curves run the other way; those that join end to end all against the way of the first of them."""
     curves = chosen_curves(words, session, "reverse")
-    turned = {number: reversed_curve(curve) for chain in chained(curves) for number, curve in zip(chain.numbers, chain.curves, strict=True)}
+    turned = {
+        number: reversed_curve(curve)
+        for chain in chained(curves)
+        for number, curve in zip(chain.numbers, chain.curves, strict=True)
+    }
     pieces = {number: (curve,) for number, curve in turned.items() if curve != curves[number]}
     already = len(curves) - len(pieces)
     return Rework(pieces, "Reverse", f"{len(pieces)} reversed" + (f", {already} ran that way." if already else "."))
@@ -136,7 +140,7 @@ def colour(words: Arguments, session: Session) -> SetLook:
         return SetLook(name, {"colour": ""}, f"Layer {name} has the colour of ink.")
     place, value = words.place, words.name('a colour such as "#d55e00", or none')
     if not _COLOUR.fullmatch(value):
-        raise wrong(f'\'{value}\' is no colour; write one such as "#d55e00", or none.', place)
+        raise wrong(f"'{value}' is no colour; write one such as \"#d55e00\", or none.", place)
     return SetLook(name, {"colour": value.lower()}, f"Layer {name} has a colour.")
 
 

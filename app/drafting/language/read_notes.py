@@ -56,8 +56,12 @@ def guide(words: Arguments, session: Session) -> DrawNote:
     else:
         angle = words.angle("another point of it, or its angle")
     turned = math.radians(angle % 180)
-    return DrawNote("Construction line", Guide(through, turned if turned < math.pi else 0.0), f"Construction line, {angle % 180:.2f}°.",
-                    through)  # fmt: skip
+    return DrawNote(
+        "Construction line",
+        Guide(through, turned if turned < math.pi else 0.0),
+        f"Construction line, {angle % 180:.2f}°.",
+        through,
+    )
 
 
 def dimension(words: Arguments, session: Session) -> DrawNote:

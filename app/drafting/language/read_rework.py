@@ -82,5 +82,7 @@ def _parallels(contour: Chain, away: float, side: Point, rounded: bool) -> list[
         return [(contour.numbers[0], parallel(contour.curves[0], away, side))]
     made = list[tuple[int, Curve]](chain_parallel(contour, away, side, rounded))
     if not made:
-        raise InputError(f"Nothing of the contour is {away:.3f} mm away on that side; use less, or point at the other side.")
+        raise InputError(
+            f"Nothing of the contour is {away:.3f} mm away on that side; use less, or point at the other side."
+        )
     return made

@@ -38,8 +38,11 @@ class SetProperty:
         """A short sentence for the log."""
         if isinstance(self.value, tuple):
             return f"{self.word.capitalize()} {shown(self.value)}."
-        return f"{self.word.capitalize()} {self.value:.2f}\u00b0." if WORDS[self.word] is Kind.ANGLE else (
-            f"{self.word.capitalize()} {self.value:.3f} mm.")
+        return (
+            f"{self.word.capitalize()} {self.value:.2f}\u00b0."
+            if WORDS[self.word] is Kind.ANGLE
+            else (f"{self.word.capitalize()} {self.value:.3f} mm.")
+        )
 
     def carried_out(self, session: Session) -> Session:
         """Return the session with these curves and notes changed.
@@ -48,7 +51,9 @@ class SetProperty:
             InputError: an id that the part does not have, or a shape that cannot have the value.
         """
         part = session.part
-        entities = tuple(replace(e, curve=self._changed(e.id, e.curve)) if e.id in self.ids else e for e in part.entities)
+        entities = tuple(
+            replace(e, curve=self._changed(e.id, e.curve)) if e.id in self.ids else e for e in part.entities
+        )
         notes = tuple(replace(n, shape=self._changed(n.id, n.shape)) if n.id in self.ids else n for n in part.notes)
         return replace(session, part=replace(part, entities=entities, notes=notes))
 
@@ -87,6 +92,9 @@ def _value(words: Arguments, part: Part, what: tuple[frozenset[int], str]) -> Va
 
 def _present(part: Part, ids: frozenset[int], word: str) -> Point | None:
     """Return where a property of a single curve or note is now: what @dx,dy counts from."""
-    shapes: Iterable[Curve | Shape] = (*(e.curve for e in part.entities if e.id in ids), *(n.shape for n in part.notes if n.id in ids))
+    shapes: Iterable[Curve | Shape] = (
+        *(e.curve for e in part.entities if e.id in ids),
+        *(n.shape for n in part.notes if n.id in ids),
+    )
     known = [properties_of(shape)[word].read(shape) for shape in shapes if word in properties_of(shape)]
     return known[0] if len(known) == 1 and isinstance(known[0], tuple) else None

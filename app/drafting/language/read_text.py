@@ -24,7 +24,7 @@ def text(words: Arguments, session: Session) -> Draw:
     font, angle = "", 0.0
     while option := words.accept("font", "angle"):
         if option == "font":
-            font = words.name("the font's name or file, in \"double quotes\"")
+            font = words.name('the font\'s name or file, in "double quotes"')
         else:
             angle = words.angle("the angle of the baseline")
     if not said.strip() or len(said) > MOST_LETTERS:
@@ -48,5 +48,7 @@ def _face(font: str, said: str) -> Face:
     face = engraving()
     lacking = " ".join(dict.fromkeys(letter for letter in said if letter not in face.glyphs))
     if lacking:
-        raise InputError(f'The engraving face has no letter for {lacking}; choose other words, or a font: font "DejaVu Sans".')
+        raise InputError(
+            f'The engraving face has no letter for {lacking}; choose other words, or a font: font "DejaVu Sans".'
+        )
     return face

@@ -7,10 +7,26 @@ from ..expressions.grammar import read_script
 from ..expressions.syntax import Command, Coordinates, Statement, Units
 from .language import command_word
 
-_NO_LENGTHS = frozenset({
-    "select", "delete", "reverse", "explode", "layer", "hide", "show", "lock", "unlock", "colour", "rename", "remove", "measure",
-    "undo", "redo", "clear",
-})
+_NO_LENGTHS = frozenset(
+    {
+        "select",
+        "delete",
+        "reverse",
+        "explode",
+        "layer",
+        "hide",
+        "show",
+        "lock",
+        "unlock",
+        "colour",
+        "rename",
+        "remove",
+        "measure",
+        "undo",
+        "redo",
+        "clear",
+    }
+)
 """Commands in which only points are lengths."""
 
 
@@ -30,5 +46,8 @@ def in_unit(line: str, unit: str) -> str:
 
 
 def _is_lengthless(statement: Statement) -> bool:
-    return (isinstance(statement, Command) and command_word(statement.word.text) in _NO_LENGTHS
-            and not any(isinstance(argument, Coordinates) for argument in statement.arguments))
+    return (
+        isinstance(statement, Command)
+        and command_word(statement.word.text) in _NO_LENGTHS
+        and not any(isinstance(argument, Coordinates) for argument in statement.arguments)
+    )

@@ -26,7 +26,9 @@ class DrawText:
 
 
 def draw_text(part: Part) -> DrawText:
-    """Return the text that draws a part: its layers with their looks, then its curves in order, with the notes among them."""
+    """Return the text that draws a part: its layers with their looks, then its curves in order, with the notes among
+    them.
+    """
     lines = [f"# {part.name}"]
     for layer in part.layers:
         lines += [f"layer {name_text(layer.name)}", *_looks(layer)]
@@ -73,7 +75,9 @@ def curve_text(curve: Curve) -> str:
     if isinstance(curve, Line):
         return f"line {point_text(curve.start)} {point_text(curve.end)}"
     if isinstance(curve, Arc):
-        return f"arc {point_text(curve.start)} {point_text(curve.end)} centre {point_text(curve.centre)}" + " cw" * (not curve.ccw)
+        return f"arc {point_text(curve.start)} {point_text(curve.end)} centre {point_text(curve.centre)}" + " cw" * (
+            not curve.ccw
+        )
     if isinstance(curve, Circle):
         return f"circle {point_text(curve.centre)} {number_text(curve.radius)}" + " cw" * (not curve.ccw)
     if isinstance(curve, Ellipse):
@@ -85,19 +89,33 @@ def _ellipse_text(curve: Ellipse) -> str:
     end = (curve.centre[0] + curve.major[0], curve.centre[1] + curve.major[1])
     words = ["ellipse", point_text(curve.centre), point_text(end), number_text(math.hypot(*curve.major) * curve.ratio)]
     if (curve.start_parameter, curve.end_parameter) != (0.0, math.tau):
-        words += ["from", number_text(math.degrees(curve.start_parameter)), "to", number_text(math.degrees(curve.end_parameter))]
+        words += [
+            "from",
+            number_text(math.degrees(curve.start_parameter)),
+            "to",
+            number_text(math.degrees(curve.end_parameter)),
+        ]
     return " ".join(words + ["cw"] * (not curve.ccw))
 
 
 def _spline_text(curve: Spline) -> str:
-    words = ["spline degree", str(curve.degree), *map(point_text, curve.control_points), "knots", *map(number_text, curve.knots)]
+    words = [
+        "spline degree",
+        str(curve.degree),
+        *map(point_text, curve.control_points),
+        "knots",
+        *map(number_text, curve.knots),
+    ]
     return " ".join(words + (["weights", *map(number_text, curve.weights)] if curve.weights else []))
 
 
 def _looks(layer: Layer) -> list[str]:
     name = name_text(layer.name)
-    return ([f"colour {name} {name_text(layer.colour)}"] * bool(layer.colour) + [f"hide {name}"] * (not layer.visible)
-            + [f"lock {name}"] * layer.locked)
+    return (
+        [f"colour {name} {name_text(layer.colour)}"] * bool(layer.colour)
+        + [f"hide {name}"] * (not layer.visible)
+        + [f"lock {name}"] * layer.locked
+    )
 
 
 def _is_nothing(curve: Curve) -> bool:

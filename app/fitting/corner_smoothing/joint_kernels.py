@@ -59,7 +59,9 @@ def _worst(points, a, b, arc):
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64[::1], float64[:, ::1])")
 def _between(points, a, b, arc, lines):
-    """Make an arc tangent to the lines before and after it, by the radius that fits its points best; tell whether it can be."""
+    """Make an arc tangent to the lines before and after it, by the radius that fits its points best; tell whether it
+    can be.
+    """
     first, last = lines[0], lines[1]
     cross = first[2] * last[3] - first[3] * last[2]
     if abs(cross) < 0.02:
@@ -114,7 +116,10 @@ def make_tangent(points, ends, carriers, joined, tolerance):
         done = False
         if one and two:
             lines[0], lines[1] = before, after
-            done = _between(points, ends[k], ends[k + 1], arc, lines) and _worst(points, ends[k], ends[k + 1], arc) <= tolerance
+            done = (
+                _between(points, ends[k], ends[k + 1], arc, lines)
+                and _worst(points, ends[k], ends[k + 1], arc) <= tolerance
+            )
             if not done:
                 arc[:] = kept
                 two = False
@@ -133,7 +138,9 @@ def make_tangent(points, ends, carriers, joined, tolerance):
 
 @kernel("boolean(float64[::1], float64[::1], float64[::1], boolean)")
 def _slide(arc, fixed, line, along):
-    """Move an arc until it touches another from outside: straight away from it, or along a line; tell whether it can."""
+    """Move an arc until it touches another from outside: straight away from it, or along a line; tell whether it
+    can.
+    """
     dx, dy = arc[0] - fixed[0], arc[1] - fixed[1]
     length = math.hypot(dx, dy)
     if length == 0.0:
@@ -177,7 +184,9 @@ def let_arcs_touch(points, ends, carriers, joined, tolerance):
 
 @kernel("UniTuple(float64, 2)(float64[::1], float64[::1], float64, float64, float64)")
 def _crossing(a, b, x, y, far):
-    """Return where two carriers cross, nearest to a point; between the feet of the point where they do not, or far away."""
+    """Return where two carriers cross, nearest to a point; between the feet of the point where they do not, or far
+    away.
+    """
     ax, ay = _foot(a, x, y)
     bx, by = _foot(b, x, y)
     px, py = (ax + bx) / 2, (ay + by) / 2
@@ -300,8 +309,8 @@ def deviations(points, ends, carriers, rows, worst):
     """Write for each row the greatest distance of its points from the path, and whether that is too far, as a number.
 
     A point is measured from its own row and from the ones next to it: near a joint it may belong to either. The number
-    is the greatest distance too, but points near a joint count half, since pixels fill sharp corners, and it is infinite
-    where a row runs the other way round.
+    is the greatest distance too, but points near a joint count half, since pixels fill sharp corners, and it is
+    infinite where a row runs the other way round.
 
     Args:
         points, ends: what the rows replace.

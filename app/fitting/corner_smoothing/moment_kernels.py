@@ -68,7 +68,8 @@ def line_residual(sums, first, stop):
 
 @kernel("UniTuple(float64, 4)(float64[:, ::1], int64, int64)")
 def fit_circle(sums, first, stop):
-    """Return centre, radius and mean square residual of the circle nearest to points first ... stop - 1; radius 0: none.
+    """Return centre, radius and mean square residual of the circle nearest to points first ... stop - 1; radius 0:
+    none.
 
     Coordinates are relative to the sums' origin.
 
@@ -78,14 +79,30 @@ def fit_circle(sums, first, stop):
     """
     n = stop - first
     mx, my = (sums[stop, 0] - sums[first, 0]) / n, (sums[stop, 1] - sums[first, 1]) / n
-    sxx, sxy, syy = (sums[stop, 2] - sums[first, 2]) / n, (sums[stop, 3] - sums[first, 3]) / n, (sums[stop, 4] - sums[first, 4]) / n
-    sxw, syw, sww = (sums[stop, 5] - sums[first, 5]) / n, (sums[stop, 6] - sums[first, 6]) / n, (sums[stop, 7] - sums[first, 7]) / n
+    sxx, sxy, syy = (
+        (sums[stop, 2] - sums[first, 2]) / n,
+        (sums[stop, 3] - sums[first, 3]) / n,
+        (sums[stop, 4] - sums[first, 4]) / n,
+    )
+    sxw, syw, sww = (
+        (sums[stop, 5] - sums[first, 5]) / n,
+        (sums[stop, 6] - sums[first, 6]) / n,
+        (sums[stop, 7] - sums[first, 7]) / n,
+    )
     q, sw = mx * mx + my * my, sxx + syy
     xx, xy, yy = sxx - mx * mx, sxy - mx * my, syy - my * my
     z = xx + yy
     xz = sxw - 2 * mx * sxx - 2 * my * sxy + q * mx - mx * z
     yz = syw - 2 * mx * sxy - 2 * my * syy + q * my - my * z
-    zz = (sww + 4 * (mx * mx * sxx + my * my * syy) + q * q - 4 * (mx * sxw + my * syw) + 2 * q * sw + 8 * mx * my * sxy - 4 * q * q)
+    zz = (
+        sww
+        + 4 * (mx * mx * sxx + my * my * syy)
+        + q * q
+        - 4 * (mx * sxw + my * syw)
+        + 2 * q * sw
+        + 8 * mx * my * sxy
+        - 4 * q * q
+    )
     spread, area = zz - z * z, xx * yy - xy * xy
     a1 = spread * z + 4 * area * z - xz * xz - yz * yz
     a0 = xz * (xz * yy - yz * xy) + yz * (yz * xx - xz * xy) - spread * area

@@ -64,11 +64,15 @@ def _smoothed(path: Smoothed, points: Floats, anchors: tuple[Floats, Ints], bent
     most = 4 * len(bent)
     ends, rows, carriers = np.empty(most + 1, np.int64), np.zeros((most, 8)), np.empty((most, 5))
     origin, free = np.empty(most, np.int64), np.empty(most, np.bool_)
-    count = rest_kernels.smoothed(points, (path.ends, path.rows, path.carriers, *anchors), bent, (ends, rows, carriers), (origin, free))
+    count = rest_kernels.smoothed(
+        points, (path.ends, path.rows, path.carriers, *anchors), bent, (ends, rows, carriers), (origin, free)
+    )
     if not count:
         return None, origin
     origin, free = origin[:count], free[:count]
     begins_anew = origin != np.roll(origin, 1)
     joined = np.where(begins_anew & ~bent[origin], path.joined[origin], joint_kernels.TANGENT).astype(np.uint8)
     kinds = np.where(free, PieceKind.SPLINE, path.kinds[origin])
-    return replace(path, rows=rows[:count], kinds=kinds, ends=ends[: count + 1], joined=joined, carriers=carriers[:count]), origin
+    return replace(
+        path, rows=rows[:count], kinds=kinds, ends=ends[: count + 1], joined=joined, carriers=carriers[:count]
+    ), origin

@@ -1,4 +1,6 @@
-"""Compiled step 407: arcs that meet with slight bends become biarcs; see `rest`. Rows and ends are those of `joint_kernels`."""
+"""Compiled step 407: arcs that meet with slight bends become biarcs; see `rest`. Rows and ends are those of
+`joint_kernels`.
+"""
 
 from __future__ import annotations
 
@@ -72,7 +74,10 @@ def _along_line(row, length, node, other):
     other[0], other[1], other[2], other[3] = row[2] - length * dx, row[3] - length * dy, dx, dy
 
 
-@kernel("void(float64[:, ::1], Tuple((int64[::1], float64[:, ::1])), boolean[::1], Tuple((float64[:, :, ::1], int64[:, ::1])))")
+@kernel(
+    "void(float64[:, ::1], Tuple((int64[::1], float64[:, ::1])), boolean[::1], Tuple((float64[:, :, ::1], int64[:, "
+    "::1])))"
+)
 def anchor(points, path, bent, anchors):
     """Find where a curve without slight bends may leave the rows next to them and come back to them.
 
@@ -83,8 +88,8 @@ def anchor(points, path, bent, anchors):
         points: what the path was made from, three times.
         path: ends (n + 1,) and rows (n, 8).
         bent: (n,) whether a row begins with a bend.
-        anchors: (n, 2, 4) place and direction for the bend before and after each row that has one; (n, 2) the points' numbers
-            there: they get these.
+        anchors: (n, 2, 4) place and direction for the bend before and after each row that has one; (n, 2) the points'
+            numbers there: they get these.
     """
     ends, rows = path
     nodes, at = anchors
@@ -106,7 +111,9 @@ def anchor(points, path, bent, anchors):
         else:
             next_to = min(ends[after + 1] - ends[after], ends[k] - ends[k - 1] if k > 0 else ends[n] - ends[n - 1])
             share = min(0.5, next_to / WINDOW / max(steps, 1))
-            _along_line(rows[k], share * math.hypot(rows[k, 2] - rows[k, 0], rows[k, 3] - rows[k, 1]), nodes[k, 0], nodes[k, 1])
+            _along_line(
+                rows[k], share * math.hypot(rows[k, 2] - rows[k, 0], rows[k, 3] - rows[k, 1]), nodes[k, 0], nodes[k, 1]
+            )
             at[k, 0], at[k, 1] = ends[k] + int(share * steps), ends[k + 1] - int(share * steps)
 
 
@@ -135,10 +142,14 @@ def _biarc(first, last, rows, carriers):
     return _fill((mx, my), direction(rows[0], (mx, my)), end, rows[1], carriers[1])
 
 
-@kernel("boolean(float64[:, ::1], int64, Tuple((float64[::1], float64[::1], int64, int64)), "
-        "Tuple((int64[::1], float64[:, ::1], float64[:, ::1])), int64)")
+@kernel(
+    "boolean(float64[:, ::1], int64, Tuple((float64[::1], float64[::1], int64, int64)), "
+    "Tuple((int64[::1], float64[:, ::1], float64[:, ::1])), int64)"
+)
 def _put_biarc(points, period, between, made, count):
-    """Write the biarc between two nodes, whose points' numbers are told too, as rows `count` and the next; tell whether there is one."""
+    """Write the biarc between two nodes, whose points' numbers are told too, as rows `count` and the next; tell whether
+    there is one.
+    """
     first, last, a, b = between
     ends, rows, carriers = made
     exists = _biarc(first, last, rows[count : count + 2], carriers[count : count + 2])
@@ -147,10 +158,14 @@ def _put_biarc(points, period, between, made, count):
     return exists
 
 
-@kernel("int64(float64[:, ::1], Tuple((int64[::1], float64[:, ::1], float64[:, ::1], float64[:, :, ::1], int64[:, ::1])), boolean[::1], "
-        "Tuple((int64[::1], float64[:, ::1], float64[:, ::1])), Tuple((int64[::1], boolean[::1])))")
+@kernel(
+    "int64(float64[:, ::1], Tuple((int64[::1], float64[:, ::1], float64[:, ::1], float64[:, :, ::1], int64[:, ::1])), "
+    "boolean[::1], "
+    "Tuple((int64[::1], float64[:, ::1], float64[:, ::1])), Tuple((int64[::1], boolean[::1])))"
+)
 def smoothed(points, path, bent, made, told):
-    """Write a closed path with biarcs round its bends; return how many rows it has, 0 where there is no biarc somewhere.
+    """Write a closed path with biarcs round its bends; return how many rows it has, 0 where there is no biarc
+    somewhere.
 
     Args:
         points: what the path was made from, three times.
@@ -187,7 +202,12 @@ def smoothed(points, path, bent, made, told):
             count += 2
         elif not (arc and bent[k]):
             new_ends[count], new_rows[count], new_carriers[count] = a, rows[k], carriers[k]
-            new_rows[count, 0], new_rows[count, 1], new_rows[count, 2], new_rows[count, 3] = first[0], first[1], last[0], last[1]
+            new_rows[count, 0], new_rows[count, 1], new_rows[count, 2], new_rows[count, 3] = (
+                first[0],
+                first[1],
+                last[0],
+                last[1],
+            )
             count += 1
     if new_ends[0] < 0:
         new_ends[:count] += period

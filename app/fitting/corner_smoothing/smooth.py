@@ -24,7 +24,9 @@ _Segments = tuple[Ints, Ints, NDArray[np.uint8]]
 """Ends (n + 1,), kinds (n,), and how each begins (n,)."""
 
 _LIMIT = 2.0
-"""Times the tolerance; points may be so far from the path once its lines and arcs are joined, near corners rounds as far."""
+"""Times the tolerance; points may be so far from the path once its lines and arcs are joined, near corners rounds as
+far.
+"""
 
 _ROUNDS = 6
 """How often segments that no joint suits are cut into finer ones."""
@@ -38,8 +40,8 @@ class SmoothOptions:
     """How to smooth. Lengths in the units of the points.
 
     Attributes:
-        tolerance: points may be so far from the line or arc that is fitted to them, > 0; from the path, which joins these, up
-            to twice as far, near corners, which pixels fill, four times: `Smoothed.deviation` tells.
+        tolerance: points may be so far from the line or arc that is fitted to them, > 0; from the path, which joins
+            these, up to twice as far, near corners, which pixels fill, four times: `Smoothed.deviation` tells.
         long_line: from this length on a line is a long one: ten times the tool's diameter in the text.
         pitch: of pixels whose centres the points are: lines and arcs are then moved to the right, out of the traced
             area, by as much as pixels inside a line lie off it on average; 0 = the points are the path itself.
@@ -110,7 +112,9 @@ def _segments(rounds: Floats, count: int, tolerance: float) -> tuple[Ints, Ints]
     ends, kinds = np.empty(2 * count + 2, np.int64), np.empty(2 * count + 1, np.int64)
     found = smooth_kernels.segment_closed(rounds, count, tolerance, ends, kinds)
     if found > 2:
-        found = smooth_kernels.absorb(rounds, ends, kinds, _carriers(rounds, ends[: found + 1], kinds[:found]), tolerance)
+        found = smooth_kernels.absorb(
+            rounds, ends, kinds, _carriers(rounds, ends[: found + 1], kinds[:found]), tolerance
+        )
     return ends[: found + 1].copy(), kinds[:found].copy()
 
 
@@ -134,11 +138,17 @@ def _split(rounds: Floats, segments: _Segments, bad: NDArray[np.bool_], toleranc
         inner.append(finer[1:-1])
         others.append(own[1:])
     at = np.concatenate(places)
-    return np.insert(ends, at, np.concatenate(inner)), np.insert(kinds, at, np.concatenate(others)), np.insert(joined, at, 0)
+    return (
+        np.insert(ends, at, np.concatenate(inner)),
+        np.insert(kinds, at, np.concatenate(others)),
+        np.insert(joined, at, 0),
+    )
 
 
 def _finer(rounds: Floats, a: int, b: int, tolerance: float) -> tuple[Ints, Ints]:
-    """Return the ends (n + 1,) and kinds (n,) of the lines and arcs that points a ... b fall into; without tolerance of the steps."""
+    """Return the ends (n + 1,) and kinds (n,) of the lines and arcs that points a ... b fall into; without tolerance of
+    the steps.
+    """
     from . import smooth_kernels
 
     if not tolerance:
@@ -157,7 +167,9 @@ def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tupl
     joint_kernels.make_tangent(rounds, ends, carriers, joined, options.tolerance)
     joint_kernels.let_arcs_touch(rounds, ends, carriers, joined, options.tolerance)
     rows = _rows(rounds, ends, (carriers, joined), options.tolerance)
-    joined[(joined == joint_kernels.TANGENT) & (turns(rows, np.arange(-1, len(rows) - 1)) > NO_BEND)] = joint_kernels.CROSSING
+    joined[(joined == joint_kernels.TANGENT) & (turns(rows, np.arange(-1, len(rows) - 1)) > NO_BEND)] = (
+        joint_kernels.CROSSING
+    )
     joint_kernels.deviations(rounds, ends, carriers, rows, worst)
     path = Smoothed(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
     return path, worst[:, 1] > _LIMIT * options.tolerance
@@ -166,8 +178,15 @@ def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tupl
 def _one_circle(points: Floats, carriers: Floats) -> Smoothed:
     """Step 401: the whole path is one circle."""
     off = np.hypot(*(points - carriers[0, :2]).T) - carriers[0, 2]
-    return Smoothed(circle_rows(carriers[0]), np.array([PieceKind.CIRCLE]), np.array([0, len(points)]), np.ones(1, np.uint8),
-                    float(np.abs(off).max()), True, carriers)
+    return Smoothed(
+        circle_rows(carriers[0]),
+        np.array([PieceKind.CIRCLE]),
+        np.array([0, len(points)]),
+        np.ones(1, np.uint8),
+        float(np.abs(off).max()),
+        True,
+        carriers,
+    )
 
 
 def circle_rows(carrier: Floats) -> Rows:
@@ -206,7 +225,9 @@ def _slant(path: Smoothed) -> Floats:
     angles = np.linspace(0, 1, 33)
     rows = path.rows
     start = np.arctan2(rows[:, 1] - rows[:, 5], rows[:, 0] - rows[:, 4])
-    sweep = (rows[:, 7] * (np.arctan2(rows[:, 3] - rows[:, 5], rows[:, 2] - rows[:, 4]) - start)) % (2 * np.pi) * rows[:, 7]
+    sweep = (
+        (rows[:, 7] * (np.arctan2(rows[:, 3] - rows[:, 5], rows[:, 2] - rows[:, 4]) - start)) % (2 * np.pi) * rows[:, 7]
+    )
     along = start[:, None] + sweep[:, None] * angles
     arcs = np.maximum(np.abs(np.cos(along)), np.abs(np.sin(along))).mean(axis=1)
     slant: Floats = np.where(rows[:, 7] == 0, lines, arcs)
@@ -236,7 +257,9 @@ def moved(path: Smoothed, points: Floats, right: Floats, tolerance: float) -> Sm
 
 
 def astray(path: Smoothed, points: Floats, limit: float) -> NDArray[np.bool_]:
-    """Return which rows (n,) run back, have no radius left, or are farther than a limit from the points they replace."""
+    """Return which rows (n,) run back, have no radius left, or are farther than a limit from the points they
+    replace.
+    """
     if not path.exact or len(path.rows) == 1:
         return path.carriers[:, 2] * path.carriers[:, 4] < 0
     from . import joint_kernels
@@ -248,7 +271,8 @@ def astray(path: Smoothed, points: Floats, limit: float) -> NDArray[np.bool_]:
 
 
 def without(path: Smoothed, dropped: NDArray[np.bool_]) -> Smoothed | None:
-    """Return the path without some of its rows, whose neighbours are still to be joined by `moved`; None where too few stay.
+    """Return the path without some of its rows, whose neighbours are still to be joined by `moved`; None where too few
+    stay.
 
     Args:
         dropped: (n,) the rows to leave out; their points go to their neighbours.
@@ -264,8 +288,14 @@ def without(path: Smoothed, dropped: NDArray[np.bool_]) -> Smoothed | None:
     starts = (end_before + path.ends[kept]) // 2
     starts += count if starts[0] < 0 else 0
     next_to = (before + 1) % len(dropped) == kept
-    return replace(path, rows=path.rows[kept], kinds=path.kinds[kept], ends=np.append(starts, starts[0] + count),
-                   joined=np.where(next_to, path.joined[kept], joint_kernels.CROSSING).astype(np.uint8), carriers=path.carriers[kept])
+    return replace(
+        path,
+        rows=path.rows[kept],
+        kinds=path.kinds[kept],
+        ends=np.append(starts, starts[0] + count),
+        joined=np.where(next_to, path.joined[kept], joint_kernels.CROSSING).astype(np.uint8),
+        carriers=path.carriers[kept],
+    )
 
 
 def _moved(carriers: Floats, right: Floats) -> Floats:

@@ -1,7 +1,7 @@
 """Compiled segmentation of a sequence of points into lines and arcs (steps 401-406); see `smooth`.
 
-The points of a closed path are given three times over, so that a run may pass its beginning. A segment from a to b holds the
-points a ... b, both ends included; neighbours share an end. Kinds: 0 line, 1 arc.
+The points of a closed path are given three times over, so that a run may pass its beginning. A segment from a to b
+holds the points a ... b, both ends included; neighbours share an end. Kinds: 0 line, 1 arc.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ def _line_holds(points, a, steps, sums, tolerance):
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64[:, ::1], float64)")
 def _arc_holds(points, a, steps, sums, tolerance):
-    """Tell whether points a ... a + steps lie within tolerance of their circle, go along it one way, at most once round.
+    """Tell whether points a ... a + steps lie within tolerance of their circle, go along it one way, at most once
+    round.
 
     An arc whose sagitta is below twice the tolerance is none (it would be a line of the same points).
     """
@@ -91,7 +92,9 @@ def _longest_line(points, a, most, filled, sums, tolerance):
 
 @kernel("int64(float64[:, ::1], int64, int64, int64, float64[:, ::1], float64)")
 def _longest_arc(points, a, most, least, sums, tolerance):
-    """Return how many steps from point a the longest run takes that one arc holds; 0 where none of `least` steps does."""
+    """Return how many steps from point a the longest run takes that one arc holds; 0 where none of `least` steps
+    does.
+    """
     if least > most:
         return 0
     good, steps, bad, filled = 0, least, most + 1, 0
@@ -286,12 +289,24 @@ def carriers(points, breaks, kinds, count, found):
             m = (a + b) // 2
             ux, uy = points[m, 0] - points[a, 0], points[m, 1] - points[a, 1]
             turn = ux * (points[b, 1] - points[m, 1]) - uy * (points[b, 0] - points[m, 0])
-            found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = cx, cy, r, (1.0 if turn > 0 else -1.0), 1.0
+            found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = (
+                cx,
+                cy,
+                r,
+                (1.0 if turn > 0 else -1.0),
+                1.0,
+            )
             continue
         mx, my, dx, dy = fit_line(sums, 0, b - a + 1)
         if dx * (points[b, 0] - points[a, 0]) + dy * (points[b, 1] - points[a, 1]) < 0.0:
             dx, dy = -dx, -dy
-        found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = mx + points[a, 0], my + points[a, 1], dx, dy, 0.0
+        found[k, 0], found[k, 1], found[k, 2], found[k, 3], found[k, 4] = (
+            mx + points[a, 0],
+            my + points[a, 1],
+            dx,
+            dy,
+            0.0,
+        )
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64[:, ::1], float64)")
@@ -310,7 +325,8 @@ def _held_by_neighbours(points, a, b, pair, tolerance):
 
 @kernel("int64(float64[:, ::1], int64[::1], int64[::1], float64[:, ::1], float64)")
 def absorb(points, breaks, kinds, found, tolerance):
-    """Give the points of short segments, such as the step that cuts a corner, to their neighbours; return how many are left.
+    """Give the points of short segments, such as the step that cuts a corner, to their neighbours; return how many are
+    left.
 
     Args:
         breaks, kinds: of the segments of a closed path, changed in place; the first, which is long, stays.

@@ -29,9 +29,11 @@ class Smoothed:
     """A closed path as n circles, lines and arcs.
 
     Attributes:
-        rows: (n, 8) rows of `app.geometry.primitives`, each beginning where the one before ends; arcs up to a full turn.
+        rows: (n, 8) rows of `app.geometry.primitives`, each beginning where the one before ends; arcs up to a full
+            turn.
         kinds: (n,) PieceKind.
-        ends: (n + 1,) indices of the points between which each row runs, rising; those beyond the last go on from the first.
+        ends: (n + 1,) indices of the points between which each row runs, rising; those beyond the last go on from the
+            first.
         joined: (n,) how each row begins: see `joint_kernels`.
         deviation: greatest distance of a point from its row.
         exact: False where nothing but lines from point to point came near enough.

@@ -22,7 +22,8 @@ _REACH = 4.0
 BEND = math.radians(0.5)
 """A joint may turn by so much, or as much as the points do there, where nothing else is asked for."""
 _MANY = 150
-"""Joints of more pieces than the search has found are not moved: that takes longer than the search, and with so many it has saved none
+"""Joints of more pieces than the search has found are not moved: that takes longer than the search, and with so many it
+has saved none
 yet.
 """
 
@@ -56,11 +57,11 @@ class ArcOptions:
 def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
     """Return lines and arcs that stand for points, few of them, and nearly tangent where the points do not bend.
 
-    Each is the longest that keeps within the tolerance from the point where it begins. What lies in one plane, X Y, Z X or
-    Y Z, then has its joints moved within the tolerance: by a shortest path over places for them, the fewest pieces that bend
-    by no more than is allowed, and by moving those of the longest pieces until they meet without a bend, with as many more as
-    that takes; whichever has fewer. Other arcs are helices: along the plane's normal they rise in step with the angle. No arc
-    turns by more than 230 degrees.
+    Each is the longest that keeps within the tolerance from the point where it begins. What lies in one plane, X Y, Z X
+    or Y Z, then has its joints moved within the tolerance: by a shortest path over places for them, the fewest pieces
+    that bend by no more than is allowed, and by moving those of the longest pieces until they meet without a bend, with
+    as many more as that takes; whichever has fewer. Other arcs are helices: along the plane's normal they rise in step
+    with the angle. No arc turns by more than 230 degrees.
 
     Args:
         points: (n, 3) mm, n >= 2, no two in a row alike.
@@ -98,7 +99,8 @@ class _Greedy:
     """Pieces from point to point.
 
     Attributes:
-        at: (m + 1,) their ends' points. plane: (m,). half: (m,) half of the sweep, radians, positive to the left; 0 a line.
+        at: (m + 1,) their ends' points. plane: (m,). half: (m,) half of the sweep, radians, positive to the left; 0 a
+            line.
     """
 
     at: Ints
@@ -127,7 +129,15 @@ def _greedy(points: Floats, options: ArcOptions) -> _Greedy:
     planes = np.ascontiguousarray(np.stack([points[:, plane.axes] for plane in views]))
     rows, heights = np.empty((len(points), 3), np.int64), np.empty(len(points))
     count = kernels.greedy(
-        planes, 0, len(points) - 1, options.tolerance, options.tube.swell, options.largest_radius, int(options.arcs), rows, heights
+        planes,
+        0,
+        len(points) - 1,
+        options.tolerance,
+        options.tube.swell,
+        options.largest_radius,
+        int(options.arcs),
+        rows,
+        heights,
     )
     at = np.concatenate([[0], rows[:count, 0]])
     plane = np.array(views, np.uint8)[rows[:count, 2]]
@@ -141,7 +151,9 @@ def _greedy(points: Floats, options: ArcOptions) -> _Greedy:
 
 
 def _runs(points: Floats, greedy: _Greedy) -> list[tuple[int, int, Plane | None]]:
-    """Return pieces that follow one another in one plane: the first, the one behind the last, and the plane; None: they lie in none."""
+    """Return pieces that follow one another in one plane: the first, the one behind the last, and the plane; None: they
+    lie in none.
+    """
     arc = greedy.half != 0
     moves = np.concatenate([np.zeros((1, 3), np.int64), np.cumsum(np.diff(points, axis=0) != 0, axis=0)])[greedy.at]
     level = np.diff(moves, axis=0) == 0
@@ -158,11 +170,15 @@ def _runs(points: Floats, greedy: _Greedy) -> list[tuple[int, int, Plane | None]
 
 
 def _flat(points: Floats, options: ArcOptions, plane: Plane, progress: Progress) -> FittedPath | None:
-    """Return few pieces in a plane, proven to keep to the tolerance; None where they are not, or would not be fewer than chords.
+    """Return few pieces in a plane, proven to keep to the tolerance; None where they are not, or would not be fewer
+    than chords.
 
     What bends more is taken only where it takes fewer pieces.
     """
-    flat, strict = FlatFit(points, plane, options.tube, _REACH * options.tube.widest, options.largest_radius), min(options.bend, BEND)
+    flat, strict = (
+        FlatFit(points, plane, options.tube, _REACH * options.tube.widest, options.largest_radius),
+        min(options.bend, BEND),
+    )
     best = flat.fewest(strict, len(points) - 1)
     count = len(best) if best is not None else len(points) - 1
     moved = None

@@ -1,4 +1,6 @@
-"""Compiled: the longest line or arc that stands for points from one of them on. A path is (n, 3): two axes of a plane and its normal."""
+"""Compiled: the longest line or arc that stands for points from one of them on. A path is (n, 3): two axes of a plane
+and its normal.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +14,21 @@ LINE, ARC = 0, 1
 _LEAST_CHORDS = 3
 """An arc stands for so many chords at least: two points and a bend between them are no evidence of one."""
 _WIDEST = 4.0
-"""Largest sweep of one arc, radians: well below a full turn, which an arc with nearly the same ends may be taken for."""
+"""Largest sweep of one arc, radians: well below a full turn, which an arc with nearly the same ends may be taken
+for.
+"""
 _HIGHEST = 2.0
 """Tangent of a quarter of a sweep, a little more than the widest has."""
 _LAG = 0.02
 """Along a chord and along its arc the normal rises alike but for so much, times its rise and the squared angle."""
 _PLACES, _SURE = 16, 0.98
-"""Where on a chord a circle is held to a region that is wider between points, and how much of the squared distance it may use there."""
+"""Where on a chord a circle is held to a region that is wider between points, and how much of the squared distance it
+may use there.
+"""
 _PATIENCE = 8
-"""Arcs are tried up to so many times as far as a line goes, though none shorter holds: noise hides what short pieces are."""
+"""Arcs are tried up to so many times as far as a line goes, though none shorter holds: noise hides what short pieces
+are.
+"""
 
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64)", counts=False)
@@ -45,8 +53,8 @@ def line_holds(points, i, j, limit):  # type: ignore[no-untyped-def]
 def _heights(x, y, off):  # type: ignore[no-untyped-def]
     """Return between which heights an arc over the chord from (-1, 0) to (1, 0) passes a point within `off` of it.
 
-    A circle of height t has the centre (0, (t - 1 / t) / 2) and the radius (t + 1 / t) / 2. The point is `off` above or below
-    it where (y +- off) t^2 + (1 + off^2 - x^2 - y^2) t - (y -+ off) = 0: two equations of one discriminant.
+    A circle of height t has the centre (0, (t - 1 / t) / 2) and the radius (t + 1 / t) / 2. The point is `off` above or
+    below it where (y +- off) t^2 + (1 + off^2 - x^2 - y^2) t - (y -+ off) = 0: two equations of one discriminant.
     """
     if (abs(x) - 1.0) ** 2 + y * y <= off * off:
         return -_HIGHEST, _HIGHEST
@@ -91,7 +99,9 @@ def _holds(points, i, j, limit, swell, largest, height, found):  # type: ignore[
     chord = math.sqrt(dx * dx + dy * dy)
     if height == 0.0:
         return False
-    up = (0.25 * chord * chord - height * height) / (2.0 * height)  # from the centre to the chord, along its left normal
+    up = (0.25 * chord * chord - height * height) / (
+        2.0 * height
+    )  # from the centre to the chord, along its left normal
     radius = math.sqrt(0.25 * chord * chord + up * up)
     if radius > largest or radius < limit:
         return False
@@ -125,7 +135,8 @@ def _holds(points, i, j, limit, swell, largest, height, found):  # type: ignore[
 
 @kernel("boolean(float64[:, ::1], int64, int64, float64, float64, float64, float64[::1])", counts=False)
 def arc_holds(points, i, j, limit, swell, largest, found):  # type: ignore[no-untyped-def]
-    """Tell whether an arc from point i to point j keeps within a limit of the path between; write its height over the chord.
+    """Tell whether an arc from point i to point j keeps within a limit of the path between; write its height over the
+    chord.
 
     Every point and every middle of a chord allows heights between two values; one between all of them is tried.
 
@@ -164,9 +175,11 @@ def holds(points, i, j, kind, limit, swell, largest, found):  # type: ignore[no-
 
 @kernel("int64(float64[:, ::1], int64, int64, int64, int64, float64, float64, float64, float64[::1])", counts=False)
 def _reach(points, i, stop, least, kind, limit, swell, largest, found):  # type: ignore[no-untyped-def]
-    """Return the last point beyond `least` that one line or arc from point i can end at, or `least`; an arc's height to `found[1]`.
+    """Return the last point beyond `least` that one line or arc from point i can end at, or `least`; an arc's height to
+    `found[1]`.
 
-    Looked for all the way first: noise may hide from shorter pieces what holds for all. Then in doubled steps, then by halving.
+    Looked for all the way first: noise may hide from shorter pieces what holds for all. Then in doubled steps, then by
+    halving.
     """
     if least < stop and holds(points, i, stop, kind, limit, swell, largest, found):
         found[1] = found[0]
@@ -191,9 +204,13 @@ def _reach(points, i, stop, least, kind, limit, swell, largest, found):  # type:
     return good
 
 
-@kernel("UniTuple(int64, 3)(float64[:, :, ::1], int64, int64, float64, float64, float64, int64, float64[::1])", counts=False)
+@kernel(
+    "UniTuple(int64, 3)(float64[:, :, ::1], int64, int64, float64, float64, float64, int64, float64[::1])", counts=False
+)
 def farthest(planes, i, stop, limit, swell, largest, kinds, found):  # type: ignore[no-untyped-def]
-    """Return the last point that one line (or, with kinds 1, arc) from point i can end at, its kind and plane; its height to `found[1]`."""
+    """Return the last point that one line (or, with kinds 1, arc) from point i can end at, its kind and plane; its
+    height to `found[1]`.
+    """
     best, kind, plane, height = _reach(planes[0], i, stop, i + 1, LINE, limit, swell, largest, found), LINE, 0, 0.0
     for p in range(kinds * len(planes)):
         j = _reach(planes[p], i, stop, best, ARC, limit, swell, largest, found)

@@ -1,4 +1,6 @@
-"""The fewest lines and arcs along a polyline in a plane, whose joints lie within the tolerance and bend by no more than is allowed."""
+"""The fewest lines and arcs along a polyline in a plane, whose joints lie within the tolerance and bend by no more than
+is allowed.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ _ASIDE = np.array([0.0, 0.485, -0.485, 0.97, -0.97])
 _PIECES = 256
 """Of so many of the longest pieces in a row joints are searched together; what is kept of a search grows with them."""
 _FINE = 16
-"""A chord has a sample each sixteenth of the longest piece there: on a long side few points alone do not hold an arc."""
+"""A chord has a sample each sixteenth of the longest piece there: on a long side few points alone do not hold an
+arc.
+"""
 _SAGITTA = 0.16
 """Else between two samples an arc leaves the chord by no more than an eighth of this, in limits, on its inner side."""
 _MOST = 16
@@ -69,7 +73,9 @@ class FewestPieces:
         return joined(parts)
 
     def _part(self, rough: Ints, leaving: tuple[float, float]) -> Chain | None:
-        """Return pieces over some of the longest ones, that set out as what came before arrives, give or take the bend there."""
+        """Return pieces over some of the longest ones, that set out as what came before arrives, give or take the bend
+        there.
+        """
         from . import fewest_kernels as kernels
 
         shares = np.linspace(0.0, 1.0, _STATES + 1)
@@ -81,7 +87,9 @@ class FewestPieces:
         counts[0], directions[0, 0] = (0, 1), leaving
         kernels.search(samples, at, states, points, _ASIDE, self.limit, counts, directions, before)
         rows, left, half = np.empty(len(points), np.int64), np.empty(len(points)), np.empty(len(points))
-        count = kernels.trace(states, _ASIDE, self.largest, _SLIGHT * self.limit, counts, directions, before, rows, left, half)
+        count = kernels.trace(
+            states, _ASIDE, self.largest, _SLIGHT * self.limit, counts, directions, before, rows, left, half
+        )
         if count == 0:
             return None
         ends = np.append(points[rows[:count][::-1]], points[-1])
@@ -96,7 +104,9 @@ class FewestPieces:
         return np.column_stack([at.real, at.imag, aside.real, aside.imag, self.bends[points], chords])
 
     def _samples(self, rough: Ints, points: Ints) -> tuple[Floats, Ints]:
-        """Return samples (m, 3), place and limit, between the outer ones of the longest pieces, and those that states are."""
+        """Return samples (m, 3), place and limit, between the outer ones of the longest pieces, and those that states
+        are.
+        """
         line, first, last = self.line, int(rough[0]), int(rough[-1])
         steps = np.diff(line.xy[first : last + 1])
         sizes = np.abs(steps)
@@ -122,10 +132,12 @@ class FewestPieces:
 
 
 def _outermost(places: NDArray[np.complex128], at: Ints) -> Ints:
-    """Return the numbers of the samples that do for all: those farthest to either side in each short stretch between two states.
+    """Return the numbers of the samples that do for all: those farthest to either side in each short stretch between
+    two states.
 
-    Over so short a stretch a piece is straight but for next to nothing; what is between the outermost samples is within the limit with
-    them. It is their places that are looked at from then on, so the search takes no longer the denser the points are.
+    Over so short a stretch a piece is straight but for next to nothing; what is between the outermost samples is within
+    the limit with them. It is their places that are looked at from then on, so the search takes no longer the denser
+    the points are.
 
     Args:
         places: (m,) samples. at: (n,) of each state its sample, rising.

@@ -1,19 +1,19 @@
 """Compiled: the fewest lines and arcs along a polyline, by a shortest path over places where they may meet.
 
-States are points of the polyline, each with a few places beside it where a joint may be, its own the first: of paths that are as
-good the first one stays. A piece runs from a place of one to a place of another. All circles through two places are one family, told
-by the tangent t of a quarter of the sweep, left of the chord positive: t is also the height of the arc over its chord in halves of
-the chord. What a polyline allows of it is an interval, so the directions in which a piece may leave and arrive are intervals, too,
-and so is what a chain of pieces may arrive in: carried along, they hold every choice that is left open, and a bend limit costs no
-search of its own.
+States are points of the polyline, each with a few places beside it where a joint may be, its own the first: of paths
+that are as good the first one stays. A piece runs from a place of one to a place of another. All circles through two
+places are one family, told by the tangent t of a quarter of the sweep, left of the chord positive: t is also the height
+of the arc over its chord in halves of the chord. What a polyline allows of it is an interval, so the directions in
+which a piece may leave and arrive are intervals, too, and so is what a chain of pieces may arrive in: carried along,
+they hold every choice that is left open, and a bend limit costs no search of its own.
 
-Paths are kept as entries of their last place, all of the same number of pieces, the fewest: the lowest and the highest direction
-of arrival, and the entry that it goes on from. Paths of one piece more that arrive in other directions are dropped; keeping them took
-twice the time and found nothing.
+Paths are kept as entries of their last place, all of the same number of pieces, the fewest: the lowest and the highest
+direction of arrival, and the entry that it goes on from. Paths of one piece more that arrive in other directions are
+dropped; keeping them took twice the time and found nothing.
 
 References:
-    Drysdale, Rote and Sturm (2008), "Approximation of an open polygonal curve with a minimum number of circular arcs and
-    biarcs": the tolerance boundary of a fixed pair of ends as an interval, and the shortest path over all pairs.
+    Drysdale, Rote and Sturm (2008), "Approximation of an open polygonal curve with a minimum number of circular arcs
+    and biarcs": the tolerance boundary of a fixed pair of ends as an interval, and the shortest path over all pairs.
 """
 
 from __future__ import annotations
@@ -27,11 +27,15 @@ from ...core.jit import kernel
 _SAMPLES, _STATES, _COUNTS = "float64[:, ::1]", "float64[:, ::1]", "int64[:, ::1]"
 _DIRECTIONS, _ENTRIES = "float64[:, :, ::1]", "int64[:, ::1]"
 _STEEPEST = math.tan(1.0)
-"""Tangent of a quarter of the widest sweep, 4 radians: well below a full turn, which an arc with nearly the same ends may be taken for."""
+"""Tangent of a quarter of the widest sweep, 4 radians: well below a full turn, which an arc with nearly the same ends
+may be taken for.
+"""
 _COARSE = 8
 """So many samples are looked at before all others: hopeless pairs fail at once."""
 _RELAXED = 2.0
-"""Joints are off the polyline by the limit at most, so that an arc between places on it keeps to twice the limit at about most."""
+"""Joints are off the polyline by the limit at most, so that an arc between places on it keeps to twice the limit at
+about most.
+"""
 _PATIENCE = 6
 """After so many states in a row that no piece reaches none farther on is tried: noise hides what short pieces are."""
 _LEAST_CHORDS = 3
@@ -47,18 +51,20 @@ MOST = 6
 PIECES, USED = 0, 1
 """Columns of a place's counts."""
 X, Y, LEFT_X, LEFT_Y, BEND, CHORD = 0, 1, 2, 3, 4, 5
-"""Columns of a state: its place, the left normal times the farthest distance of a joint, by how much pieces may turn there, the longest
+"""Columns of a state: its place, the left normal times the farthest distance of a joint, by how much pieces may turn
+there, the longest
 chord since the state before."""
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, float64, float64)", counts=False)
 def narrowed(low, high, x, y, off):  # type: ignore[no-untyped-def]
-    """Return which of the heights between two arcs over the chord from (-1, 0) to (1, 0) have that pass a point within `off` of it.
+    """Return which of the heights between two arcs over the chord from (-1, 0) to (1, 0) have that pass a point within
+    `off` of it.
 
-    A circle of height t has the centre (0, (t - 1 / t) / 2) and the radius (t + 1 / t) / 2. The lowest passes the point `off` below
-    it, where (y + off) t^2 + b t - (y - off) = 0 with b = 1 + off^2 - x^2 - y^2, the highest above it, where off is -off; the other
-    root of each is the rest of the same circle. Both have one discriminant. Where the outer heights are within already, which
-    the signs of the two polynomials and of their slopes tell, no root is drawn.
+    A circle of height t has the centre (0, (t - 1 / t) / 2) and the radius (t + 1 / t) / 2. The lowest passes the point
+    `off` below it, where (y + off) t^2 + b t - (y - off) = 0 with b = 1 + off^2 - x^2 - y^2, the highest above it,
+    where off is -off; the other root of each is the rest of the same circle. Both have one discriminant. Where the
+    outer heights are within already, which the signs of the two polynomials and of their slopes tell, no root is drawn.
     """
     if (abs(x) - 1.0) ** 2 + y * y <= off * off:
         return low, high
@@ -75,9 +81,13 @@ def narrowed(low, high, x, y, off):  # type: ignore[no-untyped-def]
     return max(low, 2.0 * under / root), min(high, 2.0 * over / root)
 
 
-@kernel(f"UniTuple(float64, 2)({_SAMPLES}, int64, int64, float64, float64, float64, float64, float64, int64[::1])", counts=False)
+@kernel(
+    f"UniTuple(float64, 2)({_SAMPLES}, int64, int64, float64, float64, float64, float64, float64, int64[::1])",
+    counts=False,
+)
 def _window(samples, first, last, ax, ay, bx, by, widened, hardest):  # type: ignore[no-untyped-def]
-    """Return between which heights arcs from a to b keep near samples first to last; the lower one above the other: none does.
+    """Return between which heights arcs from a to b keep near samples first to last; the lower one above the other:
+    none does.
 
     Samples near an end hold nothing, so that the height is kept to that of the highest and the lowest sample, too.
 
@@ -126,9 +136,11 @@ def _halves(low, high, size, bent, limit):  # type: ignore[no-untyped-def]
 
 @kernel(f"void({_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64, int64, float64, float64, int64)", counts=False)
 def _keep(counts, directions, before, at, pieces, low, high, entry):  # type: ignore[no-untyped-def]
-    """Keep a path to place `at` that goes on from an entry, unless there is one of fewer pieces, or one that may arrive likewise.
+    """Keep a path to place `at` that goes on from an entry, unless there is one of fewer pieces, or one that may arrive
+    likewise.
 
-    It takes the room of one that arrives in some of its directions alone; else, where there is none left, of the narrowest.
+    It takes the room of one that arrives in some of its directions alone; else, where there is none left, of the
+    narrowest.
     """
     if pieces < counts[at, PIECES]:
         counts[at, PIECES], counts[at, USED] = pieces, 0
@@ -160,13 +172,20 @@ def _extend(counts, directions, before, source, at, chord, least, most, bend):  
             low = max(low, turned - directions[source, e, 1] - bend)
             high = min(high, turned - directions[source, e, 0] + bend)
         if low <= high:
-            _keep(counts, directions, before, at, counts[source, PIECES] + 1, chord + low, chord + high, source * MOST + e)
+            _keep(
+                counts, directions, before, at, counts[source, PIECES] + 1, chord + low, chord + high, source * MOST + e
+            )
 
 
-@kernel(f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, "
-        "int64[::1])")  # fmt: skip
+@kernel(
+    f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, "
+    f"{_DIRECTIONS}, {_ENTRIES}, "
+    "int64[::1])"
+)
 def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):  # type: ignore[no-untyped-def]
-    """Extend all paths to state i by a piece to state j, an arc where no chord is too long; tell whether the points allow about one."""
+    """Extend all paths to state i by a piece to state j, an arc where no chord is too long; tell whether the points
+    allow about one.
+    """
     first, last = at[i] + 1, at[j] - 1
     low, high = _window(samples, first, last, states[i, X], states[i, Y], states[j, X], states[j, Y], _RELAXED, hardest)
     if low > high:
@@ -189,11 +208,23 @@ def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions,
             if low <= high:
                 least, most = _halves(low, high, size, longest <= _EVEN * size, limit)
                 if least <= most:
-                    _extend(counts, directions, before, source, there, math.atan2(by - ay, bx - ax), least, most, states[i, BEND])
+                    _extend(
+                        counts,
+                        directions,
+                        before,
+                        source,
+                        there,
+                        math.atan2(by - ay, bx - ax),
+                        least,
+                        most,
+                        states[i, BEND],
+                    )
     return True
 
 
-@kernel(f"void({_SAMPLES}, int64[::1], {_STATES}, int64[::1], float64[::1], float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES})")
+@kernel(
+    f"void({_SAMPLES}, int64[::1], {_STATES}, int64[::1], float64[::1], float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES})"
+)
 def search(samples, at, states, points, aside, limit, counts, directions, before):  # type: ignore[no-untyped-def]
     """Find the paths of the fewest pieces from the first state to all others.
 
@@ -214,13 +245,19 @@ def search(samples, at, states, points, aside, limit, counts, directions, before
         while paths > 0 and j < count and missed < _PATIENCE:
             longest = max(longest, states[j, CHORD])
             chord = longest if points[j] - points[i] >= _LEAST_CHORDS else np.inf
-            missed = 0 if _reach(samples, at, states, aside, i, j, chord, limit, counts, directions, before, hardest) else missed + 1
+            missed = (
+                0
+                if _reach(samples, at, states, aside, i, j, chord, limit, counts, directions, before, hardest)
+                else missed + 1
+            )
             j += 1
 
 
 @kernel("float64(float64, float64, float64, float64, float64)", counts=False)
 def _chosen(low, high, size, largest, slight):  # type: ignore[no-untyped-def]
-    """Return one of the halves of a sweep between two: their middle, or a line's where that is as good as one, or flatter than may be."""
+    """Return one of the halves of a sweep between two: their middle, or a line's where that is as good as one, or
+    flatter than may be.
+    """
     half = 0.5 * (low + high)
     flattest = math.asin(min(0.5 * size / largest, 1.0))
     if low <= 0.0 <= high and (abs(half) < flattest or 0.5 * size * math.tan(0.5 * abs(half)) <= slight):
@@ -231,13 +268,18 @@ def _chosen(low, high, size, largest, slight):  # type: ignore[no-untyped-def]
     return side * flattest if abs(high if half > 0.0 else low) >= flattest else 0.0
 
 
-@kernel(f"int64({_STATES}, float64[::1], float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64[::1], float64[::1], float64[::1])")
+@kernel(
+    f"int64({_STATES}, float64[::1], float64, float64, {_COUNTS}, {_DIRECTIONS}, {_ENTRIES}, int64[::1], float64[::1], "
+    "float64[::1])"
+)
 def trace(states, aside, largest, slight, counts, directions, before, rows, left, half):  # type: ignore[no-untyped-def]
-    """Write the path of the fewest pieces to the last state, from its end on, and return how many they are; 0: there is none.
+    """Write the path of the fewest pieces to the last state, from its end on, and return how many they are; 0: there is
+    none.
 
     Args:
         largest: radius, mm: what is flatter is a line. slight: so is an arc no higher over its chord, where it may, mm.
-        rows: (n,) out: the state where each piece begins. left: (n,) out: that joint's share of the farthest to the left.
+        rows: (n,) out: the state where each piece begins. left: (n,) out: that joint's share of the farthest to the
+            left.
         half: (n,) out: half of each sweep, radians, positive to the left; 0 a line.
     """
     ways, best = len(aside), 0
@@ -254,7 +296,11 @@ def trace(states, aside, largest, slight, counts, directions, before, rows, left
         least, most = max(low, directions[at, best, 0]) - chord, min(high, directions[at, best, 1]) - chord
         rows[n], left[n], half[n] = i, share, _chosen(least, most, size, largest, slight)
         leaves, bend = chord - half[n], states[i, BEND]
-        turned = 2.0 * math.pi * round((0.5 * (directions[source, e, 0] + directions[source, e, 1]) - leaves) / (2.0 * math.pi))
+        turned = (
+            2.0
+            * math.pi
+            * round((0.5 * (directions[source, e, 0] + directions[source, e, 1]) - leaves) / (2.0 * math.pi))
+        )
         low, high = (leaves + turned - bend, leaves + turned + bend) if bend < math.pi else (-np.inf, np.inf)
         at, best = source, e
     return pieces

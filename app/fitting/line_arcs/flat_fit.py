@@ -22,7 +22,9 @@ _SEARCHED = (0.99, 0.93)
 _AS_SHARP = 2.0
 """Where the points bend pieces may by so many times as much, too."""
 _FINE = 0.01
-"""Of the tolerance: of a coarser last digit no more is taken for rounding, as points on a wide grid may be meant to be there."""
+"""Of the tolerance: of a coarser last digit no more is taken for rounding, as points on a wide grid may be meant to be
+there.
+"""
 _MOST_DIGITS = 8
 _SAME = 1e-6
 """Radians: bends are held to their limit but for the digits that they are reckoned in."""
@@ -72,7 +74,8 @@ class FlatFit:
         return Polyline(points, self.reach, min(_last_digit(points), _FINE * self.tube.radius))
 
     def fewest(self, bend: float, fewer_than: int) -> FlatPath | None:
-        """Return the fewest pieces that the shortest path over places for joints finds; None where these are not fewer, or not proven.
+        """Return the fewest pieces that the shortest path over places for joints finds; None where these are not fewer,
+        or not proven.
 
         Args:
             bend: pieces may turn by so much where they meet, radians, or by twice as much as the points do there.
@@ -94,7 +97,8 @@ class FlatFit:
         return None
 
     def moved(self, bend: float, fewer_than: int, progress: Progress = NO_PROGRESS) -> FlatPath | None:
-        """Return the longest pieces whose joints were moved until they meet without a bend; None where these are not fewer, or not proven.
+        """Return the longest pieces whose joints were moved until they meet without a bend; None where these are not
+        fewer, or not proven.
 
         Args:
             bend: pieces may turn by so much where they meet, radians, or by twice as much as the points do along them.
@@ -144,7 +148,9 @@ class FlatFit:
 
 
 def _last_digit(points: Floats) -> float:
-    """Return the step of the last digit, of mm or of inches, that all points are written with, mm; 0 where there is none."""
+    """Return the step of the last digit, of mm or of inches, that all points are written with, mm; 0 where there is
+    none.
+    """
     for digits in range(_MOST_DIGITS):
         for unit in (1.0, 25.4):
             counted = points / (unit * 10.0**-digits)

@@ -29,7 +29,9 @@ _EVEN = 3.0
 _LEAST_CHORDS = 3
 _AS_SHARP = 2.0
 _ROUNDED = 2.0 * math.sqrt(2.0)
-"""Ends of two chords of equal length that are off by half a last digit in X and Y turn them by so many of it a length, at most."""
+"""Ends of two chords of equal length that are off by half a last digit in X and Y turn them by so many of it a length,
+at most.
+"""
 _SLIGHT = 0.1
 """An arc that is no higher over its chord than so much of the limit is a line if that makes nothing worse."""
 
@@ -55,7 +57,12 @@ class Chain:
 
     def part(self, first: int, stop: int) -> Chain:
         """Return some of its pieces."""
-        return Chain(self.s[first : stop + 1].copy(), self.left[first : stop + 1].copy(), self.half[first:stop], self.bent[first:stop])
+        return Chain(
+            self.s[first : stop + 1].copy(),
+            self.left[first : stop + 1].copy(),
+            self.half[first:stop],
+            self.bent[first:stop],
+        )
 
 
 class Polyline:
@@ -71,7 +78,8 @@ class Polyline:
         """Take points (n, 2), n >= 2, mm, no two in a row alike; what is no bend over a length, mm, is none.
 
         Args:
-            reach: that length. step: of the last digit that the points are rounded to, mm: what that alone can make is no bend.
+            reach: that length. step: of the last digit that the points are rounded to, mm: what that alone can make is
+                no bend.
         """
         self.points = np.ascontiguousarray(np.column_stack([points, np.zeros(len(points))]))
         self.xy: Places = np.ascontiguousarray(points[:, 0] + 1j * points[:, 1])
@@ -104,8 +112,8 @@ class TangentFit:
     Attributes:
         line: the polyline.
         limit: how far they may be apart at its points, mm, > 0.
-        bend: pieces may turn by so much where they meet, radians, > 0; or by twice as much as the polyline does along both
-            of them, but by no more than it does anywhere.
+        bend: pieces may turn by so much where they meet, radians, > 0; or by twice as much as the polyline does along
+            both of them, but by no more than it does anywhere.
         largest: radius of arcs, mm.
         swell: the squared limit half way between two points exceeds that at them by so many times that.
     """
@@ -135,11 +143,15 @@ class TangentFit:
         return best
 
     def longest(self, share: float = 1.0) -> Chain:
-        """Return the longest pieces from point to point that keep to a share of the limit, with bends where they meet."""
+        """Return the longest pieces from point to point that keep to a share of the limit, with bends where they
+        meet.
+        """
         return self._greedy(self.line, share * self.limit)
 
     def _repaired(self, chain: Chain, fewer_than: int, progress: Progress) -> Chain | None:
-        """Return pieces whose joints were moved; where they cannot be moved well enough there is one more, until there are too many."""
+        """Return pieces whose joints were moved; where they cannot be moved well enough there is one more, until there
+        are too many.
+        """
         chain.bent[self._round(chain)] = True
         dirty, off = np.ones(len(chain), bool), np.zeros(len(chain))
         for n in range(_ROUNDS):
@@ -147,7 +159,9 @@ class TangentFit:
             self._tune(chain, dirty, off, share)
             bad = self._bad(chain, off)
             if not bad.any():
-                straighter = self._straighter(chain, off, np.abs(chain.half) * self._sizes(chain) < 4 * _SLIGHT * self.limit, share)
+                straighter = self._straighter(
+                    chain, off, np.abs(chain.half) * self._sizes(chain) < 4 * _SLIGHT * self.limit, share
+                )
                 chain = chain if straighter is None else straighter
                 too_flat = chain.bent & (np.abs(np.sin(chain.half)) * 2 * self.largest < self._sizes(chain))
                 return self._straighter(chain, off, too_flat, share) if too_flat.any() else chain
@@ -158,7 +172,10 @@ class TangentFit:
 
     def _straighter(self, chain: Chain, off: Floats, flat: Flags, progress: Progress) -> Chain | None:
         """Return a chain whose flat pieces are lines, None where it would be bad then."""
-        straight, off = replace(chain.part(0, len(chain)), half=np.where(flat, 0.0, chain.half), bent=chain.bent & ~flat), off.copy()
+        straight, off = (
+            replace(chain.part(0, len(chain)), half=np.where(flat, 0.0, chain.half), bent=chain.bent & ~flat),
+            off.copy(),
+        )
         self._tune(straight, flat & chain.bent, off, progress)
         return None if self._bad(straight, off).any() else straight
 
@@ -167,12 +184,16 @@ class TangentFit:
         return sizes
 
     def _round(self, chain: Chain) -> Flags:
-        """Tell which lines may as well be arcs: about as long as both neighbours, with bends that an arc takes within the limit."""
+        """Tell which lines may as well be arcs: about as long as both neighbours, with bends that an arc takes within
+        the limit.
+        """
         sizes, at = self._sizes(chain), self.line.nearest(chain.s)
         shorter = np.minimum(np.append(sizes[1:], np.inf), np.append(np.inf, sizes[:-1]))
         wide = self.limit * math.sqrt(1 + self.swell)
         turn = np.maximum(self.line.turns[at[1:]], self.line.turns[at[:-1]])
-        some: Flags = (np.diff(at) < _LEAST_CHORDS) & (sizes <= _EVEN * shorter) & (turn > self.bend) & (sizes * turn <= 8 * wide)
+        some: Flags = (
+            (np.diff(at) < _LEAST_CHORDS) & (sizes <= _EVEN * shorter) & (turn > self.bend) & (sizes * turn <= 8 * wide)
+        )
         return some
 
     def _tune(self, chain: Chain, dirty: Flags, off: Floats, progress: Progress) -> None:
@@ -186,9 +207,19 @@ class TangentFit:
                 end = min(begin + _BLOCK, stop)
                 progress.step(begin / len(chain), "Moving joints")
                 kernels.tune(
-                    line.xy, line.along, line.ahead, chain.s, chain.left, chain.half, chain.bent, begin, end,
-                    _SURE * self.limit, self.swell, off,
-                )  # fmt: skip
+                    line.xy,
+                    line.along,
+                    line.ahead,
+                    chain.s,
+                    chain.left,
+                    chain.half,
+                    chain.bent,
+                    begin,
+                    end,
+                    _SURE * self.limit,
+                    self.swell,
+                    off,
+                )
                 begin = end - _OVERLAP
 
     def _bad(self, chain: Chain, off: Floats) -> Flags:
@@ -200,14 +231,18 @@ class TangentFit:
         allowed = np.full(len(turns), self.bend)
         if len(chain) > 1:
             near = line.nearest(chain.s)
-            there = np.maximum.reduceat(line.turns, np.column_stack([np.maximum(near[:-2] - 1, 0), near[2:]]).ravel())[::2]
+            there = np.maximum.reduceat(line.turns, np.column_stack([np.maximum(near[:-2] - 1, 0), near[2:]]).ravel())[
+                ::2
+            ]
             allowed[1:-1] = np.maximum(self.bend, np.minimum(_AS_SHARP * there, line.turns.max()))
         sharp = turns > allowed
         bad: Flags = (off > self.limit) | sharp[:-1] | sharp[1:]
         return bad
 
     def _anew(self, chain: Chain, bad: Flags, off: Floats, more: bool) -> tuple[Chain, Flags, Floats]:
-        """Return a chain whose bad pieces are fitted anew, as many or one more in a row; what is new, and how far all are off."""
+        """Return a chain whose bad pieces are fitted anew, as many or one more in a row; what is new, and how far all
+        are off.
+        """
         sizes, chords = self._sizes(chain), np.diff(self.line.nearest(chain.s))
         longer = np.maximum(np.append(sizes[1:], 0.0), np.append(0.0, sizes[:-1]))
         may = bad & ~chain.bent & ((chords >= _LEAST_CHORDS) | (sizes <= _EVEN * longer))
@@ -262,10 +297,11 @@ class TangentFit:
 
 
 def _bends(points: Floats, reach: float, step: float) -> Floats:
-    """Return by how much a polyline bends at its points, chord by chord or over a length where chords are shorter, radians.
+    """Return by how much a polyline bends at its points, chord by chord or over a length where chords are shorter,
+    radians.
 
-    A curve turns half as much over half the length, where a bend turns as much: so narrow curves bend by next to nothing, and
-    chords that rounding has turned by no more than it can turn them.
+    A curve turns half as much over half the length, where a bend turns as much: so narrow curves bend by next to
+    nothing, and chords that rounding has turned by no more than it can turn them.
     """
     from ..point_curves import corner_kernels
 
@@ -284,7 +320,7 @@ def joined(parts: list[Chain]) -> Chain:
     """Return chains one after the other as one; where one ends the next begins."""
     s, left, half, bent = (
         np.concatenate([getattr(part, name)[: len(part)] for part in parts]) for name in ("s", "left", "half", "bent")
-    )  # fmt: skip
+    )
     last = parts[-1]
     return Chain(np.append(s, last.s[-1]), np.append(left, last.left[-1]), half, bent)
 

@@ -1,8 +1,8 @@
 """Compiled: joints of lines and arcs in a plane, moved until the path is tangent and within a limit of a polyline.
 
 The polyline is xy, (n,) complex places; `along` (n,) their distances along it, `ahead` (n,) the unit direction at each.
-A path of m pieces has joints 0 to m, each told by its distance along the polyline and how far left of it it lies, and of
-each piece half its sweep, radians: positive to the left, 0 a line.
+A path of m pieces has joints 0 to m, each told by its distance along the polyline and how far left of it it lies, and
+of each piece half its sweep, radians: positive to the left, 0 a line.
 """
 
 from __future__ import annotations
@@ -57,7 +57,9 @@ def _bend(z, half, j):  # type: ignore[no-untyped-def]
 
 @kernel("float64(float64, float64)", counts=False)
 def _ease(share, swell):  # type: ignore[no-untyped-def]
-    """Return what a distance from a place of a chord counts for, where the region is wider between points than at them."""
+    """Return what a distance from a place of a chord counts for, where the region is wider between points than at
+    them.
+    """
     return 1.0 / math.sqrt(1.0 + 4.0 * swell * share * (1.0 - share))
 
 
@@ -76,7 +78,9 @@ def _off(xy, a, b, half, s, swell):  # type: ignore[no-untyped-def]
 
 @kernel("UniTuple(int64, 3)(float64, float64, float64)", counts=False)
 def _samples(low, high, swell):  # type: ignore[no-untyped-def]
-    """Return first, stop and step of the samples between two feet: of many those at points, where these have less room."""
+    """Return first, stop and step of the samples between two feet: of many those at points, where these have less
+    room.
+    """
     first, stop = math.floor(_EACH * low) + 1, math.ceil(_EACH * high)
     step = max(1, (stop - first) // _SAMPLES)
     if swell > 0.0 and step > 1:
@@ -97,7 +101,9 @@ def place(xy, along, ahead, s, left, first, stop, feet, z):  # type: ignore[no-u
 
 @kernel(f"float64({_Z}, complex128, complex128, float64, float64, float64, float64)", counts=False)
 def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
-    """Return how far the polyline between two feet is from the circle that a piece is of: at its points, and where a chord is parallel."""
+    """Return how far the polyline between two feet is from the circle that a piece is of: at its points, and where a
+    chord is parallel.
+    """
     c = b - a
     tangent, bent = c / abs(c) * cmath.exp(-1j * half), 2.0 * math.sin(half) / abs(c)
     worst = 0.0
@@ -116,7 +122,9 @@ def _farthest(xy, a, b, half, low, high, swell):  # type: ignore[no-untyped-def]
 
 @kernel(f"void({_Z}, {_Z}, {_R}, {_R}, {_R}, int64, int64, boolean, float64, {_R})", counts=False)
 def measure(xy, z, feet, left, half, first, stop, whole, swell, off):  # type: ignore[no-untyped-def]
-    """Write how far each of pieces first to stop - 1 is from its samples, or from the whole polyline, or its joints from it, at most."""
+    """Write how far each of pieces first to stop - 1 is from its samples, or from the whole polyline, or its joints
+    from it, at most.
+    """
     for k in range(first, stop):
         off[k] = max(abs(left[k]) * _ease(feet[k] % 1.0, swell), abs(left[k + 1]) * _ease(feet[k + 1] % 1.0, swell))
         if whole:
@@ -155,7 +163,9 @@ def _merit(xy, z, feet, left, half, first, stop, limits, sizes, weight, swell): 
 
 @kernel(f"void({_BANDS}, {_R}, int64, {_R}, float64, float64)", counts=False)
 def _add(band, slope, at, part, value, second):  # type: ignore[no-untyped-def]
-    """Add a function of the variables from `at` on: its slopes `part`, times `value` to the slope, and times `second` as squares."""
+    """Add a function of the variables from `at` on: its slopes `part`, times `value` to the slope, and times `second`
+    as squares.
+    """
     for i in range(max(0, -at), min(len(part), len(slope) - at)):
         slope[at + i] += value * part[i]
         for j in range(max(0, -at), i + 1):
@@ -296,7 +306,9 @@ def _hold(band, slope, bent, first, stop):  # type: ignore[no-untyped-def]
 
 @kernel(f"UniTuple(boolean, 2)({_R}, int64, int64, float64, {_R})", counts=False)
 def _limits(off, first, stop, limit, limits):  # type: ignore[no-untyped-def]
-    """Set the walls of what is beyond the limit farther out, never farther than before; tell whether any is, and comes nearer."""
+    """Set the walls of what is beyond the limit farther out, never farther than before; tell whether any is, and comes
+    nearer.
+    """
     beyond, nearer = False, False
     for k in range(first, stop):
         if off[k] < limit:
@@ -309,9 +321,14 @@ def _limits(off, first, stop, limit, limits):  # type: ignore[no-untyped-def]
     return beyond, nearer
 
 
-@kernel(f"float64({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, {_R}, boolean[::1], int64, int64, {_R}, {_R}, float64, float64, {_BANDS}, {_R})")
+@kernel(
+    f"float64({_Z}, {_Z}, {_R}, {_R}, {_FRAMES}, {_R}, boolean[::1], int64, int64, {_R}, {_R}, float64, float64, "
+    f"{_BANDS}, {_R})"
+)
 def _way_down(xy, z, feet, left, frames, half, bent, first, stop, limits, sizes, weight, swell, band, way):  # type: ignore[no-untyped-def]
-    """Write Newton's step, to be taken off; return by how much the merit falls along it at first, -1 if there is none."""
+    """Write Newton's step, to be taken off; return by how much the merit falls along it at first, -1 if there is
+    none.
+    """
     slope = np.zeros(len(way))
     band[:] = 0.0
     _walls(xy, z, feet, half, frames, first, stop, limits, sizes, weight, swell, band, slope)
@@ -339,10 +356,11 @@ def _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new):
 
 @kernel(f"float64({_Z}, {_R}, {_Z}, {_R}, {_R}, {_R}, boolean[::1], int64, int64, float64, float64, {_R})")
 def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):  # type: ignore[no-untyped-def]
-    """Move joints first + 1 to stop - 1 and bend pieces first to stop - 1, in place, so that the path turns as little as it can there.
+    """Move joints first + 1 to stop - 1 and bend pieces first to stop - 1, in place, so that the path turns as little
+    as it can there.
 
-    Newton's method on squared bends and a logarithmic wall at the limit. A piece that is beyond it has its wall farther out
-    until it comes nearer.
+    Newton's method on squared bends and a logarithmic wall at the limit. A piece that is beyond it has its wall farther
+    out until it comes nearer.
 
     Args:
         s: (m + 1,) of each joint, its distance along the polyline, mm. left: (m + 1,) its distance left of it, mm.
@@ -360,7 +378,11 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
     limits, sizes = np.empty(count), np.empty(count)
     for k in range(first, stop):
         sizes[k], limits[k] = min(_SHORTEST * limit, 0.5 * abs(z[k + 1] - z[k])), np.inf
-    inner, band, way = slice(first + 1, stop), np.empty((3 * (stop - first) - 2, _BAND)), np.empty(3 * (stop - first) - 2)
+    inner, band, way = (
+        slice(first + 1, stop),
+        np.empty((3 * (stop - first) - 2, _BAND)),
+        np.empty(3 * (stop - first) - 2),
+    )
     s_new, left_new, half_new, feet_new, z_new = s.copy(), left.copy(), half.copy(), feet.copy(), z.copy()
     weight, beyond = _FIRST, False
     for _ in range(_STEPS):
@@ -374,7 +396,10 @@ def tune(xy, along, ahead, s, left, half, bent, first, stop, limit, swell, off):
         while share > _LEAST and falls > 0.0:
             _stepped(s, left, half, first, stop, way, share, s_new, left_new, half_new)
             place(xy, along, ahead, s_new, left_new, first + 1, stop, feet_new, z_new)
-            if _merit(xy, z_new, feet_new, left_new, half_new, first, stop, limits, sizes, weight, swell) <= here - 1e-4 * share * falls:
+            if (
+                _merit(xy, z_new, feet_new, left_new, half_new, first, stop, limits, sizes, weight, swell)
+                <= here - 1e-4 * share * falls
+            ):
                 half[first:stop], s[inner], left[inner] = half_new[first:stop], s_new[inner], left_new[inner]
                 feet[inner], z[inner] = feet_new[inner], z_new[inner]
                 break

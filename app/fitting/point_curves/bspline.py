@@ -1,7 +1,7 @@
 """Method E's curve: a least-squares B-spline with as few spans as keep it, proven, in the tube round its points.
 
-Spans in which the proof fails are halved, until it holds everywhere; then all are made as long as lets each use up the same
-share of the tolerance. Along the way every point's place on the curve is moved to the nearest one.
+Spans in which the proof fails are halved, until it holds everywhere; then all are made as long as lets each use up the
+same share of the tolerance. Along the way every point's place on the curve is moved to the nearest one.
 """
 
 from __future__ import annotations
@@ -93,7 +93,8 @@ class _Samples:
 
 
 def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress = NO_PROGRESS) -> SplineFit | Ints:
-    """Return a spline in the tube round points; where there is none, the numbers of the points at which it needs corners.
+    """Return a spline in the tube round points; where there is none, the numbers of the points at which it needs
+    corners.
 
     Args:
         points: (n, 3) mm, n >= 3, no two in a row alike.
@@ -179,7 +180,9 @@ class _Work:
         return np.unique(np.concatenate([state.breaks, at]))
 
     def _solved(self, breaks: Floats, places: Floats) -> _State:
-        """Return the least-squares spline over breaks, its samples' places moved to the nearest, and what is not proven."""
+        """Return the least-squares spline over breaks, its samples' places moved to the nearest, and what is not
+        proven.
+        """
         from . import bspline_kernels
 
         breaks = np.unique(np.rint(breaks / self.unit)) * self.unit
@@ -187,12 +190,25 @@ class _Work:
         control, pieces = np.empty((spans + self._degree, 3)), np.empty((spans, DEGREE + 1, 3))
         feet, moved, bad = np.empty(len(self._points)), np.empty(len(places)), np.empty(len(self._points) - 1, np.bool_)
         bspline_kernels.tried(
-            breaks, self._degree, samples.points, places, samples.weights, samples.every, *self._squares, control, pieces, feet, moved, bad
+            breaks,
+            self._degree,
+            samples.points,
+            places,
+            samples.weights,
+            samples.every,
+            *self._squares,
+            control,
+            pieces,
+            feet,
+            moved,
+            bad,
         )
         return _State(breaks, self._mended(moved), control, pieces, feet, bad)
 
     def _mended(self, places: Floats) -> Floats:
-        """Return places of samples, spread again where two lie so far apart that nothing holds the curve between them."""
+        """Return places of samples, spread again where two lie so far apart that nothing holds the curve between
+        them.
+        """
         along = self._samples.along
         gaps = np.diff(places)
         torn = np.flatnonzero(gaps > np.maximum(_TORN * np.diff(along), self._tube.radius))
@@ -205,7 +221,9 @@ class _Work:
         return np.asarray(np.interp(along, along[~free], places[~free]))
 
     def spread(self, state: _State) -> _State:
-        """Return a proven spline whose spans are as long as lets their curves be equally far from the points, if it has fewer."""
+        """Return a proven spline whose spans are as long as lets their curves be equally far from the points, if it has
+        fewer.
+        """
         best, share = state, _USE
         for _ in range(_SPREADINGS):
             self._progress.step(0.4, f"fitting a curve: {len(best.pieces)} spans")

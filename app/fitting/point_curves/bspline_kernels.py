@@ -1,4 +1,6 @@
-"""Compiled: least-squares B-splines in space, their values, and places nearest to points. Cost rises with the points alone."""
+"""Compiled: least-squares B-splines in space, their values, and places nearest to points. Cost rises with the points
+alone.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from .tube_feet_kernels import settle
 from .tube_kernels import P, first_exit, holds_point, point_at
 
 _STIFF = 1e-9
-"""How much each control point wants to be between its neighbours, beside wanting the points near: it decides where no point does."""
+"""How much each control point wants to be between its neighbours, beside wanting the points near: it decides where no
+point does.
+"""
 
 
 @kernel("void(float64[::1], int64, int64, float64, float64[::1])", counts=False)
@@ -177,8 +181,8 @@ def tried(breaks, degree, samples, places, weights, every, end, swell, control, 
     """
     count = len(breaks)
     knots = np.empty(count + 2 * degree)
-    knots[:degree], knots[degree + count:] = breaks[0], breaks[count - 1]
-    knots[degree:degree + count] = breaks
+    knots[:degree], knots[degree + count :] = breaks[0], breaks[count - 1]
+    knots[degree : degree + count] = breaks
     solve(knots, degree, samples, places, weights, control)
     cut(knots, degree, control, pieces)
     on, span = np.empty(len(samples)), 0

@@ -14,8 +14,8 @@ def turns(points, reach, along, turn):  # type: ignore[no-untyped-def]
     """Write the length up to each point (n,), mm, and the turn there (n,), radians; 0 at the outer ones.
 
     Args:
-        reach: the directions are those to the places of the path so far before and behind, mm; where the chord itself is
-            longer, its own.
+        reach: the directions are those to the places of the path so far before and behind, mm; where the chord itself
+            is longer, its own.
     """
     n = len(points)
     along[0] = 0.0
@@ -39,7 +39,9 @@ def turns(points, reach, along, turn):  # type: ignore[no-untyped-def]
         dot, one, two = 0.0, 0.0, 0.0
         for axis in range(3):
             before[axis] = points[i, axis] - (points[low, axis] + share * (points[low + 1, axis] - points[low, axis]))
-            behind[axis] = points[high - 1, axis] + other * (points[high, axis] - points[high - 1, axis]) - points[i, axis]
+            behind[axis] = (
+                points[high - 1, axis] + other * (points[high, axis] - points[high - 1, axis]) - points[i, axis]
+            )
             dot += before[axis] * behind[axis]
             one += before[axis] ** 2
             two += behind[axis] ** 2

@@ -12,11 +12,14 @@ from ...model.motion import Floats
 Ints = NDArray[np.int64]
 
 LEAST_LEG = 0.5
-"""Of the reach: a point whose chords turn by more than the angle, and are both so long or longer, is a corner whatever is beside."""
+"""Of the reach: a point whose chords turn by more than the angle, and are both so long or longer, is a corner whatever
+is beside.
+"""
 
 
 def bends(points: Floats, angle: float) -> tuple[Ints, Floats]:
-    """Return the numbers of the points whose two chords turn by more than an angle, and the length of the shorter one, mm.
+    """Return the numbers of the points whose two chords turn by more than an angle, and the length of the shorter one,
+    mm.
 
     Args:
         points: (n, 3) mm, no two in a row alike.
@@ -34,9 +37,9 @@ def corners(points: Floats, angle: float, reach: float) -> Ints:
 
     A turn is looked at over a length, so that neither a crumb beside a long chord makes a corner of nothing, nor crumbs
     round a corner hide it: of several points about a corner the one with the largest turn is it. The turn must be there
-    over twice the length, too: noise of a quarter of the reach to either side never turns by 30 degrees over that. Where both
-    chords at a point are `LEAST_LEG` of the reach or longer their own turn makes the corner, as at both ends of a step to the
-    next row.
+    over twice the length, too: noise of a quarter of the reach to either side never turns by 30 degrees over that.
+    Where both chords at a point are `LEAST_LEG` of the reach or longer their own turn makes the corner, as at both ends
+    of a step to the next row.
 
     Args:
         points: (n, 3) mm, n >= 2, no two in a row alike.
@@ -46,7 +49,12 @@ def corners(points: Floats, angle: float, reach: float) -> Ints:
     from . import corner_kernels
 
     points = np.ascontiguousarray(points)
-    along, turn, wide, kept = np.empty(len(points)), np.empty(len(points)), np.empty(len(points)), np.empty(len(points), np.bool_)
+    along, turn, wide, kept = (
+        np.empty(len(points)),
+        np.empty(len(points)),
+        np.empty(len(points)),
+        np.empty(len(points), np.bool_),
+    )
     corner_kernels.turns(points, 2 * reach, along, wide)
     corner_kernels.turns(points, reach, along, turn)
     turn[wide <= angle] = 0.0

@@ -73,9 +73,13 @@ class CorrectionOptions:
         if not 0 <= self.before <= _MOST:
             raise ParameterError(f"{self.before} effective points before a gap; the number must be in 0 to {_MOST}.")
         if not 1 <= self.after <= _MOST:
-            raise ParameterError(f"{self.after} effective points after the first of a gap; the number must be in 1 to {_MOST}.")
+            raise ParameterError(
+                f"{self.after} effective points after the first of a gap; the number must be in 1 to {_MOST}."
+            )
         if self.select == Select.RATIO and not 0 <= self.limit <= 1:
-            raise ParameterError(f"Points are corrected up to a share {self.limit:g} of their gap; it must be in 0 to 1.")
+            raise ParameterError(
+                f"Points are corrected up to a share {self.limit:g} of their gap; it must be in 0 to 1."
+            )
         if self.select == Select.DISTANCE and not 0 <= self.limit < np.inf:
             raise ParameterError(f"Points are corrected that move {self.limit:g} mm at most; it must be 0 or more.")
 
@@ -100,7 +104,9 @@ class Correction:
         return np.flatnonzero(self.state)
 
 
-def corrected(points: Floats, state: NDArray[np.uint8], options: CorrectionOptions, kept: Iterable[int] = ()) -> Correction:
+def corrected(
+    points: Floats, state: NDArray[np.uint8], options: CorrectionOptions, kept: Iterable[int] = ()
+) -> Correction:
     """Move points to correction curves.
 
     Args:

@@ -15,7 +15,8 @@ _HALVINGS = 50
 
 @kernel("void(float64[::1], float64[:, ::1], float64[:, ::1])")
 def spline_slopes(at, value, slope):  # type: ignore[no-untyped-def]
-    """Write the slopes (m, 3) of the cubic spline through values (m, 3), C2, the outer two pieces at each end one cubic.
+    """Write the slopes (m, 3) of the cubic spline through values (m, 3), C2, the outer two pieces at each end one
+    cubic.
 
     Two points make a line, three a parabola.
     """
@@ -72,14 +73,22 @@ def least_squares(at, value, slope):  # type: ignore[no-untyped-def]
         centre, back = np.dot(basis * basis, at) / size, size / was if degree > 0 else 0.0
         was = size
         for i in range(m):
-            new, new_steep = (at[i] - centre) * basis[i] - back * old[i], basis[i] + (at[i] - centre) * steep[i] - back * old_steep[i]
+            new, new_steep = (
+                (at[i] - centre) * basis[i] - back * old[i],
+                basis[i] + (at[i] - centre) * steep[i] - back * old_steep[i],
+            )
             old[i], old_steep[i], basis[i], steep[i] = basis[i], steep[i], new, new_steep
     value[:] = fitted
 
 
-@kernel("float64(float64, float64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[::1], float64[::1])", counts=False)
+@kernel(
+    "float64(float64, float64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[::1], float64[::1])",
+    counts=False,
+)
 def _ahead(t, at, value, slope, point, along, place):  # type: ignore[no-untyped-def]
-    """Write the place of the curve at t, and return how far it is ahead of a point: as seen along a direction, else its own (0)."""
+    """Write the place of the curve at t, and return how far it is ahead of a point: as seen along a direction, else its
+    own (0).
+    """
     i = 0
     while i < len(at) - 2 and t > at[i + 1]:
         i += 1
@@ -103,16 +112,20 @@ def _gap(a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel(
-    "void(float64, float64, float64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[::1], float64[::1], float64[::1])",
+    "void(float64, float64, float64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64[::1], float64[::1], "
+    "float64[::1])",
     counts=False,
 )
 def _foot(low, high, at, value, slope, point, along, nothing, place):  # type: ignore[no-untyped-def]
-    """Write the place of a stretch of the curve that is level with a point along a direction; the nearest if there is none.
+    """Write the place of a stretch of the curve that is level with a point along a direction; the nearest if there is
+    none.
 
     `nothing` is three zeros: no direction.
     """
     level = along[0] != 0.0 or along[1] != 0.0 or along[2] != 0.0
-    if level and _ahead(low, at, value, slope, point, along, place) <= 0.0 <= _ahead(high, at, value, slope, point, along, place):
+    if level and _ahead(low, at, value, slope, point, along, place) <= 0.0 <= _ahead(
+        high, at, value, slope, point, along, place
+    ):
         direction = along
     else:
         direction = nothing
@@ -131,9 +144,13 @@ def _foot(low, high, at, value, slope, point, along, nothing, place):  # type: i
             low = middle
 
 
-@kernel("int64(float64[:, ::1], int64[::1], boolean[::1], int64, int64, int64, float64[::1], float64[:, ::1], int64[::1])", counts=False)
+@kernel(
+    "int64(float64[:, ::1], int64[::1], boolean[::1], int64, int64, int64, float64[::1], float64[:, ::1], int64[::1])",
+    counts=False,
+)
 def choose(points, effective, kept, gap, before, after, at, value, chosen):  # type: ignore[no-untyped-def]
-    """Write which effective points the correction curve of a gap goes by (S21), their places and the lengths up to them.
+    """Write which effective points the correction curve of a gap goes by (S21), their places and the lengths up to
+    them.
 
     Returns how many; none beyond a kept point, nor beyond two at one place. Before the first of the gap and after it.
     """
@@ -159,7 +176,8 @@ _SIGNATURE = "void(float64[:, ::1], int64[::1], boolean[::1], int64, int64, bool
 
 @kernel(_SIGNATURE)
 def correct(points, effective, kept, before, after, near, upright, places):  # type: ignore[no-untyped-def]
-    """Write where every point of a path moves to (n, 3), were all to move; an effective one by the mean of its gaps' moves.
+    """Write where every point of a path moves to (n, 3), were all to move; an effective one by the mean of its gaps'
+    moves.
 
     Args:
         effective: (m,) numbers of points, rising, the outer ones among them.

@@ -18,8 +18,8 @@ _CONTROL = np.linalg.inv(_BINOMIAL * _AT[:, None] ** np.arange(6) * (1 - _AT[:, 
 def cubic_near(curve: Nurbs, near: float) -> Nurbs:
     """Return a cubic spline, smooth of the second order, that is nowhere farther than `near` from one of degree 5.
 
-    It goes through the spline at its own knots, with its tangents at both ends; a span in which it is farther away, which the
-    control points of their difference bound at every parameter, is halved.
+    It goes through the spline at its own knots, with its tangents at both ends; a span in which it is farther away,
+    which the control points of their difference bound at every parameter, is halved.
 
     Args:
         curve: of degree 5, all weights 1, its knots clamped.
@@ -44,4 +44,6 @@ def cubic_near(curve: Nurbs, near: float) -> Nurbs:
             points[[0, -1]] = curve.points[[0, -1]]
             return Nurbs(points, np.ones(len(points)), np.array(cubic.t), _CUBIC)
         breaks = np.insert(breaks, far + 1, (breaks[far] + breaks[far + 1]) / 2)
-    raise InputError(f"No cubics come within {near:g} mm of a spline of degree 5; use --degree 3, or a larger tolerance.")
+    raise InputError(
+        f"No cubics come within {near:g} mm of a spline of degree 5; use --degree 3, or a larger tolerance."
+    )

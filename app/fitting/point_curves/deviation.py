@@ -1,4 +1,6 @@
-"""Where a proven curve and its polyline are how far apart, and how much the curve bends: samples for people, no proof."""
+"""Where a proven curve and its polyline are how far apart, and how much the curve bends: samples for people, no
+proof.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Method D as a whole: which points of a path the final curve goes by (first embodiment), or where they are moved to (second)."""
+"""Method D as a whole: which points of a path the final curve goes by (first embodiment), or where they are moved to
+(second).
+"""
 
 from __future__ import annotations
 
@@ -56,9 +58,13 @@ class EffectiveMethod:
 
 
 def second_embodiment(
-    select: tuple[Select, float] | None = None, before: int | None = None, after: int | None = None, move: Move = Move.NEAREST
+    select: tuple[Select, float] | None = None,
+    before: int | None = None,
+    after: int | None = None,
+    move: Move = Move.NEAREST,
 ) -> CorrectionOptions:
-    """Return how points are corrected as users ask for it: to cubics near the effective points, which move these too (S23).
+    """Return how points are corrected as users ask for it: to cubics near the effective points, which move these too
+    (S23).
 
     Args:
         select: which points, and the limit; None: all.
@@ -70,7 +76,12 @@ def second_embodiment(
     """
     kind, limit = select or (_DEFAULTS.select, _DEFAULTS.limit)
     return CorrectionOptions(
-        limit, kind, _DEFAULTS.before if before is None else before, _DEFAULTS.after if after is None else after, Curve.NEAR, move
+        limit,
+        kind,
+        _DEFAULTS.before if before is None else before,
+        _DEFAULTS.after if after is None else after,
+        Curve.NEAR,
+        move,
     )
 
 

@@ -1,7 +1,8 @@
 """Compiled: ranges of points along one segment of a polygon (S111-S117), in one go over the points.
 
-Directions from a range's first point that pass every point between within epsilon form a cone about each; one cone within
-all of them is kept. A next point whose direction lies in it is let in at once; otherwise every point between is looked at.
+Directions from a range's first point that pass every point between within epsilon form a cone about each; one cone
+within all of them is kept. A next point whose direction lies in it is let in at once; otherwise every point between is
+looked at.
 """
 
 from __future__ import annotations
@@ -34,13 +35,17 @@ def within(points, i, j, k, epsilon):  # type: ignore[no-untyped-def]
 def _angle(points, i, k, axis):  # type: ignore[no-untyped-def]
     """Return the angle between a unit direction and that from point i to point k."""
     x, y, z = points[k, 0] - points[i, 0], points[k, 1] - points[i, 1], points[k, 2] - points[i, 2]
-    cross = math.sqrt((axis[1] * z - axis[2] * y) ** 2 + (axis[2] * x - axis[0] * z) ** 2 + (axis[0] * y - axis[1] * x) ** 2)
+    cross = math.sqrt(
+        (axis[1] * z - axis[2] * y) ** 2 + (axis[2] * x - axis[0] * z) ** 2 + (axis[0] * y - axis[1] * x) ** 2
+    )
     return math.atan2(cross, axis[0] * x + axis[1] * y + axis[2] * z)
 
 
 @kernel("float64(float64[:, ::1], int64, int64)", counts=False)
 def _size(points, i, k):  # type: ignore[no-untyped-def]
-    return math.sqrt((points[k, 0] - points[i, 0]) ** 2 + (points[k, 1] - points[i, 1]) ** 2 + (points[k, 2] - points[i, 2]) ** 2)
+    return math.sqrt(
+        (points[k, 0] - points[i, 0]) ** 2 + (points[k, 1] - points[i, 1]) ** 2 + (points[k, 2] - points[i, 2]) ** 2
+    )
 
 
 @kernel("void(float64[:, ::1], int64, int64, float64, float64[::1])", counts=False)
@@ -95,7 +100,9 @@ def ranges(points, epsilon, stop, found):  # type: ignore[no-untyped-def]
             _narrow(points, i, k, epsilon, cone)
             free = cone[3] > math.pi  # all are about the first point
             clear = cone[3] > 0.0 and _angle(points, i, k + 1, cone) <= cone[3] * (1 - 1e-6) - _GUARD
-            if not (free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)):
+            if not (
+                free or (clear and _size(points, i, k + 1) >= cone[4]) or _all_within(points, i, k + 1, epsilon, cone)
+            ):
                 break
             k += 1
         found[count, 0], found[count, 1] = i, k

@@ -1,7 +1,8 @@
 """Method D, step S11: which points of a path lie on the true shape.
 
-Points that come from a polyhedron stand for the shape at the borders of its facets only. The path is parted into ranges,
-each as far as all points between lie within epsilon of the segment from its first to its last; the ends are effective.
+Points that come from a polyhedron stand for the shape at the borders of its facets only. The path is parted into
+ranges, each as far as all points between lie within epsilon of the segment from its first to its last; the ends are
+effective.
 """
 
 from __future__ import annotations
@@ -59,9 +60,13 @@ class EffectiveOptions:
         if not (self.epsilon > 0 and math.isfinite(self.epsilon)):
             raise ParameterError(f"epsilon is {self.epsilon:g} mm; it must be greater than 0.")
         if self.ends == Ends.RATIO and not 0 <= self.limit <= 0.5:
-            raise ParameterError(f"The share of a range that counts as its end is {self.limit:g}; it must be in 0 to 0.5.")
+            raise ParameterError(
+                f"The share of a range that counts as its end is {self.limit:g}; it must be in 0 to 0.5."
+            )
         if self.ends == Ends.DISTANCE and not (self.limit >= 0 and math.isfinite(self.limit)):
-            raise ParameterError(f"The distance that counts as the end of a range is {self.limit:g} mm; it must be 0 or more.")
+            raise ParameterError(
+                f"The distance that counts as the end of a range is {self.limit:g} mm; it must be 0 or more."
+            )
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,7 +64,10 @@ def roughness(points, offsets, beside, rough):  # type: ignore[no-untyped-def]
         rough[i] = lay(points, members, count + 1, plane)
 
 
-@kernel("int64(float64[:, ::1], int64[::1], int64[::1], int64, float64, float64[::1], int64[::1], int64[::1], int64, int64[::1])")
+@kernel(
+    "int64(float64[:, ::1], int64[::1], int64[::1], int64, float64, float64[::1], int64[::1], int64[::1], int64, "
+    "int64[::1])"
+)
 def _flood(points, offsets, beside, seed, epsilon, plane, facet, seen, mark, members):  # type: ignore[no-untyped-def]
     """Write what is reached from a seed over free points within epsilon of a plane; return how many."""
     members[0] = seed

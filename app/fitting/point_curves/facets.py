@@ -1,4 +1,5 @@
-"""Method D on clouds of a surface: which of its points lie on the true shape, by the facets of the polyhedron behind it.
+"""Method D on clouds of a surface: which of its points lie on the true shape, by the facets of the polyhedron behind
+it.
 
 As the points of a path are parted into ranges along one segment, those of a surface are parted into facets: points that
 hang together and lie within epsilon of one plane. Those at a facet's border are effective, those within it are not.
@@ -48,7 +49,9 @@ def facets_of_grid(points: Floats, epsilon: float) -> Facets:
         ParameterError: epsilon out of its range.
     """
     if points.ndim != 3 or points.shape[2] != 3 or min(points.shape[:2]) < 2:
-        raise GeometryError(f"A grid of points of shape {points.shape}; expected (rows, cols, 3), of two or more each way.")
+        raise GeometryError(
+            f"A grid of points of shape {points.shape}; expected (rows, cols, 3), of two or more each way."
+        )
     number = np.arange(points.shape[0] * points.shape[1]).reshape(points.shape[:2])
     across = np.column_stack((number[:, :-1].ravel(), number[:, 1:].ravel()))
     down = np.column_stack((number[:-1].ravel(), number[1:].ravel()))
@@ -61,7 +64,8 @@ def facets_of_rows(rows: Sequence[Floats], epsilon: float) -> Facets:
     """Part a cloud scanned in rows, each (n, 3) mm, n >= 2, two rows at least, numbered row by row.
 
     Args:
-        rows: points beside one another in a row are neighbours, and so is each with the nearest of the rows beside its own.
+        rows: points beside one another in a row are neighbours, and so is each with the nearest of the rows beside its
+            own.
         epsilon: mm, > 0.
 
     Raises:

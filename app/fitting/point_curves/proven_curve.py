@@ -36,8 +36,8 @@ class SplineOptions:
         corner: where the path turns by more than this its corner is kept, radians, in (0, pi].
         blocks: how many blocks a spline takes; one that takes no fewer than its chords gives way.
         level: the control knows splines at one height only.
-        rest: what stands where there is no spline: where the path rises or falls and must be level, where a spline would
-            take no fewer blocks than chords; chords unless said otherwise.
+        rest: what stands where there is no spline: where the path rises or falls and must be level, where a spline
+            would take no fewer blocks than chords; chords unless said otherwise.
     """
 
     tube: Tube
@@ -64,12 +64,18 @@ def fit_splines(points: Floats, options: SplineOptions, progress: Progress = NO_
     parts: list[FittedPath] = []
     for k in range(len(at) - 1):
         progress.step(k / (len(at) - 1))
-        parts.append(_between_corners(points[at[k] : at[k + 1] + 1], options, progress.part(k / (len(at) - 1), (k + 1) / (len(at) - 1))))
+        parts.append(
+            _between_corners(
+                points[at[k] : at[k + 1] + 1], options, progress.part(k / (len(at) - 1), (k + 1) / (len(at) - 1))
+            )
+        )
     return chained(parts)
 
 
 def _between_corners(points: Floats, options: SplineOptions, progress: Progress) -> FittedPath:
-    """Return splines and the rest, which do not bend more than the points where they meet; else nothing but the rest."""
+    """Return splines and the rest, which do not bend more than the points where they meet; else nothing but the
+    rest.
+    """
     path = chained(_fitted(points, options, progress))
     if not path.motions.splines or len(path.motions) == 1:
         return path
@@ -90,11 +96,15 @@ def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[
         parts = [FittedPath(spline_motion(curve), np.array([len(points) - 1]))]
         if _hooked(curve, points, _REACH * options.tube.widest):
             return [options.rest(points, progress)]
-    return parts if sum(_blocks(part, options) for part in parts) < len(points) - 1 else [options.rest(points, progress)]
+    return (
+        parts if sum(_blocks(part, options) for part in parts) < len(points) - 1 else [options.rest(points, progress)]
+    )
 
 
 def _hooked(curve: Nurbs, points: Floats, reach: float) -> bool:
-    """Tell whether a spline sets out or arrives where its points do not lead, seen over a length, mm: a hook within the tube."""
+    """Tell whether a spline sets out or arrives where its points do not lead, seen over a length, mm: a hook within the
+    tube.
+    """
     for way, there in ((curve.points, points), (curve.points[::-1], points[::-1])):
         off = np.linalg.norm(there - there[0], axis=1)
         chord = there[int(np.argmax(off >= min(reach, off.max())))] - there[0]

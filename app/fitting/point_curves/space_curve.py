@@ -17,13 +17,17 @@ from ...model.motion_path import ArcPaths, along_xyz, arc_paths
 Floats = NDArray[np.float64]
 
 DEGREE = 5
-"""What holds lines, splines of degree 3 and 5, and arcs nearly enough; lower degrees are raised, which changes nothing."""
+"""What holds lines, splines of degree 3 and 5, and arcs nearly enough; lower degrees are raised, which changes
+nothing.
+"""
 ARC_SLACK = 1e-9
 """An arc's pieces are nowhere farther than this from it, mm."""
 CHORD_SLACK = 1e-6
 """What is no polynomial, or one of a higher degree, becomes chords so near, mm."""
 _SIXTH = 46080.0
-"""6! 2^6: a quintic that shares place, speed and acceleration at both ends is off by the sixth derivative over this at most."""
+"""6! 2^6: a quintic that shares place, speed and acceleration at both ends is off by the sixth derivative over this at
+most.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +74,8 @@ def curve_of_points(points: Floats) -> SpaceCurve:
 
 
 def curve_of_motions(motions: Motions, first: int = 0, stop: int | None = None) -> SpaceCurve:
-    """Return the path of motions `first` to `stop`, `stop` excluded: lines and splines as they are, arcs within `ARC_SLACK`.
+    """Return the path of motions `first` to `stop`, `stop` excluded: lines and splines as they are, arcs within
+    `ARC_SLACK`.
 
     Args:
         motions: in any planes; helices and spirals too.
@@ -83,19 +88,24 @@ def curve_of_motions(motions: Motions, first: int = 0, stop: int | None = None) 
         raise GeometryError("a curve of no motions; at least one was expected.")
     gap = np.abs(motions.start[first + 1 : stop] - motions.end[first : stop - 1])
     if gap.size and gap.max() > ARC_SLACK:
-        raise GeometryError(f"motion {first + 1 + int(np.argmax(gap.max(axis=1)))} does not begin where the one before ended.")
+        raise GeometryError(
+            f"motion {first + 1 + int(np.argmax(gap.max(axis=1)))} does not begin where the one before ended."
+        )
     parts = list(_parts(motions, first, stop))
     owner = np.concatenate([rows for rows, _, _ in parts])
     order = np.argsort(owner, kind="stable")
-    return SpaceCurve(np.concatenate([control for _, control, _ in parts])[order], owner[order], max(slack for _, _, slack in parts))
+    return SpaceCurve(
+        np.concatenate([control for _, control, _ in parts])[order], owner[order], max(slack for _, _, slack in parts)
+    )
 
 
 def joined(curves: Sequence[SpaceCurve]) -> SpaceCurve:
     """Return curves one after the other as one."""
     return SpaceCurve(
-        np.concatenate([curve.control for curve in curves]), np.concatenate([curve.owner for curve in curves]),
+        np.concatenate([curve.control for curve in curves]),
+        np.concatenate([curve.owner for curve in curves]),
         max(curve.slack for curve in curves),
-    )  # fmt: skip
+    )
 
 
 def _parts(motions: Motions, first: int, stop: int) -> Iterator[tuple[NDArray[np.int64], Floats, float]]:
@@ -144,7 +154,9 @@ def _arcs(arcs: ArcPaths, start: Floats, end: Floats) -> tuple[NDArray[np.int64]
 
 
 def _moving(arcs: ArcPaths, grow: Floats, of: NDArray[np.int64], at: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return place, speed and acceleration (n, 3) along arcs `of`, each at a part `at` of it, in the axes of its plane."""
+    """Return place, speed and acceleration (n, 3) along arcs `of`, each at a part `at` of it, in the axes of its
+    plane.
+    """
     sweep, grows, zero = arcs.sweep[of][:, None], grow[of][:, None], np.zeros(len(of))
     angle, radius = arcs.angle[of] + arcs.sweep[of] * at, (arcs.start_radius[of] + grow[of] * at)[:, None]
     cos, sin = np.cos(angle), np.sin(angle)
@@ -158,7 +170,9 @@ def _moving(arcs: ArcPaths, grow: Floats, of: NDArray[np.int64], at: Floats) -> 
 
 
 def raised(control: Floats) -> Floats:
-    """Return the same pieces (m, p + 1, 3) with degree 5, p <= 5: point k of one degree more is between points k - 1 and k."""
+    """Return the same pieces (m, p + 1, 3) with degree 5, p <= 5: point k of one degree more is between points k - 1
+    and k.
+    """
     while (degree := control.shape[1] - 1) < DEGREE:
         share = (np.arange(degree + 2) / (degree + 1))[:, None]
         before = np.pad(control, ((0, 0), (1, 0), (0, 0)))

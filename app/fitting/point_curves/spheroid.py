@@ -1,8 +1,9 @@
-"""The region test for any outline: a stretch of curve that is shorter than every way by its region's surface cannot leave it.
+"""The region test for any outline: a stretch of curve that is shorter than every way by its region's surface cannot
+leave it.
 
-All places of a stretch from P to Q lie in the spheroid with foci P and Q whose strings are as long as the stretch. What is
-known of that length is an upper bound: its control polygon's. The spheroid lies within half its width of the chord PQ,
-and that is compared with the region's outline there.
+All places of a stretch from P to Q lie in the spheroid with foci P and Q whose strings are as long as the stretch. What
+is known of that length is an upper bound: its control polygon's. The spheroid lies within half its width of the chord
+PQ, and that is compared with the region's outline there.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ class Outline:
 
     Attributes:
         radius: of a share in [0, 1] of the chord's length: mm, > 0.
-        least: of two shares, first <= last: a radius, mm, that f nowhere between them falls below. Where f is concave, as a
-            cylinder's or a barrel's is, the lesser of its values at the two is that; None means so.
+        least: of two shares, first <= last: a radius, mm, that f nowhere between them falls below. Where f is concave,
+            as a cylinder's or a barrel's is, the lesser of its values at the two is that; None means so.
     """
 
     radius: Callable[[float], float]
@@ -50,8 +51,8 @@ def lies_within(curve: SpaceCurve, points: Floats, outline: Outline, feet: Float
         feet: (n,) places of the curve that answer to the points, never falling.
 
     References:
-        JP 2014-242013, figures 6 to 8: an interval P ... Q shorter than the shortest path P, X, Q by way of any point X of
-        the region's surface.
+        JP 2014-242013, figures 6 to 8: an interval P ... Q shorter than the shortest path P, X, Q by way of any point X
+        of the region's surface.
     """
     for i in range(len(points) - 1):
         chord = _Chord(points[i], points[i + 1], outline, curve.slack)
@@ -84,7 +85,9 @@ class _Chord:
     def _holds(self, p: Floats, q: Floats, width: float) -> bool:
         """Tell whether all places within a width of the chord pq are in the region's body, or in one of its balls."""
         along = [float((place - self._start) @ self._axis) for place in (p, q)]
-        off = max(float(np.linalg.norm(place - self._start - z * self._axis)) for place, z in zip((p, q), along, strict=True))
+        off = max(
+            float(np.linalg.norm(place - self._start - z * self._axis)) for place, z in zip((p, q), along, strict=True)
+        )
         low, high = min(along) - width, max(along) + width
         if low >= 0.0 and high <= self._length and self._length > 0:
             return off + width + self._slack <= self._outline.lowest(low / self._length, high / self._length)

@@ -1,11 +1,11 @@
 """The proof of method E: a whole curve lies in the tube round a polyline, and the polyline in that round the curve.
 
-The region round a chord is a solid of revolution, its squared radius a parabola along it: a cylinder, or a barrel that is
-narrow at the points and wide between them; at the points it holds a ball of its radius there, so that neighbours overlap
-at every corner. The curve is cut at feet, one a point and in order; foot i lies in the ball of point i, and the curve
-between feet i and i + 1 in the region of chord i. All of it is decided by the signs of polynomials in Bernstein form on
-ever smaller stretches, never by samples. Then the polyline is near the curve, too: along a chord the curve passes every
-place between its feet's, and what a chord has beyond those is nearer to the foot than the point itself.
+The region round a chord is a solid of revolution, its squared radius a parabola along it: a cylinder, or a barrel that
+is narrow at the points and wide between them; at the points it holds a ball of its radius there, so that neighbours
+overlap at every corner. The curve is cut at feet, one a point and in order; foot i lies in the ball of point i, and the
+curve between feet i and i + 1 in the region of chord i. All of it is decided by the signs of polynomials in Bernstein
+form on ever smaller stretches, never by samples. Then the polyline is near the curve, too: along a chord the curve
+passes every place between its feet's, and what a chord has beyond those is nearer to the foot than the point itself.
 
 The feet are the places that "Fréchet distance" asks for: the curve is inside if there are any such, wherever they are.
 """
@@ -53,7 +53,9 @@ class Tube:
         if not (math.isfinite(self.radius) and self.radius > 0):
             raise ParameterError(f"a tube of radius {self.radius:g} mm; expected one above 0.")
         if self.middle is not None and not (math.isfinite(self.middle) and self.middle >= self.radius):
-            raise ParameterError(f"a barrel of {self.middle:g} mm between points; expected {self.radius:g} mm, that at them, or more.")
+            raise ParameterError(
+                f"a barrel of {self.middle:g} mm between points; expected {self.radius:g} mm, that at them, or more."
+            )
 
     @property
     def widest(self) -> float:
@@ -70,7 +72,9 @@ class Tube:
         return Tube(self.radius - by, None if self.middle is None else self.middle - by)
 
     def squares(self, slack: float) -> tuple[float, float]:
-        """Return squared radius at the points and what the parabola adds (4 (middle^2 - radius^2)), with all radii less by a slack."""
+        """Return squared radius at the points and what the parabola adds (4 (middle^2 - radius^2)), with all radii less
+        by a slack.
+        """
         end = max(self.radius - slack, 0.0) ** 2
         return end, 4 * (max(self.widest - slack, 0.0) ** 2 - end)
 
@@ -82,9 +86,9 @@ class Judgement:
     Attributes:
         answer: INSIDE only with a proof.
         bound: of the distance between curve and polyline, both ways and in order, mm: proven; inf unless inside.
-        from_curve: largest distance of a place of the curve from its chord that was found, mm. Outside: that of the witness from
-            the chords about there, which is less than the radius where the curve is near enough but in another order; where
-            the curve ends before it has come to all points, that of its end from the next one.
+        from_curve: largest distance of a place of the curve from its chord that was found, mm. Outside: that of the
+            witness from the chords about there, which is less than the radius where the curve is near enough but in
+            another order; where the curve ends before it has come to all points, that of its end from the next one.
         from_points: largest distance of a point from its foot, mm; inf unless inside.
         parameter: where on the curve `from_curve` was found, in [0, m].
         place: that place, mm.
@@ -109,8 +113,8 @@ def judge(curve: SpaceCurve, points: Floats, tube: Tube, feet: Floats | None = N
         curve: of any making.
         points: (n, 3) mm, n >= 2; it runs in the same sense.
         tube: region round the polyline.
-        feet: (n,) places of the curve thought to answer to the points, never falling, 0 and m the outer ones; found where
-            they are not given, and where these prove nothing.
+        feet: (n,) places of the curve thought to answer to the points, never falling, 0 and m the outer ones; found
+            where they are not given, and where these prove nothing.
 
     Raises:
         GeometryError: there are fewer than two points, or something is not finite.
@@ -164,7 +168,9 @@ def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> J
 
 
 def _refused(curve: SpaceCurve, points: Floats, squares: tuple[float, float], left: tuple[int, float]) -> Judgement:
-    """Return the witness: where the curve is farthest from the chord whose region it leaves, before it comes back to it."""
+    """Return the witness: where the curve is farthest from the chord whose region it leaves, before it comes back to
+    it.
+    """
     from . import tube_feet_kernels as kernels
 
     chord, until = left

@@ -7,10 +7,23 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from .tube_kernels import INSIDE, OUTSIDE, UNDECIDED, first_entry, first_exit, halved, holds_point, point_at, portion, squared_off_chord
+from .tube_kernels import (
+    INSIDE,
+    OUTSIDE,
+    UNDECIDED,
+    first_entry,
+    first_exit,
+    halved,
+    holds_point,
+    point_at,
+    portion,
+    squared_off_chord,
+)
 
 MOST = 4
-"""Stretches of the curve from which one point can be reached that are kept; more come only where it goes to and fro there."""
+"""Stretches of the curve from which one point can be reached that are kept; more come only where it goes to and fro
+there.
+"""
 _GOLDEN = 0.3819660112501051
 
 
@@ -66,7 +79,9 @@ def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
     k, share = 0, 0.0
     for i in range(1, len(points) - 1):
         chord = math.sqrt(squared_off_chord(points[i], points[i - 1], points[i - 1]))
-        reach = along[k] + share * (along[min(k + 1, count)] - along[k]) + 1.2 * chord + slack  # samples may be farther apart than that
+        reach = (
+            along[k] + share * (along[min(k + 1, count)] - along[k]) + 1.2 * chord + slack
+        )  # samples may be farther apart than that
         best, nearest = k, squared_off_chord(points[i], samples[k], samples[min(k + 1, count)])
         j = k + 1
         while j < count and along[j] <= reach:
@@ -131,9 +146,13 @@ def proven(control, points, feet, end, swell):  # type: ignore[no-untyped-def]
     return INSIDE, -1
 
 
-@kernel("UniTuple(int64, 2)(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], float64[::1])")
+@kernel(
+    "UniTuple(int64, 2)(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], "
+    "float64[::1])"
+)
 def reach(control, points, end, swell, ways, counts, witness):  # type: ignore[no-untyped-def]
-    """Find the places of the curve that can answer to each point, in order: INSIDE and -1 where the last one is reached.
+    """Find the places of the curve that can answer to each point, in order: INSIDE and -1 where the last one is
+    reached.
 
     Args:
         ways: (n, MOST, 2) stretches of the curve, out. counts: (n,) how many, out.
@@ -175,20 +194,27 @@ def reach(control, points, end, swell, ways, counts, witness):  # type: ignore[n
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64, float64, float64[:, :, ::1], int64[::1], float64[::1])")
 def step_back(control, points, end, swell, ways, counts, feet):  # type: ignore[no-untyped-def]
-    """Write a place (n,) for each point out of those that `reach` has found: the nearest from which the next is reached."""
+    """Write a place (n,) for each point out of those that `reach` has found: the nearest from which the next is
+    reached.
+    """
     last, here = len(points) - 1, np.empty(3)
     feet[last] = float(len(control))
     for i in range(last - 1, -1, -1):
         for w in range(counts[i] - 1, -1, -1):
             low, high = ways[i, w, 0], min(ways[i, w, 1], feet[i + 1])
-            if low <= high and first_exit(control, low, feet[i + 1], points[i], points[i + 1], end, swell) >= feet[i + 1]:
+            if (
+                low <= high
+                and first_exit(control, low, feet[i + 1], points[i], points[i + 1], end, swell) >= feet[i + 1]
+            ):
                 feet[i] = _nearest(control, low, high, points[i], here)
                 break
 
 
 @kernel("UniTuple(float64, 4)(float64[:, :, ::1], float64[:, ::1], float64[::1])")
 def found_apart(control, points, feet):  # type: ignore[no-untyped-def]
-    """Return the largest distance found from the curve and where, of three places a chord; and from a point and which."""
+    """Return the largest distance found from the curve and where, of three places a chord; and from a point and
+    which.
+    """
     here, back, which, found, where = np.empty(3), 0.0, 0.0, 0.0, 0.0
     for i in range(len(points)):
         point_at(control, feet[i], here)
@@ -216,7 +242,8 @@ def _most_off(piece, a, b):  # type: ignore[no-untyped-def]
 
 @kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64[:, ::1], float64[::1], float64, UniTuple(float64, 3))")
 def bound_apart(control, points, feet, share, start):  # type: ignore[no-untyped-def]
-    """Return a proven bound of how far curve and polyline are apart, the largest distance found from the curve, and where.
+    """Return a proven bound of how far curve and polyline are apart, the largest distance found from the curve, and
+    where.
 
     Args:
         share: the bound is not more than so much larger than the largest found, as a part of it.
@@ -262,7 +289,8 @@ def _off_near(here, points, chord):  # type: ignore[no-untyped-def]
 
 @kernel("UniTuple(float64, 3)(float64[:, :, ::1], float64, float64[:, ::1], int64, float64, float64)")
 def excursion(control, left, points, chord, end, swell):  # type: ignore[no-untyped-def]
-    """Return where a curve that leaves the region of a chord is farthest from the path before it comes back, and how far.
+    """Return where a curve that leaves the region of a chord is farthest from the path before it comes back, and how
+    far.
 
     Returns:
         Parameter, distance, mm, and 1 where a place outside of the region was found, or the curve ends there, else 0.
@@ -301,7 +329,9 @@ def excursion(control, left, points, chord, end, swell):  # type: ignore[no-unty
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1], float64[::1])")
 def off_chords(control, points, feet, off):  # type: ignore[no-untyped-def]
-    """Write how far each piece is found from the chords that it answers to, at most, mm: at feet and half way between."""
+    """Write how far each piece is found from the chords that it answers to, at most, mm: at feet and half way
+    between.
+    """
     here, last = np.empty(3), len(control) - 1
     off[:] = 0.0
     for i in range(len(points) - 1):

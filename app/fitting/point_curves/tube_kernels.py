@@ -15,7 +15,9 @@ _FINEST = 1e-11
 """A stretch of so little parameter is not halved again; so near the edge of its region, nobody can decide."""
 _ROUNDING = 1e-14
 
-_WEIGHTS = np.array([[math.comb(P, i) * math.comb(P, j) / math.comb(2 * P, i + j) for j in range(P + 1)] for i in range(P + 1)])
+_WEIGHTS = np.array(
+    [[math.comb(P, i) * math.comb(P, j) / math.comb(2 * P, i + j) for j in range(P + 1)] for i in range(P + 1)]
+)
 """What the product of coefficients i and j adds to coefficient i + j of a product in Bernstein form."""
 
 
@@ -115,7 +117,9 @@ def _signs(work, end, swell, size, guard):  # type: ignore[no-untyped-def]
 
 @kernel("boolean(float64[:, ::1], float64, float64, float64, float64, float64)", counts=False)
 def _ball_signs(work, x, y, z, end, guard):  # type: ignore[no-untyped-def]
-    """Tell whether all coefficients of a ball's inequality are above the rounding; its centre counts from the chord's start."""
+    """Tell whether all coefficients of a ball's inequality are above the rounding; its centre counts from the chord's
+    start.
+    """
     for i in (0, P):
         if (work[i, 0] - x) ** 2 + (work[i, 1] - y) ** 2 + (work[i, 2] - z) ** 2 > end:
             return False
@@ -123,7 +127,11 @@ def _ball_signs(work, x, y, z, end, guard):  # type: ignore[no-untyped-def]
         value = end
         for i in range(max(0, k - P), min(k, P) + 1):
             j = k - i
-            dot = (work[i, 0] - x) * (work[j, 0] - x) + (work[i, 1] - y) * (work[j, 1] - y) + (work[i, 2] - z) * (work[j, 2] - z)
+            dot = (
+                (work[i, 0] - x) * (work[j, 0] - x)
+                + (work[i, 1] - y) * (work[j, 1] - y)
+                + (work[i, 2] - z) * (work[j, 2] - z)
+            )
             value -= _WEIGHTS[i, j] * dot
         if value < guard:
             return False
@@ -134,8 +142,8 @@ def _ball_signs(work, x, y, z, end, guard):  # type: ignore[no-untyped-def]
 def holds_piece(piece, a, b, end, swell, work):  # type: ignore[no-untyped-def]
     """Tell whether Bernstein signs prove that the region round a chord holds a piece: True is a proof, False is none.
 
-    The body holds it where 0 <= share <= 1 and end + swell share (1 - share) - off^2 >= 0 in all coefficients, a ball where
-    end - distance^2 >= 0 in all.
+    The body holds it where 0 <= share <= 1 and end + swell share (1 - share) - off^2 >= 0 in all coefficients, a ball
+    where end - distance^2 >= 0 in all.
     """
     dx, dy, dz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     size = dx * dx + dy * dy + dz * dz

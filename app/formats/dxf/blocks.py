@@ -1,4 +1,6 @@
-"""Walk a DXF space: curves of its entities and of all blocks inserted in it, nested, turned, mirrored, in rows and columns."""
+"""Walk a DXF space: curves of its entities and of all blocks inserted in it, nested, turned, mirrored, in rows and
+columns.
+"""
 
 from __future__ import annotations
 
@@ -204,7 +206,9 @@ class Walker:
         self._bounded(places, insert)
         if self._is_hidden(insert):
             layers = tuple(insert.dxf.layer if layer == "0" else layer for layer in inner.layers())
-            sheet.hidden.append(Hidden(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places))
+            sheet.hidden.append(
+                Hidden(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places)
+            )
             return
         for kind, count in inner.left_out.items():
             sheet.left_out[kind] += count * places
@@ -237,8 +241,10 @@ class Walker:
         """Add what a block draws in one place, on the layer `outer` where it names none."""
         sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
         sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
-        sheet.negative += [replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
-                           for each in inner.negative]
+        sheet.negative += [
+            replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
+            for each in inner.negative
+        ]
         for each in inner.more():
             sheet.add(each.moved(place, outer))
         for curve, layer in inner.curves:
@@ -252,9 +258,14 @@ class Walker:
     def _block(self, name: str, insert: Any) -> Sheet:
         key = name.casefold()
         if key in self._open:
-            raise InputError(f"{self._name}: block {name} is inserted in itself; break the loop in the CAD program and save again.")
+            raise InputError(
+                f"{self._name}: block {name} is inserted in itself; break the loop in the CAD program and save again."
+            )
         if len(self._open) >= DEEPEST:
-            raise InputError(f"{self._name}: blocks are nested deeper than {DEEPEST} levels at block {name}; explode some and save again.")
+            raise InputError(
+                f"{self._name}: blocks are nested deeper than {DEEPEST} levels at block {name}; explode some and save "
+                "again."
+            )
         if key not in self._blocks:
             self._open.append(key)
             self._blocks[key] = self.sheet(insert.block())
@@ -263,11 +274,20 @@ class Walker:
 
     def _bounded(self, count: int, insert: Any = None) -> None:
         if count > MOST_CURVES:
-            texts = f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}" if self._read else ""
+            texts = (
+                f", or leave its texts out: {' '.join(f'--skip-type {kind}' for kind in self._read)}"
+                if self._read
+                else ""
+            )
             if insert is None:
-                raise InputError(f"{self._name}: the drawing has more than {MOST_CURVES} curves; save it in parts, or thin it out{texts}.")
-            raise InputError(f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves at block {insert.dxf.name}; "
-                             f"reduce the rows and columns of its inserted blocks{texts}.")
+                raise InputError(
+                    f"{self._name}: the drawing has more than {MOST_CURVES} curves; save it in parts, or thin it "
+                    f"out{texts}."
+                )
+            raise InputError(
+                f"{self._name}: the drawing unfolds to more than {MOST_CURVES} curves at block {insert.dxf.name}; "
+                f"reduce the rows and columns of its inserted blocks{texts}."
+            )
 
 
 def _origins(insert: Any) -> list[Point]:
@@ -287,5 +307,7 @@ def _places(insert: Any) -> list[Affine]:
         for column in range(max(insert.dxf.column_count, 1)):
             along, across = column * insert.dxf.column_spacing, row * insert.dxf.row_spacing
             dx, dy = plane.vector((along * cos(angle) - across * sin(angle), along * sin(angle) + across * cos(angle)))
-            places.append(Affine(x.x - origin.x, y.x - origin.x, x.y - origin.y, y.y - origin.y, origin.x + dx, origin.y + dy))
+            places.append(
+                Affine(x.x - origin.x, y.x - origin.x, x.y - origin.y, y.y - origin.y, origin.x + dx, origin.y + dy)
+            )
     return places

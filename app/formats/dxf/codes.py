@@ -1,4 +1,6 @@
-"""Codes within the texts of a DXF: %%c and its like, Unicode and multibyte numbers, control characters, lines along the words."""
+"""Codes within the texts of a DXF: %%c and its like, Unicode and multibyte numbers, control characters, lines along the
+words.
+"""
 
 from __future__ import annotations
 
@@ -63,5 +65,8 @@ def _sign(match: re.Match[str]) -> str:
 
 def legible(words: str) -> str:
     """Return words with blanks in place of all that only moves on, and without what has no shape."""
-    blanks = ("" if unicodedata.category(c) == "Cf" else " " if c.isspace() or unicodedata.category(c) == "Cc" else c for c in words)
+    blanks = (
+        "" if unicodedata.category(c) == "Cf" else " " if c.isspace() or unicodedata.category(c) == "Cc" else c
+        for c in words
+    )
     return "".join(blanks)

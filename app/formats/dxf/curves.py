@@ -22,7 +22,9 @@ class NoLengthError(Exception):
 
 
 class NegativeRadiusError(Exception):
-    """A circle or an arc has a radius below 0, so nobody knows what is meant. Its place and the radius are the arguments."""
+    """A circle or an arc has a radius below 0, so nobody knows what is meant. Its place and the radius are the
+    arguments.
+    """
 
 
 def curves_of(entity: Any) -> list[Curve] | None:
@@ -142,7 +144,9 @@ def segments_of(vertices: list[tuple[Point, float]], closed: bool) -> list[Curve
 
 
 def _bulged(a: Point, b: Point, bulge: float) -> Curve:
-    """Return the segment from a to b; the bulge is the tangent of a quarter of its sweep, positive counter-clockwise."""
+    """Return the segment from a to b; the bulge is the tangent of a quarter of its sweep, positive
+    counter-clockwise.
+    """
     if abs(bulge) < _STRAIGHT:
         return Line(a, b)
     height = (1 / bulge - bulge) / 4
@@ -175,6 +179,11 @@ def polar(centre: Point, radius: float, degrees: float) -> Point:
 
 
 _READERS: dict[str, Callable[[Any], list[Curve] | None]] = {
-    "LINE": _line, "CIRCLE": _circle, "ARC": _arc, "ELLIPSE": _ellipse,
-    "LWPOLYLINE": _lwpolyline, "POLYLINE": _polyline, "SPLINE": _spline,
+    "LINE": _line,
+    "CIRCLE": _circle,
+    "ARC": _arc,
+    "ELLIPSE": _ellipse,
+    "LWPOLYLINE": _lwpolyline,
+    "POLYLINE": _polyline,
+    "SPLINE": _spline,
 }

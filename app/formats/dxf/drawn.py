@@ -1,4 +1,6 @@
-"""All curves that a DXF's space draws: its own, boundaries of hatches that are not drawn anyway, and letters, strokes last."""
+"""All curves that a DXF's space draws: its own, boundaries of hatches that are not drawn anyway, and letters, strokes
+last.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +15,14 @@ from .hatch import Hatch, apart
 
 @dataclass(frozen=True, slots=True)
 class AllDrawn:
-    """Curves in the order in which they are numbered, so that a drawing without texts and hatches is numbered as it ever was.
+    """Curves in the order in which they are numbered, so that a drawing without texts and hatches is numbered as it
+    ever was.
 
     Attributes:
         curves: (curve, layer), drawing units.
         strokes: so many of the last ones are strokes of letters.
-        boundaries: of hatches on layers that are machined; `repeated` of them lie on drawn curves and are none of these.
+        boundaries: of hatches on layers that are machined; `repeated` of them lie on drawn curves and are none of
+            these.
     """
 
     curves: tuple[tuple[Curve, str], ...]

@@ -39,24 +39,43 @@ from .layouts import PAPER, layout_named, paper
 from .load import load
 
 _NAMED_UNITS: dict[int, tuple[float, Units]] = {
-    1: (25.4, Units.INCH), 2: (304.8, Units.FOOT), 3: (1609344.0, Units.FOOT), 4: (1.0, Units.MM), 5: (10.0, Units.CM),
-    6: (1000.0, Units.M), 7: (1e6, Units.M), 8: (25.4e-6, Units.INCH), 9: (25.4e-3, Units.INCH), 10: (914.4, Units.FOOT),
-    11: (1e-7, Units.MICRON), 12: (1e-6, Units.MICRON), 13: (1e-3, Units.MICRON), 14: (100.0, Units.CM), 15: (1e4, Units.M),
-    16: (1e5, Units.M), 21: (1200 / 3937 * 1000, Units.FOOT), 22: (100 / 3937 * 1000, Units.INCH),
+    1: (25.4, Units.INCH),
+    2: (304.8, Units.FOOT),
+    3: (1609344.0, Units.FOOT),
+    4: (1.0, Units.MM),
+    5: (10.0, Units.CM),
+    6: (1000.0, Units.M),
+    7: (1e6, Units.M),
+    8: (25.4e-6, Units.INCH),
+    9: (25.4e-3, Units.INCH),
+    10: (914.4, Units.FOOT),
+    11: (1e-7, Units.MICRON),
+    12: (1e-6, Units.MICRON),
+    13: (1e-3, Units.MICRON),
+    14: (100.0, Units.CM),
+    15: (1e4, Units.M),
+    16: (1e5, Units.M),
+    21: (1200 / 3937 * 1000, Units.FOOT),
+    22: (100 / 3937 * 1000, Units.INCH),
     23: (3600 / 3937 * 1000, Units.FOOT),
 }
 """$INSUNITS codes: size in mm, and the nearest unit to show the drawing in."""
 
 
 def read_dxf(
-    data: bytes, name: str = "drawing.dxf", units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
-) -> Drawing:  # fmt: skip
+    data: bytes,
+    name: str = "drawing.dxf",
+    units: Units | None = None,
+    layers: tuple[str, ...] = (),
+    how: ReadOptions = AS_DRAWN,
+) -> Drawing:
     """Return the curves of a DXF's model space, or of one layout, in mm, and what was left out.
 
-    Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows. Texts are the
-    outlines of their letters, or strokes where their font is not here; boundaries of hatches are outlines, unless they lie on
-    curves that are drawn anyway. Dimensions, points, solids and paper space are counted, not read. Units come from $INSUNITS
-    alone ($MEASUREMENT only chooses hatch patterns); a drawing that names none is in `units`, or in mm.
+    Curves of inserted blocks are put in place, but for those inserted on frozen layers, which no CAD program shows.
+    Texts are the outlines of their letters, or strokes where their font is not here; boundaries of hatches are
+    outlines, unless they lie on curves that are drawn anyway. Dimensions, points, solids and paper space are counted,
+    not read. Units come from $INSUNITS alone ($MEASUREMENT only chooses hatch patterns); a drawing that names none is
+    in `units`, or in mm.
 
     Args:
         data: the whole file, ASCII or binary DXF, R12 or later.
@@ -84,18 +103,34 @@ def read_dxf(
     others = Counter() if how.layout else papers
     if not found.entities:
         raise UndecidedError(f"{name}: {_nothing(sheet, found, others)}", _asked(sheet, found, others, reading, unit))
-    part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(found.entities)
+    part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(
+        found.entities
+    )
     names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
     left_out = sheet.left_out + Counter({PAPER: others.total()})
     nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + found.nothing
-    findings = [*_unit_findings(units, unit), *about_commas(loaded.commas), *_damage(loaded.repaired), *about_place(found),
-                *about_negative(sheet, unit.size), *without_length(nothing), *_heights(sheet, unit.size), *about_hidden(sheet, unit.size),
-                *about_letterings([each for each in sheet.letterings if machined(each.layer)], unit.size), *about_hatches(drawn),
-                *switched_off(part, layers), *all_left_out(+left_out)]  # fmt: skip
+    findings = [
+        *_unit_findings(units, unit),
+        *about_commas(loaded.commas),
+        *_damage(loaded.repaired),
+        *about_place(found),
+        *about_negative(sheet, unit.size),
+        *without_length(nothing),
+        *_heights(sheet, unit.size),
+        *about_hidden(sheet, unit.size),
+        *about_letterings([each for each in sheet.letterings if machined(each.layer)], unit.size),
+        *about_hatches(drawn),
+        *switched_off(part, layers),
+        *all_left_out(+left_out),
+    ]
     contents = Contents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
-    question = strays_or_none(found, reading, placed) or (None if unit.named or units else about_units(unit.shown, size_of(part), reading))
-    return Drawing(part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question)
+    question = strays_or_none(found, reading, placed) or (
+        None if unit.named or units else about_units(unit.shown, size_of(part), reading)
+    )
+    return Drawing(
+        part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question
+    )
 
 
 def _asked(sheet: Sheet, found: Taken, others: Counter[str], reading: Reading, unit: _Unit) -> Question | None:
@@ -111,7 +146,9 @@ def _asked(sheet: Sheet, found: Taken, others: Counter[str], reading: Reading, u
 
 @dataclass(frozen=True)
 class _Unit:
-    """The drawing's unit: its size in mm, the unit to show, whether the file names it, and whether another one was said to hold."""
+    """The drawing's unit: its size in mm, the unit to show, whether the file names it, and whether another one was said
+    to hold.
+    """
 
     size: float
     shown: Units
@@ -143,7 +180,9 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
     wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer.dxf.name.casefold() for layer in document.layers if layer.is_off() or layer.is_frozen()}
-    return lambda layer: layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer.casefold() not in hidden)
+    return lambda layer: (
+        layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer.casefold() not in hidden)
+    )
 
 
 def _nothing(sheet: Sheet, found: Taken, others: Counter[str]) -> str:
@@ -151,26 +190,39 @@ def _nothing(sheet: Sheet, found: Taken, others: Counter[str]) -> str:
     left_out = sheet.left_out + found.missing + Counter({PAPER: others.total()})
     said = listed(+left_out, "; left out: ")
     if found.far and found.moved is None:
-        return f"all of the drawing lies beyond 1 km, at ({found.far[0][0][0]:.3f}, {found.far[0][0][1]:.3f}) mm; {MOVE}{said}."
+        return (
+            f"all of the drawing lies beyond 1 km, at ({found.far[0][0][0]:.3f}, {found.far[0][0][1]:.3f}) mm; "
+            f"{MOVE}{said}."
+        )
     if sheet.hidden:
         return f"the drawing has no curves that are shown. {' '.join(each.text for each in about_hidden(sheet, 1.0))}"
     if others:
         layout = others.most_common(1)[0][0]
-        return f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say --layout \"{layout}\"{said}."
+        return (
+            f"model space has no lines, arcs or curves to machine, but layout {layout} has something: say --layout "
+            f'"{layout}"{said}.'
+        )
     return f"the drawing has no lines, arcs or curves to machine{said}."
 
 
 def _spelled(document: Any, curves: Iterable[tuple[Curve, str]]) -> list[tuple[Curve, str]]:
-    """Return curves with layers as the table spells them; DXF tells no difference between capitals and small letters."""
+    """Return curves with layers as the table spells them; DXF tells no difference between capitals and small
+    letters.
+    """
     spelling = {layer.dxf.name.casefold(): layer.dxf.name for layer in document.layers}
     return [(curve, spelling.get(layer.casefold(), layer)) for curve, layer in curves]
 
 
 def _layers(document: Any, entities: tuple[Entity, ...]) -> tuple[Layer, ...]:
-    """Return the layers; the one for points of dimensions, which the library adds to every file, only where it has curves."""
+    """Return the layers; the one for points of dimensions, which the library adds to every file, only where it has
+    curves.
+    """
     used = {entity.layer for entity in entities}
-    found = [Layer(layer.dxf.name, _colour(layer), not (layer.is_off() or layer.is_frozen()), layer.is_locked())
-             for layer in document.layers if layer.dxf.name in used or layer.dxf.name.casefold() != "defpoints"]
+    found = [
+        Layer(layer.dxf.name, _colour(layer), not (layer.is_off() or layer.is_frozen()), layer.is_locked())
+        for layer in document.layers
+        if layer.dxf.name in used or layer.dxf.name.casefold() != "defpoints"
+    ]
     return tuple(found) or (Layer(),)
 
 
@@ -190,7 +242,10 @@ def _unit_findings(given: Units | None, unit: _Unit) -> Iterable[Finding]:
         text = f"The drawing names its own units, {unit.overruled.name.lower()}; it is read in {word}, as asked."
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
     elif not unit.named and given is None:
-        text = f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on opening."
+        text = (
+            f"The drawing names no units; {word} is assumed. If it is in inches, say --units in, or choose them on "
+            "opening."
+        )
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
     elif unit.named:
         yield from other_units(given, unit.shown)
@@ -205,4 +260,7 @@ def _damage(repaired: int) -> Iterable[Finding]:
 def _heights(sheet: Sheet, factor: float) -> Iterable[Finding]:
     low, high = (z * factor for z in sheet.heights)
     if high - low > tolerances.CURVE:
-        yield remark(f"The drawing is not flat, its Z runs from {low:g} to {high:g} mm; it is read as seen from above.", high - low)
+        yield remark(
+            f"The drawing is not flat, its Z runs from {low:g} to {high:g} mm; it is read as seen from above.",
+            high - low,
+        )

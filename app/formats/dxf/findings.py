@@ -1,4 +1,6 @@
-"""Sentences about what reading a DXF met: decimal commas, radii below 0, blocks that no CAD program shows, texts and hatches."""
+"""Sentences about what reading a DXF met: decimal commas, radii below 0, blocks that no CAD program shows, texts and
+hatches.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,10 @@ def about_commas(commas: Commas) -> Iterator[Finding]:
     """Say that decimal commas were read as points."""
     if commas.count:
         what = "1 number has a decimal comma" if commas.count == 1 else f"{commas.count} numbers have decimal commas"
-        yield remark(f"{what}, the first, {commas.value}, in line {commas.line}; they are read as decimal points.", float(commas.count))
+        yield remark(
+            f"{what}, the first, {commas.value}, in line {commas.line}; they are read as decimal points.",
+            float(commas.count),
+        )
 
 
 def about_negative(sheet: Sheet, size: float) -> Iterator[Finding]:
@@ -29,14 +34,23 @@ def about_negative(sheet: Sheet, size: float) -> Iterator[Finding]:
         first = sheet.negative[0]
         x, y, radius = first.at[0] * size, first.at[1] * size, first.radius * size
         count = len(sheet.negative)
-        what = "1 circle or arc has a radius below 0 and is" if count == 1 else f"{count} circles or arcs have a radius below 0 and are"
-        text = (f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round ({x:.3f}, {y:.3f}) "
-                f"on layer {first.layer}; draw it again.")
+        what = (
+            "1 circle or arc has a radius below 0 and is"
+            if count == 1
+            else f"{count} circles or arcs have a radius below 0 and are"
+        )
+        text = (
+            f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round ({x:.3f}, "
+            f"{y:.3f}) "
+            f"on layer {first.layer}; draw it again."
+        )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 
 
 def about_hidden(sheet: Sheet, size: float) -> Iterator[Finding]:
-    """Name the blocks that are inserted on frozen layers, a sentence a layer; `size` is that of the drawing's unit, mm."""
+    """Name the blocks that are inserted on frozen layers, a sentence a layer; `size` is that of the drawing's unit,
+    mm.
+    """
     for layer in dict.fromkeys(each.layer for each in sheet.hidden):
         yield _hidden([each for each in sheet.hidden if each.layer == layer], size)
 
@@ -51,8 +65,11 @@ def _hidden(inserts: list[Hidden], size: float) -> Finding:
     what = f"Block {named} is" if len(inserts) == 1 else f"{len(inserts)} blocks ({named}) are"
     wanted = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
-    return remark(f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
-                  f"Say {wanted} to machine them; in the window they are chosen in File, Reading options.", float(len(curves)))
+    return remark(
+        f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
+        f"Say {wanted} to machine them; in the window they are chosen in File, Reading options.",
+        float(len(curves)),
+    )
 
 
 def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Finding]:
@@ -63,27 +80,48 @@ def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Findin
     """
     if not texts:
         return
-    out = "leave them out with " + " ".join(f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in texts))
+    out = "leave them out with " + " ".join(
+        f"--skip-type {kind}" for kind in dict.fromkeys(each.kind for each in texts)
+    )
     counts = Counter(pair for each in texts for pair in each.fonts)
     fonts = ", ".join(f"{count} {_in_font(*pair)}" for pair, count in counts.most_common(_NAMED))
     more = f" and {len(counts) - _NAMED} more fonts" if len(counts) > _NAMED else ""
     what = "1 text is" if len(texts) == 1 else f"{len(texts)} texts are"
-    yield Finding(FindingKind.ASSUMED, f"{what} read as curves to machine: {fonts}{more}; {out}.", counts=False, amount=float(len(texts)))
+    yield Finding(
+        FindingKind.ASSUMED,
+        f"{what} read as curves to machine: {fonts}{more}; {out}.",
+        counts=False,
+        amount=float(len(texts)),
+    )
     short = [each for each in texts if each.lacking]
     if short:
         letters = list(dict.fromkeys(letter for each in short for letter in each.lacking))
         named = " ".join(letter if letter.isprintable() else f"U+{ord(letter):04X}" for letter in letters[:_LETTERS])
         rest = f" and {len(letters) - _LETTERS} more" if len(letters) > _LETTERS else ""
         x, y = short[0].at[0] * size, short[0].at[1] * size
-        where = f"the text at ({x:.3f}, {y:.3f})" if len(short) == 1 else f"{len(short)} texts, the first at ({x:.3f}, {y:.3f})"
-        yield Finding(FindingKind.LEFT_OUT, f"No font here has {named}{rest}, missing from {where} on layer {short[0].layer}; "
-                      f"install the drawing's font, or {out}.", x, y, amount=float(len(short)))
+        where = (
+            f"the text at ({x:.3f}, {y:.3f})"
+            if len(short) == 1
+            else f"{len(short)} texts, the first at ({x:.3f}, {y:.3f})"
+        )
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"No font here has {named}{rest}, missing from {where} on layer {short[0].layer}; "
+            f"install the drawing's font, or {out}.",
+            x,
+            y,
+            amount=float(len(short)),
+        )
 
 
 def _in_font(asked: str, drawn: str) -> str:
     if drawn:
         return f"in {drawn}"
-    return f"in the engraving face, for font {asked} is not installed here" if asked else "in the engraving face, for no font is named"
+    return (
+        f"in the engraving face, for font {asked} is not installed here"
+        if asked
+        else "in the engraving face, for no font is named"
+    )
 
 
 def about_hatches(drawn: AllDrawn) -> Iterator[Finding]:

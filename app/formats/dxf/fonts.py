@@ -76,14 +76,22 @@ class Fonts:
         if font is None:
             lacking = "".join(dict.fromkeys(letter for letter in words if letter not in strokes.glyphs))
             blank = Glyph((), strokes.glyphs[" "].advance)
-            return Set(replace(strokes, glyphs={**strokes.glyphs, **dict.fromkeys(lacking, blank)}), "", frozenset(words), lacking)
+            return Set(
+                replace(strokes, glyphs={**strokes.glyphs, **dict.fromkeys(lacking, blank)}),
+                "",
+                frozenset(words),
+                lacking,
+            )
         try:
             face, drawn = font.face(words, kerned=False), font.lacking(words)
         except InputError:  # a letter in it is damaged
             self._found[name] = None
             return self.of(name, words)
         factor = face.capital / strokes.capital
-        others = {letter: _larger(strokes.glyphs.get(letter, Glyph((), strokes.glyphs[" "].advance)), factor) for letter in drawn}
+        others = {
+            letter: _larger(strokes.glyphs.get(letter, Glyph((), strokes.glyphs[" "].advance)), factor)
+            for letter in drawn
+        }
         lacking = "".join(letter for letter in drawn if letter not in strokes.glyphs)
         return Set(replace(face, glyphs={**face.glyphs, **others}), font.name, frozenset(drawn), lacking)
 

@@ -38,7 +38,9 @@ class Hatch:
 
     def moved(self, to: Affine, layer: str = "") -> Hatch:
         """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
-        rings = (tuple(curve for each in ring if (curve := transformed(each, to)) is not None) for ring in self.boundaries)
+        rings = (
+            tuple(curve for each in ring if (curve := transformed(each, to)) is not None) for ring in self.boundaries
+        )
         return replace(self, boundaries=tuple(rings), layer=layer if layer and self.layer == "0" else self.layer)
 
 
@@ -52,7 +54,11 @@ def hatch_of(entity: Any) -> Hatch:
     layer, rings = entity.dxf.layer, []
     for path in entity.paths:
         if not path.path_type_flags & _OF_TEXT:
-            found = _ring(path) if path.type == _POLYLINE else [curve for edge in path.edges for curve in _edge(edge, layer)]
+            found = (
+                _ring(path)
+                if path.type == _POLYLINE
+                else [curve for edge in path.edges for curve in _edge(edge, layer)]
+            )
             rings.append(tuple(placed_in(entity, entity.dxf.elevation.z, found)))
     if not any(rings):
         raise NoLengthError(None)
@@ -67,14 +73,20 @@ def _ring(path: Any) -> list[Curve]:
 
 
 def _edge(edge: Any, layer: str) -> Iterator[Curve]:
-    """Yield the curve of an edge, if it has any length. Clockwise ones are counter-clockwise here: a ring has no direction."""
+    """Yield the curve of an edge, if it has any length. Clockwise ones are counter-clockwise here: a ring has no
+    direction.
+    """
     made: Curve | None
     if edge.type == _LINE:
         start, end = (float(edge.start.x), float(edge.start.y)), (float(edge.end.x), float(edge.end.y))
         made = Line(start, end) if start != end else None
     elif edge.type == _ARC:
         radius = float(edge.radius)
-        made = arc_of((float(edge.center.x), float(edge.center.y)), radius, edge.start_angle, edge.end_angle) if radius > 0 else None
+        made = (
+            arc_of((float(edge.center.x), float(edge.center.y)), radius, edge.start_angle, edge.end_angle)
+            if radius > 0
+            else None
+        )
     elif edge.type == _ELLIPSE:
         x, y = float(edge.major_axis.x), float(edge.major_axis.y)
         sweep = (edge.end_param - edge.start_param) % (2 * np.pi)
@@ -90,8 +102,9 @@ def _edge(edge: Any, layer: str) -> Iterator[Curve]:
 def apart(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], size: float) -> list[bool]:
     """Return for each boundary whether it bounds something that nothing drawn bounds.
 
-    One that lies on drawn curves all along, within the distance at which loose ends are joined, adds nothing: taken twice, the
-    two would be one outline that is drawn twice, or, where it is made of stretches of several, lines that overlap.
+    One that lies on drawn curves all along, within the distance at which loose ends are joined, adds nothing: taken
+    twice, the two would be one outline that is drawn twice, or, where it is made of stretches of several, lines that
+    overlap.
 
     Args:
         rings: boundaries, drawing units. drawn: curves that are machined, drawing units. size: of the unit, mm.

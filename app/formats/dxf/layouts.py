@@ -20,7 +20,10 @@ def layout_named(document: Any, layout: str, name: str) -> Any:
         return document.modelspace()
     known = {each.name.casefold(): each for each in document.layouts}
     if layout.casefold() not in known:
-        raise InputError(f"{name}: there is no layout {layout[:60]}; the drawing has {', '.join(each.name for each in known.values())}.")
+        raise InputError(
+            f"{name}: there is no layout {layout[:60]}; the drawing has "
+            f"{', '.join(each.name for each in known.values())}."
+        )
     return known[layout.casefold()]
 
 

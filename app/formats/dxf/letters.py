@@ -1,4 +1,6 @@
-"""Words to curves: a run of letters of one look, set on a baseline along X, and what all the runs of a text entity are together."""
+"""Words to curves: a run of letters of one look, set on a baseline along X, and what all the runs of a text entity are
+together.
+"""
 
 from __future__ import annotations
 
@@ -69,8 +71,13 @@ class Lettering:
     def moved(self, to: Affine, layer: str = "") -> Lettering:
         """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
         strokes, outlines = (tuple(_moved(curves, to)) for curves in (self.strokes, self.outlines))
-        return replace(self, strokes=strokes, outlines=outlines, at=to.point(self.at),
-                       layer=layer if layer and self.layer == "0" else self.layer)
+        return replace(
+            self,
+            strokes=strokes,
+            outlines=outlines,
+            at=to.point(self.at),
+            layer=layer if layer and self.layer == "0" else self.layer,
+        )
 
 
 def _moved(curves: Iterable[Curve], to: Affine) -> Iterator[Curve]:
@@ -113,7 +120,9 @@ class Run:
         unit, lean = self.unit, math.tan(math.radians(self.look.oblique))
         for letter, along in zip(self.words, self._along(), strict=False):
             to = Affine(unit * self.look.width, unit * lean, 0.0, unit, x + along, y)
-            yield from ((curve, letter in self.letters.strokes) for curve in _moved(self.letters.face.glyphs[letter].curves, to))
+            yield from (
+                (curve, letter in self.letters.strokes) for curve in _moved(self.letters.face.glyphs[letter].curves, to)
+            )
         for bar in self.look.bars:
             at = y + bar.value * self.look.height
             yield from bar_curves((x + lean * (at - y), at), self.ink, self.look.height, not self.letters.font)

@@ -24,7 +24,9 @@ class _NeverRaisedError(Exception):
 
 
 def load_ezdxf() -> None:
-    """Import the library, the whole before its parts: else, while another thread imports it too, parts are found half made."""
+    """Import the library, the whole before its parts: else, while another thread imports it too, parts are found half
+    made.
+    """
     if "ezdxf" in sys.modules or _GRAMMAR in sys.modules:
         import_module("ezdxf")
         return

@@ -23,7 +23,9 @@ logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it has to s
 _HEAD, _TAIL = 1 << 16, 1 << 12
 MOST_BYTES = 200 << 20
 """A larger file would take gigabytes before anything of it is known."""
-_ENDLESS = re.compile(rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE)
+_ENDLESS = re.compile(
+    rb"^[ \t]*0[ \t]*\r?\n(SPLINE|LWPOLYLINE)[ \t]*\r?\n(?:[ \t]*[1-9]\d*[ \t]*\r?\n[^\n]*+\n)*+", re.MULTILINE
+)
 _POINT = re.compile(rb"^[ \t]*1([01])[ \t]*\r?\n[^\n]*\n[ \t]*2[01][ \t]*\r?\n", re.MULTILINE)
 _SUSPECT = 1 << 20
 """Bytes of an entity; a shorter one has not too many points."""
@@ -71,8 +73,9 @@ def load(data: bytes, name: str) -> Loaded:
         document, auditor = recover.read(io.BytesIO(data))
         _probed(document)
     except Exception as error:  # a third-party parser on any bytes at all: its faults must not reach the user raw
-        raise InputError(f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); "
-                         "save it again from the CAD program.") from error
+        raise InputError(
+            f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program."
+        ) from error
     return Loaded(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
 
 
@@ -80,15 +83,22 @@ def _refuse_others(data: bytes, name: str) -> None:
     if not data.strip():
         raise InputError(f"{name}: the file is empty; export the drawing again.")
     if len(data) > MOST_BYTES:
-        raise InputError(f"{name}: the file has {len(data) >> 20} MB, more than {MOST_BYTES >> 20}; save the drawing in parts.")
+        raise InputError(
+            f"{name}: the file has {len(data) >> 20} MB, more than {MOST_BYTES >> 20}; save the drawing in parts."
+        )
     if data.startswith(_BINARY):
         return
     if re.match(rb"AC10\d\d\x00", data):
         raise InputError(f"{name}: this is a DWG file; save the drawing as DXF.")
     if not _SECTION.search(data[:_HEAD]):
-        raise InputError(f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary).")
+        raise InputError(
+            f"{name}: this is not a DXF file, no section begins in it; export the drawing as DXF (ASCII or binary)."
+        )
     if b"EOF" not in data[-_TAIL:]:
-        raise InputError(f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it again.")
+        raise InputError(
+            f"{name}: the DXF is cut short, its end mark EOF is missing after {len(data)} bytes; copy or export it "
+            "again."
+        )
     _refuse_endless_curves(data, name)
 
 
@@ -125,7 +135,9 @@ def _load_sound(data: bytes) -> Any:
 
 
 def _probed(document: Any) -> Any:
-    """Return a document whose tables and layouts can be walked; the library loads some that fall apart when they are looked at."""
+    """Return a document whose tables and layouts can be walked; the library loads some that fall apart when they are
+    looked at.
+    """
     for layout in document.layouts:
         _ = layout.name, layout.is_modelspace, sum(1 for _ in layout)
     for layer in document.layers:

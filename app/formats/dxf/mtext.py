@@ -29,8 +29,8 @@ _EXACT = 2
 def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
     """Return what an MTEXT draws, drawing units, seen from above.
 
-    Lines break where the text says so, and between words where they would be wider than its width. Centred and right tabulators
-    are taken as left ones, justified lines as begun on the left.
+    Lines break where the text says so, and between words where they would be wider than its width. Centred and right
+    tabulators are taken as left ones, justified lines as begun on the left.
 
     Raises:
         NoLengthError: its height is none.
@@ -46,8 +46,12 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
         raise LeftOutError(f"MTEXT (of more than {MOST_LETTERS} letters)")
     if not dxf.char_height > 0:
         raise NoLengthError(at)
-    first = Look(style_font(style), float(dxf.char_height), float(style.dxf.width if style else 1.0),
-                 float(style.dxf.oblique if style else 0.0))  # fmt: skip
+    first = Look(
+        style_font(style),
+        float(dxf.char_height),
+        float(style.dxf.width if style else 1.0),
+        float(style.dxf.oblique if style else 0.0),
+    )
     page = _Page(fonts, first, float(dxf.get("width", 0.0) or 0.0), int(dxf.attachment_point))
     page.fill(entity.text)
     page.set_lines(float(dxf.line_spacing_factor), dxf.line_spacing_style == _EXACT)
@@ -166,27 +170,44 @@ class _Page:
         if face is not styled and face != styled:
             named = face.family
             as_file = "." in named
-            font = FontName(named if as_file else "", "" if as_file else named, face.weight >= 600, "italic" in face.style.lower())
+            font = FontName(
+                named if as_file else "", "" if as_file else named, face.weight >= 600, "italic" in face.style.lower()
+            )
         flags = ((Bar.UNDER, context.underline), (Bar.OVER, context.overline), (Bar.THROUGH, context.strike_through))
-        return Look(font, context.cap_height or self._look.height, context.width_factor or 1.0, context.oblique,
-                    context.char_tracking_factor or 1.0, frozenset(bar for bar, wanted in flags if wanted))  # fmt: skip
+        return Look(
+            font,
+            context.cap_height or self._look.height,
+            context.width_factor or 1.0,
+            context.oblique,
+            context.char_tracking_factor or 1.0,
+            frozenset(bar for bar, wanted in flags if wanted),
+        )
 
     def _box(self, words: str, look: Look, lift: float = 0.0) -> _Box:
         run = run_of(words, look, self._fonts)
         return _Box(((run, 0.0, 0.0),), run.advance, run.ink, look, lift)
 
     def _fraction(self, data: tuple[str, str, str], look: Look) -> _Box:
-        """Return a fraction: one row over the other, about the middle of the capitals beside it, or both beside a stroke."""
+        """Return a fraction: one row over the other, about the middle of the capitals beside it, or both beside a
+        stroke.
+        """
         upper, lower, sort = data
         small = replace(look, height=look.height * _STACKED)
         over, under = (run_of(legible(numbered_signs(words)).strip(), small, self._fonts) for words in (upper, lower))
         if sort == "#" or not sort:
             slash = run_of("/" if sort else "", look, self._fonts)
-            rows = ((over, 0.0, look.height - small.height), (slash, over.advance, 0.0), (under, over.advance + slash.advance, 0.0))
+            rows = (
+                (over, 0.0, look.height - small.height),
+                (slash, over.advance, 0.0),
+                (under, over.advance + slash.advance, 0.0),
+            )
             return _Box(rows, sum(run.advance for run, _, _ in rows), over.advance + slash.advance + under.ink, look)
         ink, gap = max(over.ink, under.ink), look.height * _BETWEEN / 2
         middle = look.height / 2
-        rows2 = ((over, (ink - over.ink) / 2, middle + gap), (under, (ink - under.ink) / 2, middle - gap - small.height))
+        rows2 = (
+            (over, (ink - over.ink) / 2, middle + gap),
+            (under, (ink - under.ink) / 2, middle - gap - small.height),
+        )
         return _Box(rows2, max(over.advance, under.advance), ink, look, bar=sort == "/")
 
     def _space(self, kind: Any, look: Look, context: Any) -> None:
@@ -233,7 +254,9 @@ class _Page:
         return self._line(context) if self._fresh else self.lines[-1]
 
     def _line(self, context: Any, follows: bool = False) -> _Line:
-        """Return a new line: the first of a paragraph, unless it `follows` one that is full or the paragraph has one already."""
+        """Return a new line: the first of a paragraph, unless it `follows` one that is full or the paragraph has one
+        already.
+        """
         if not self._fresh and not follows:
             return self.lines[-1]
         wanted, unit = context.paragraph, self._look.height
@@ -261,8 +284,11 @@ class _Page:
 
     def curves(self) -> Iterator[tuple[Curve, bool]]:
         """Yield the curves of all lines, and whether each is a stroke."""
-        return joined.from_iterable(box.curves(line.x + at, line.y + box.lift * (line.height - box.look.height))
-                                    for line in self.lines for box, at in line.boxes)  # fmt: skip
+        return joined.from_iterable(
+            box.curves(line.x + at, line.y + box.lift * (line.height - box.look.height))
+            for line in self.lines
+            for box, at in line.boxes
+        )
 
 
 def _lift(context: Any) -> float:

@@ -1,7 +1,8 @@
-"""Numbers in the text of a DXF that are none for a parser: decimal commas are read as points, anything else is refused by line.
+"""Numbers in the text of a DXF that are none for a parser: decimal commas are read as points, anything else is refused
+by line.
 
-A reader that repairs files takes such numbers up to the first letter that it does not know, so that 40,9 becomes 40: a part of the
-wrong size. So they are looked at before.
+A reader that repairs files takes such numbers up to the first letter that it does not know, so that 40,9 becomes 40: a
+part of the wrong size. So they are looked at before.
 """
 
 from __future__ import annotations
@@ -59,12 +60,17 @@ def with_points(data: bytes, name: str) -> Commas:
             commas.append(number)
             doubtful = doubtful or (number + 1 if _THOUSANDS.match(value) else 0)
         elif code in _COORDINATES and not _is_number(value):
-            raise InputError(f"{name}:{number + 1}: the value {_shown(value)} is no number, so what is drawn there is not known; "
-                             "save the drawing again from the CAD program.")  # fmt: skip
+            raise InputError(
+                f"{name}:{number + 1}: the value {_shown(value)} is no number, so what is drawn there is not known; "
+                "save the drawing again from the CAD program."
+            )
         points |= b"." in value
     if doubtful and points and all(_THOUSANDS.match(lines[k]) for k in commas):
-        raise InputError(f"{name}:{doubtful}: the value {_shown(lines[doubtful - 1])} has a comma and others have points, so it may be "
-                         "thousands or a fraction; save the drawing again with points as decimal signs.")
+        raise InputError(
+            f"{name}:{doubtful}: the value {_shown(lines[doubtful - 1])} has a comma and others have points, so it may "
+            "be "
+            "thousands or a fraction; save the drawing again with points as decimal signs."
+        )
     if not commas:
         return Commas(data)
     first, value = commas[0] + 1, _shown(lines[commas[0]])
@@ -74,7 +80,9 @@ def with_points(data: bytes, name: str) -> Commas:
 
 
 def _values(lines: list[bytes]) -> Iterator[tuple[int, int]]:
-    """Yield index and group code, 0 in what is not drawn, of the lines that hold numbers; to where codes and values lose their step."""
+    """Yield index and group code, 0 in what is not drawn, of the lines that hold numbers; to where codes and values
+    lose their step.
+    """
     section = entity = b""
     for number in range(1, len(lines), 2):
         try:

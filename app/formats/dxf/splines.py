@@ -80,12 +80,21 @@ def too_many(count: int, most: int = MOST_POINTS, what: str = "spline") -> str:
 
 def _sound(points: list[tuple[float, float]], knots: list[float], weights: list[float], degree: int) -> bool:
     numbers = [v for p in points for v in p] + knots + weights
-    return (degree >= 1 and len(points) > degree and len(knots) == len(points) + degree + 1 and len(weights) == len(points)
-            and all(map(math.isfinite, numbers)) and all(w > 0 for w in weights)
-            and all(a <= b for a, b in pairwise(knots)) and knots[degree] < knots[len(points)])
+    return (
+        degree >= 1
+        and len(points) > degree
+        and len(knots) == len(points) + degree + 1
+        and len(weights) == len(points)
+        and all(map(math.isfinite, numbers))
+        and all(w > 0 for w in weights)
+        and all(a <= b for a, b in pairwise(knots))
+        and knots[degree] < knots[len(points)]
+    )
 
 
-def _clamped_start(control: list[Homogeneous], knots: list[float], degree: int) -> tuple[list[Homogeneous], list[float]]:
+def _clamped_start(
+    control: list[Homogeneous], knots: list[float], degree: int
+) -> tuple[list[Homogeneous], list[float]]:
     """Return the same spline from the first knot of its range on, with that knot repeated degree + 1 times.
 
     References:
@@ -96,7 +105,10 @@ def _clamped_start(control: list[Homogeneous], knots: list[float], degree: int) 
         k = max(i for i, knot in enumerate(knots) if knot == at)
         low = [knots[i] for i in range(k - degree + 1, k + 1)]
         shares = [(at - a) / (b - a) if b > a else 0.0 for a, b in zip(low, knots[k + 1 : k + degree + 1], strict=True)]
-        mixed = [_mix(control[i - 1], control[i], share) for i, share in zip(range(k - degree + 1, k + 1), shares, strict=True)]
+        mixed = [
+            _mix(control[i - 1], control[i], share)
+            for i, share in zip(range(k - degree + 1, k + 1), shares, strict=True)
+        ]
         control = [*control[: k - degree + 1], *mixed, *control[k:]]
         knots = [*knots[: k + 1], at, *knots[k + 1 :]]
     last = max(i for i, knot in enumerate(knots) if knot == at)

@@ -1,4 +1,6 @@
-"""TEXT, and the attributes of inserted blocks, to curves: one line of letters, aligned, stretched, leaning, mirrored as the entity says."""
+"""TEXT, and the attributes of inserted blocks, to curves: one line of letters, aligned, stretched, leaning, mirrored as
+the entity says.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,9 @@ def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
     stretched = place.stretched(runs)
     to = plane_of(entity, dxf.insert.z).after(_frame(place, stretched, int(dxf.text_generation_flag)))
     starts = _starts(stretched)
-    made = lettered((pair for run, x in zip(stretched, starts, strict=True) for pair in run.curves(x, 0.0)), stretched, to)
+    made = lettered(
+        (pair for run, x in zip(stretched, starts, strict=True) for pair in run.curves(x, 0.0)), stretched, to
+    )
     return replace(made, layer=dxf.layer, kind=kind, at=plane_of(entity, dxf.insert.z).point(place.at))
 
 
@@ -53,7 +57,8 @@ class _Place:
 
     Attributes:
         at: the point that it is aligned to. turn: of its baseline, radians.
-        across: _LEFT, _CENTRE or _RIGHT of it, or stretched as _ALIGNED or _FIT. up: what lies at its height, as of DXF, or _MIDDLE.
+        across: _LEFT, _CENTRE or _RIGHT of it, or stretched as _ALIGNED or _FIT. up: what lies at its height, as of
+            DXF, or _MIDDLE.
         length: to which it is stretched, 0 = not.
     """
 
@@ -82,8 +87,15 @@ class _Place:
         if not self.length or not ink:
             return runs
         factor = self.length / ink
-        return [replace(run, look=replace(run.look, width=run.look.width * factor) if self.across == _FIT else
-                        replace(run.look, height=run.look.height * factor)) for run in runs]  # fmt: skip
+        return [
+            replace(
+                run,
+                look=replace(run.look, width=run.look.width * factor)
+                if self.across == _FIT
+                else replace(run.look, height=run.look.height * factor),
+            )
+            for run in runs
+        ]
 
 
 def _starts(runs: list[Run]) -> list[float]:

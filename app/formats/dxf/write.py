@@ -47,10 +47,10 @@ _INK = 7
 def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: float = tolerances.CURVE) -> Written:
     """Return the part as a DXF text file.
 
-    All curves are kept to rounding, but for R12, which has neither ellipses nor splines: there each becomes one polyline
-    of lines and arcs within `tolerance`, mm. Arcs, circles and ellipses run counter-clockwise, as DXF has it. Coordinates
-    are in the part's units, which the header names; R12 cannot name units and is in mm. Colours are exact since R2004, the
-    nearest of AutoCAD's index before. Names that the version forbids are changed, and listed.
+    All curves are kept to rounding, but for R12, which has neither ellipses nor splines: there each becomes one
+    polyline of lines and arcs within `tolerance`, mm. Arcs, circles and ellipses run counter-clockwise, as DXF has it.
+    Coordinates are in the part's units, which the header names; R12 cannot name units and is in mm. Colours are exact
+    since R2004, the nearest of AutoCAD's index before. Names that the version forbids are changed, and listed.
 
     Raises:
         GeometryError: a curve cannot be followed in R12.
@@ -135,7 +135,9 @@ class _Pen:
         elif self._old:
             self._converted(curve, where)
         elif isinstance(curve, Ellipse):
-            self._space.add_ellipse(curve.centre, curve.major, curve.ratio, curve.start_parameter, curve.end_parameter, where)
+            self._space.add_ellipse(
+                curve.centre, curve.major, curve.ratio, curve.start_parameter, curve.end_parameter, where
+            )
         else:
             spline = self._space.add_spline(degree=curve.degree, dxfattribs=where)
             spline.control_points, spline.knots = [(*p, 0.0) for p in curve.control_points], curve.knots
@@ -161,8 +163,9 @@ class _Pen:
 
     def _polyline(self, chain: list[Line | Arc], where: dict[str, str]) -> None:
         """Add lines and arcs that follow one another as one polyline."""
-        vertices: list[tuple[float, float, float]] = [(*piece.start, math.tan(piece.sweep / 4) if isinstance(piece, Arc) else 0.0)
-                                                      for piece in chain]
+        vertices: list[tuple[float, float, float]] = [
+            (*piece.start, math.tan(piece.sweep / 4) if isinstance(piece, Arc) else 0.0) for piece in chain
+        ]
         closed = chain[-1].end == chain[0].start
         vertices += [] if closed else [(*chain[-1].end, 0.0)]
         add = self._space.add_polyline2d if self._old else self._space.add_lwpolyline
@@ -183,4 +186,3 @@ def _text(document: Any) -> bytes:
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue().encode(document.output_encoding, "dxfreplace")
-

@@ -10,8 +10,13 @@ from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
 from .tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
 
 _READERS: dict[Unit, Callable[[Any], Any]] = {
-    Unit.LENGTH: read_number, Unit.ANGLE: read_angle, Unit.SHARE: read_share, Unit.COUNT: read_whole, Unit.FLAG: read_flag,
-    Unit.NAMES: read_texts, Unit.POINTS: read_points,
+    Unit.LENGTH: read_number,
+    Unit.ANGLE: read_angle,
+    Unit.SHARE: read_share,
+    Unit.COUNT: read_whole,
+    Unit.FLAG: read_flag,
+    Unit.NAMES: read_texts,
+    Unit.POINTS: read_points,
 }
 
 
@@ -53,8 +58,11 @@ def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, 
     known = {"kind", *(declared_of(kind) if kept else parameters_of(kind))}
     for key in given:
         if key not in known:
-            raise table.error(key, f"belongs to {_listed([each.WORD for each in parameters()[key][1]])} operations; "
-                                   f"remove it from this {kind.WORD} operation")
+            raise table.error(
+                key,
+                f"belongs to {_listed([each.WORD for each in parameters()[key][1]])} operations; "
+                f"remove it from this {kind.WORD} operation",
+            )
 
 
 def _refuse_idle_values(table: Table, operation: Operation, given: tuple[str, ...]) -> None:

@@ -39,7 +39,11 @@ class JobText:
                 count += current == path
                 if current == path and count == index:
                     header = number
-            elif current == path and (not path or count == index) and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=", text):
+            elif (
+                current == path
+                and (not path or count == index)
+                and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=", text)
+            ):
                 return number
         return header if path else next((n for n, text in enumerate(self.lines, 1) if key in text), 1)
 
@@ -86,7 +90,9 @@ class Table:
     def done(self, known: str) -> None:
         """Complain about keys that nobody took."""
         for key in self.values:
-            raise self.error(key, f"is no key of [{self.path or 'the file'}]; use {known_words(key, known.split(', '))}")
+            raise self.error(
+                key, f"is no key of [{self.path or 'the file'}]; use {known_words(key, known.split(', '))}"
+            )
 
 
 def _shown(value: object) -> str:
@@ -205,9 +211,14 @@ def read_feeds(value: Any) -> tuple[FeedRow, ...]:
         InputError: they are none. ParameterError: a value is out of its range.
     """
     known: dict[str, Callable[[Any], Any]] = {
-        "material": read_text, "surface_speed": read_number, "feed_per_tooth": read_number, "plunge_share": read_number,
+        "material": read_text,
+        "surface_speed": read_number,
+        "feed_per_tooth": read_number,
+        "plunge_share": read_number,
     }
-    if not isinstance(value, list) or not all(isinstance(row, dict) and {*tuple(known)[:3]} <= row.keys() <= known.keys() for row in value):
+    if not isinstance(value, list) or not all(
+        isinstance(row, dict) and {*tuple(known)[:3]} <= row.keys() <= known.keys() for row in value
+    ):
         raise InputError(f"write [[tool.feeds]] before each row, and below it {', '.join(known)}")
     return tuple(FeedRow(**{key: known[key](item) for key, item in row.items()}) for row in value)
 

@@ -29,22 +29,44 @@ from .tables import (
     word,
 )
 
-UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH, "cm": Units.CM, "m": Units.M, "ft": Units.FOOT, "um": Units.MICRON}
+UNITS = {
+    "mm": Units.MM,
+    "in": Units.INCH,
+    "inch": Units.INCH,
+    "cm": Units.CM,
+    "m": Units.M,
+    "ft": Units.FOOT,
+    "um": Units.MICRON,
+}
 OUT_UNITS = {"mm": Units.MM, "in": Units.INCH, "inch": Units.INCH}
-ORIGIN_XY = {"drawing": OriginXY.DRAWING, "lower-left": OriginXY.LOWER_LEFT, "centre": OriginXY.CENTRE, "center": OriginXY.CENTRE}
+ORIGIN_XY = {
+    "drawing": OriginXY.DRAWING,
+    "lower-left": OriginXY.LOWER_LEFT,
+    "centre": OriginXY.CENTRE,
+    "center": OriginXY.CENTRE,
+}
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
 TABLES = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "tool", "operation")
 _LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "length_offset")
 TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
-    "number": read_whole, "diameter": read_number, "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
-    "name": read_text, "flutes": read_whole,
+    "number": read_whole,
+    "diameter": read_number,
+    "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
+    "name": read_text,
+    "flutes": read_whole,
     **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
-    "tip_angle": read_angle, **dict.fromkeys(_LENGTHS, read_number), "holder": read_holder, "remark": read_text, "feeds": read_feeds,
+    "tip_angle": read_angle,
+    **dict.fromkeys(_LENGTHS, read_number),
+    "holder": read_holder,
+    "remark": read_text,
+    "feeds": read_feeds,
 }
 """Keys of a [[tool]], and how each is read."""
 
-ORIGIN_HELP = ("work origin: drawing (its own zero, default), lower-left or centre (of the stock); "
-               "add ,bottom for Z 0 at the stock's underside rather than its top, such as centre,bottom")
+ORIGIN_HELP = (
+    "work origin: drawing (its own zero, default), lower-left or centre (of the stock); "
+    "add ,bottom for Z 0 at the stock's underside rather than its top, such as centre,bottom"
+)
 
 
 def read_units(text: str) -> Units:
@@ -71,7 +93,9 @@ def parse_origin(text: str) -> tuple[OriginXY | None, OriginZ | None]:
         elif said.strip().lower() in ORIGIN_XY and xy is None:
             xy = one_of(said, ORIGIN_XY, "origin in the plane")
         else:
-            raise InputError(f"'{text}' is no origin; use one of drawing, lower-left, centre, and then ,top or ,bottom if need be")
+            raise InputError(
+                f"'{text}' is no origin; use one of drawing, lower-left, centre, and then ,top or ,bottom if need be"
+            )
     return xy, z
 
 
@@ -116,7 +140,9 @@ def job_tree(name: str, data: bytes, sample: str) -> tuple[JobText, dict[str, An
     except UnicodeDecodeError as error:
         raise InputError(f"{name}: byte {error.start} is no UTF-8; save the file as UTF-8 text") from error
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{name}:{with_line(brief(str(error)), text)}; correct it as resources/samples/{sample} shows") from error
+        raise InputError(
+            f"{name}:{with_line(brief(str(error)), text)}; correct it as resources/samples/{sample} shows"
+        ) from error
     return JobText(name, tuple(text.splitlines())), tree
 
 
@@ -150,7 +176,9 @@ class _Reader:
     """Reads the tables of one file; every error names the line."""
 
     def __init__(self, text: JobText, tree: dict[str, Any], kept: bool = False) -> None:
-        """Begin with a file's tables; `kept`: as the program keeps them, also where they have no effect or lack something."""
+        """Begin with a file's tables; `kept`: as the program keeps them, also where they have no effect or lack
+        something.
+        """
         self._text, self._tree, self._kept = text, tree, kept
 
     def _wrong(self, table: str, text: str) -> InputError:
@@ -176,7 +204,9 @@ class _Reader:
         values: dict[str, Any] = {**self._origin(), **self._heights(), **self._output()}
         drawing = self._drawing()
         units = drawing.pop("units", None)
-        job = self._text.built("stock", 0, lambda: replace(Job(Part()), **values, **drawing, **self._stock(), **self._keep_out()))
+        job = self._text.built(
+            "stock", 0, lambda: replace(Job(Part()), **values, **drawing, **self._stock(), **self._keep_out())
+        )
         tools, operations = self._tool_list(), tuple(operations_of(self._tables("operation"), self._kept))
         tools = tools if "tool" in self._tree and (tools or self._kept) else job.tools
         operations = operations if "operation" in self._tree and (operations or self._kept) else job.operations

@@ -30,8 +30,15 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
     yield from _table("heights", {"safe_z": job.safe_z, "retract_z": job.retract_z})
     drawing = {"units": word_of(UNITS, units)} if units else {}
     yield from _table("drawing", {**drawing, "layers": job.layer_names, "join_tolerance": job.join_tolerance})
-    yield from _table("output", {"post": job.post, "units": word_of(OUT_UNITS, job.out_units), "order": job.order,
-                                 "exact_path": job.exact_path})  # fmt: skip
+    yield from _table(
+        "output",
+        {
+            "post": job.post,
+            "units": word_of(OUT_UNITS, job.out_units),
+            "order": job.order,
+            "exact_path": job.exact_path,
+        },
+    )
     copies = job.copies
     yield from _table("copies", {"columns": copies.columns, "rows": copies.rows, "dx": copies.dx, "dy": copies.dy})
     yield from _table("keep_out", {"layers": job.keep_out_layers, "height": job.keep_out_height})
@@ -63,12 +70,36 @@ def word_of(words: Mapping[str, Value], meant: Value) -> str:
 def tool_lines(tool: Tool) -> Iterator[str]:
     """Yield the lines of a [[tool]]."""
     usual = Tool(tool.number, tool.diameter)
-    always = {"number", "diameter", "kind", "name", "flutes", "spindle_speed", "feed_rate", "plunge_rate", *shape_keys(tool.kind)}
-    keys: Iterable[str] = (key for key in TOOL_KEYS if key != "feeds" and (key in always or getattr(tool, key) != getattr(usual, key)))
-    yield from _table("tool", {key: angle_said(tool.tip_angle) if key == "tip_angle" else getattr(tool, key) for key in keys}, several=True)
+    always = {
+        "number",
+        "diameter",
+        "kind",
+        "name",
+        "flutes",
+        "spindle_speed",
+        "feed_rate",
+        "plunge_rate",
+        *shape_keys(tool.kind),
+    }
+    keys: Iterable[str] = (
+        key for key in TOOL_KEYS if key != "feeds" and (key in always or getattr(tool, key) != getattr(usual, key))
+    )
+    yield from _table(
+        "tool",
+        {key: angle_said(tool.tip_angle) if key == "tip_angle" else getattr(tool, key) for key in keys},
+        several=True,
+    )
     for row in tool.feeds:
-        yield from _table("tool.feeds", {"material": row.material, "surface_speed": row.surface_speed,
-                                         "feed_per_tooth": row.feed_per_tooth, "plunge_share": row.plunge_share}, several=True)
+        yield from _table(
+            "tool.feeds",
+            {
+                "material": row.material,
+                "surface_speed": row.surface_speed,
+                "feed_per_tooth": row.feed_per_tooth,
+                "plunge_share": row.plunge_share,
+            },
+            several=True,
+        )
 
 
 def _operation(operation: Operation) -> Iterator[tuple[str, Any]]:

@@ -1,4 +1,6 @@
-"""What of a part and its tool paths goes on paper: curves by layer, dimensions at a readable size, paths by tool and purpose."""
+"""What of a part and its tool paths goes on paper: curves by layer, dimensions at a readable size, paths by tool and
+purpose.
+"""
 
 from __future__ import annotations
 
@@ -108,7 +110,11 @@ class Shown:
         dashed = np.isin(moves.purpose, _DASHED)
         for at, tool in enumerate(tools):
             colour = INK if self.black else TOOL_COLOURS[at % len(TOOL_COLOURS)]
-            for which, width, dash in ((links, LINK_MM, ()), (~links & ~dashed, PATH_MM, ()), (dashed, PATH_MM, CONTOUR_DASH)):
+            for which, width, dash in (
+                (links, LINK_MM, ()),
+                (~links & ~dashed, PATH_MM, ()),
+                (dashed, PATH_MM, CONTOUR_DASH),
+            ):
                 rows = np.flatnonzero(which & (moves.tool == tool) & (moves.kind != MoveKind.RAPID))
                 curves = tuple(_curves(moves, rows))
                 if curves:
@@ -118,7 +124,9 @@ class Shown:
 def _curves(moves: Moves, rows: np.ndarray) -> Iterator[Curve]:
     """Yield the curves of some moves seen from above; those straight up and down are points and left out."""
     starts, ends, centres, kinds = moves.start[rows, :2], moves.end[rows, :2], moves.centre[rows], moves.kind[rows]
-    for (ax, ay), (bx, by), (cx, cy), kind in zip(starts.tolist(), ends.tolist(), centres.tolist(), kinds.tolist(), strict=True):
+    for (ax, ay), (bx, by), (cx, cy), kind in zip(
+        starts.tolist(), ends.tolist(), centres.tolist(), kinds.tolist(), strict=True
+    ):
         start, end, centre = (ax, ay), (bx, by), (cx, cy)
         if kind >= MoveKind.ARC_CW:
             yield from _round(start, end, centre, kind == MoveKind.ARC_CCW)

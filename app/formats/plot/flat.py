@@ -1,4 +1,6 @@
-"""A sheet as nothing but polylines on paper, letters too: for formats that are written without Qt, its painter and its fonts."""
+"""A sheet as nothing but polylines on paper, letters too: for formats that are written without Qt, its painter and its
+fonts.
+"""
 
 from __future__ import annotations
 
@@ -96,7 +98,9 @@ def dashes(points: Floats, pattern: Sequence[float]) -> Iterator[Floats]:
     first, last = (starts + marks[:-1:2]).ravel(), np.minimum((starts + marks[1::2]).ravel(), along[-1])
     drawn = first < along[-1]
     first, last = first[drawn], last[drawn]
-    begins, ends = (np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1) for at in (first, last))
+    begins, ends = (
+        np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1) for at in (first, last)
+    )
     rows = zip(begins, ends, np.searchsorted(along, first, "right"), np.searchsorted(along, last, "left"), strict=True)
     for begin, end, low, high in rows:
         yield np.concatenate([begin[None], points[low:high], end[None]])

@@ -1,4 +1,6 @@
-"""A field of heights as a picture from above, PNG: lit from the north-west, coloured by depth, gouges red, metal left blue."""
+"""A field of heights as a picture from above, PNG: lit from the north-west, coloured by depth, gouges red, metal left
+blue.
+"""
 
 from __future__ import annotations
 
@@ -86,7 +88,10 @@ def _colours(heights: Shades, image: HeightImage) -> Pixels:
     """Return (rows, cols, 3) the colour of each depth."""
     depth = max(image.top - _deepest(image), 1e-9)
     place = np.clip((image.top - heights) * np.float32(255.0 / depth), 0, 255).astype(np.uint8)
-    table = np.stack([np.interp(np.linspace(0, len(RAMP) - 1, 256), range(len(RAMP)), [c[k] for c in RAMP]) for k in range(3)], axis=1)
+    table = np.stack(
+        [np.interp(np.linspace(0, len(RAMP) - 1, 256), range(len(RAMP)), [c[k] for c in RAMP]) for k in range(3)],
+        axis=1,
+    )
     colours = np.asarray(cv2.LUT(cv2.merge([place] * 3), table.round().astype(np.uint8)[None]), np.uint8)
     colours[heights <= np.float32(image.floor + _FLOOR)] = NOTHING
     return colours
@@ -106,7 +111,9 @@ def _lit(colours: Pixels, heights: Shades, pitch: float) -> Pixels:
     shade = slope / (1.0 + np.abs(slope))
     wide = max(3, min(heights.shape) // 40) | 1
     hollow = (cv2.blur(heights, (wide, wide), borderType=cv2.BORDER_REPLICATE) - heights) / np.float32(wide * pitch)
-    dark = np.where(shade < 0, 1.0 + np.float32(SHADOW) * shade, 1.0) * (1.0 - np.float32(CORNER) * np.clip(hollow * 3, 0, 1))
+    dark = np.where(shade < 0, 1.0 + np.float32(SHADOW) * shade, 1.0) * (
+        1.0 - np.float32(CORNER) * np.clip(hollow * 3, 0, 1)
+    )
     light = np.float32(255.0 * LIGHT) * np.maximum(shade, 0)
     return np.asarray(np.clip(colours * dark[..., None] + light[..., None], 0, 255), np.uint8)
 
@@ -118,8 +125,11 @@ def _marked(colours: Pixels, image: HeightImage) -> tuple[Pixels, list[tuple[str
     size, marks = (colours.shape[1], colours.shape[0]), []
     high = image.deviation > image.tolerance
     beyond = np.zeros_like(high) if image.unreachable is None else image.unreachable
-    for name, colour, mask in (("out of reach", UNREACHABLE, beyond), ("left", LEFT, high & ~beyond),
-                               ("gouge", GOUGE, image.deviation < -image.tolerance)):  # fmt: skip
+    for name, colour, mask in (
+        ("out of reach", UNREACHABLE, beyond),
+        ("left", LEFT, high & ~beyond),
+        ("gouge", GOUGE, image.deviation < -image.tolerance),
+    ):
         if not mask.any():
             continue
         marks.append((name, colour))
@@ -129,14 +139,23 @@ def _marked(colours: Pixels, image: HeightImage) -> tuple[Pixels, list[tuple[str
 
 def _seen(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:
     """Return a mask of the picture's size in which nothing is lost, however small."""
-    whole = cv2.resize(mask.astype(np.float32), size, interpolation=cv2.INTER_AREA if size[0] < mask.shape[1] else cv2.INTER_NEAREST) > 0
+    whole = (
+        cv2.resize(
+            mask.astype(np.float32),
+            size,
+            interpolation=cv2.INTER_AREA if size[0] < mask.shape[1] else cv2.INTER_NEAREST,
+        )
+        > 0
+    )
     if size[0] > _SEEN * mask.shape[1]:
         return np.asarray(whole, bool)
     return np.asarray(cv2.dilate(whole.astype(np.uint8), np.ones((_SEEN, _SEEN), np.uint8)), bool)
 
 
 def _paint(colours: Pixels, mask: NDArray[np.bool_], colour: Rgb, hatched: bool) -> None:
-    """Put a colour over the metal, its light and shadow shining through; hatched in stripes from lower left to upper right."""
+    """Put a colour over the metal, its light and shadow shining through; hatched in stripes from lower left to upper
+    right.
+    """
     if hatched:
         rows, cols = np.ogrid[: mask.shape[0], : mask.shape[1]]
         mask = mask & ((rows - cols) % _HATCH < _HATCH - 2)

@@ -73,9 +73,13 @@ def _pen(pen: Pen) -> str:
 
 def _line_type(dash: tuple[float, ...]) -> int:
     """Return the number of the plotter's own line type that comes nearest to lengths of dash and gap."""
-    return min((number for number, parts in _LINE_TYPES.items() if len(parts) == len(dash)),
-               key=lambda number: sum(abs(part - length / sum(dash)) for part, length in zip(_LINE_TYPES[number], dash, strict=True)),
-               default=2)  # fmt: skip
+    return min(
+        (number for number, parts in _LINE_TYPES.items() if len(parts) == len(dash)),
+        key=lambda number: sum(
+            abs(part - length / sum(dash)) for part, length in zip(_LINE_TYPES[number], dash, strict=True)
+        ),
+        default=2,
+    )
 
 
 def _trace(points: NDArray[np.float64]) -> str:

@@ -157,7 +157,9 @@ def _sheets(box: Box, window: Box, scale: float | None) -> _Sheets:
         scale = 1.0 if max(across, up) < _EPSILON else _stated(min(room))
     columns, rows = _count(across * scale, wide), _count(up * scale, high)
     if columns * rows > MOST_PAGES:
-        raise InputError(f"At {scale_words(scale)} this takes {columns * rows} sheets; choose larger paper or a smaller scale.")
+        raise InputError(
+            f"At {scale_words(scale)} this takes {columns * rows} sheets; choose larger paper or a smaller scale."
+        )
     whole = (columns * (wide - OVERLAP) + OVERLAP, rows * (high - OVERLAP) + OVERLAP)
     corner = ((whole[0] - across * scale) / 2 - box[0] * scale, (whole[1] - up * scale) / 2 - box[1] * scale)
     return _Sheets(columns, rows, window, scale, corner)
@@ -178,15 +180,20 @@ def _stated(scale: float) -> float:
 
 def _seen(ink: Ink, place: Similarity, window: Box) -> Ink:
     """Return what of the ink may reach into a window of the paper."""
-    (x0, y0), (x1, y1) = ((z.real, z.imag) for z in ((complex(*corner) - place.b) / place.a for corner in (window[:2], window[2:])))
+    (x0, y0), (x1, y1) = (
+        (z.real, z.imag) for z in ((complex(*corner) - place.b) / place.a for corner in (window[:2], window[2:]))
+    )
     strokes = []
     for stroke in ink.strokes:
         boxes = ((curve, bounds(curve)) for curve in stroke.curves)
         near = tuple(curve for curve, b in boxes if b[0] <= x1 and b[2] >= x0 and b[1] <= y1 and b[3] >= y0)
         if near:
             strokes.append(Stroke(stroke.pen, near))
-    traces = tuple(trace for trace in ink.traces
-                   if np.all(trace.points.min(axis=0) <= (x1, y1)) and np.all(trace.points.max(axis=0) >= (x0, y0)))  # fmt: skip
+    traces = tuple(
+        trace
+        for trace in ink.traces
+        if np.all(trace.points.min(axis=0) <= (x1, y1)) and np.all(trace.points.max(axis=0) >= (x0, y0))
+    )
     return replace(ink, strokes=tuple(strokes), traces=traces)
 
 
@@ -218,7 +225,9 @@ def _frame(whole: Box, title: tuple[str, ...]) -> Ink:
 
 
 def _marks(sheets: _Sheets, column: int, row: int) -> Ink:
-    """Return the marks in the middle of overlaps: crosses that come to lie on one another, ticks at the window's edge."""
+    """Return the marks in the middle of overlaps: crosses that come to lie on one another, ticks at the window's
+    edge.
+    """
     x0, y0, x1, y1 = sheets.window
     half, lines = OVERLAP / 2, []
     ups = [x for x, there in ((x0 + half, column > 0), (x1 - half, column < sheets.columns - 1)) if there]
@@ -227,6 +236,10 @@ def _marks(sheets: _Sheets, column: int, row: int) -> Ink:
         lines += [Line((x, y0), (x, y0 + _TICK)), Line((x, y1 - _TICK), (x, y1))]
     for y in acrosses:
         lines += [Line((x0, y), (x0 + _TICK, y)), Line((x1 - _TICK, y), (x1, y))]
-    for x, y in (*((x, (y0 + y1) / 2) for x in ups), *(((x0 + x1) / 2, y) for y in acrosses), *((x, y) for x in ups for y in acrosses)):
+    for x, y in (
+        *((x, (y0 + y1) / 2) for x in ups),
+        *(((x0 + x1) / 2, y) for y in acrosses),
+        *((x, y) for x in ups for y in acrosses),
+    ):
         lines += [Line((x - _TICK, y), (x + _TICK, y)), Line((x, y - _TICK), (x, y + _TICK))]
     return Ink((Stroke(_THIN, tuple(lines)),)) if lines else Ink()

@@ -1,4 +1,6 @@
-"""A sheet of paper with a drawing on it, in mm from its lower left corner, y up: what every plot format and the screen are made from."""
+"""A sheet of paper with a drawing on it, in mm from its lower left corner, y up: what every plot format and the screen
+are made from.
+"""
 
 from __future__ import annotations
 
@@ -84,7 +86,8 @@ class Words:
 
     Attributes:
         at: where its foot begins, has its middle or ends, by `anchor` 0, 0.5 or 1.
-        height: of the letters' body, mm on paper. angle: radians. lift: how far the foot stands above `at`, mm on paper.
+        height: of the letters' body, mm on paper. angle: radians. lift: how far the foot stands above `at`, mm on
+            paper.
     """
 
     text: str
@@ -106,7 +109,12 @@ class Ink:
     traces: tuple[Trace, ...] = ()
 
     def __add__(self, other: Ink) -> Ink:
-        return Ink(self.strokes + other.strokes, self.patches + other.patches, self.words + other.words, self.traces + other.traces)
+        return Ink(
+            self.strokes + other.strokes,
+            self.patches + other.patches,
+            self.words + other.words,
+            self.traces + other.traces,
+        )
 
 
 @dataclass(frozen=True)
@@ -129,7 +137,9 @@ class Page:
 
 
 def fitted(text: str, height: float, room: float) -> str:
-    """Return as much of a text as surely fits, taking a letter to be at most as wide as 0.62 of its height, others as high."""
+    """Return as much of a text as surely fits, taking a letter to be at most as wide as 0.62 of its height, others as
+    high.
+    """
     used, kept = 0.0, ""
     for letter in text:
         used += height * (0.62 if ord(letter) < 0x1100 else 1.0)
@@ -140,7 +150,8 @@ def fitted(text: str, height: float, room: float) -> str:
 
 
 def segments(curve: Curve, tolerance: float) -> Iterator[tuple[Point, ...]]:
-    """Yield a curve as (end,) of a straight line or (handle, handle, end) of a cubic, within `tolerance`, mm, each going on from the last.
+    """Yield a curve as (end,) of a straight line or (handle, handle, end) of a cubic, within `tolerance`, mm, each
+    going on from the last.
 
     Raises:
         GeometryError: a spline cannot be followed.
@@ -168,7 +179,9 @@ def chains(curves: Iterable[Curve]) -> Iterator[list[Curve]]:
 def _along_round(curve: Arc | Circle | Ellipse, tolerance: float) -> Iterator[tuple[Point, ...]]:
     centre, x, y, begin, sweep = _frame(curve)
     size = math.hypot(*x)
-    count = max(1, math.ceil(abs(sweep) / (math.pi / 2)), math.ceil(abs(sweep) * (_SIXTH * size / tolerance) ** (1 / 6)))
+    count = max(
+        1, math.ceil(abs(sweep) / (math.pi / 2)), math.ceil(abs(sweep) * (_SIXTH * size / tolerance) ** (1 / 6))
+    )
     step = sweep / count
     handle = 4 / 3 * math.tan(step / 4)
 
@@ -178,8 +191,11 @@ def _along_round(curve: Arc | Circle | Ellipse, tolerance: float) -> Iterator[tu
     for k in range(count):
         a, b = begin + step * k, begin + step * (k + 1)
         end = curve.end if k == count - 1 else place(math.cos(b), math.sin(b))
-        yield (place(math.cos(a) - handle * math.sin(a), math.sin(a) + handle * math.cos(a)),
-               place(math.cos(b) + handle * math.sin(b), math.sin(b) - handle * math.cos(b)), end)
+        yield (
+            place(math.cos(a) - handle * math.sin(a), math.sin(a) + handle * math.cos(a)),
+            place(math.cos(b) + handle * math.sin(b), math.sin(b) - handle * math.cos(b)),
+            end,
+        )
 
 
 def _frame(curve: Arc | Circle | Ellipse) -> tuple[Point, Point, Point, float, float]:

@@ -24,8 +24,15 @@ def pages_pdf(pages: Iterable[Page], title: str) -> bytes:
         content = zlib.compress("\n".join(_content(page)).encode("ascii"))
         kids.append(f"{len(objects) + 1} 0 R")
         size = f"{_n(page.width * _POINTS_PER_MM)} {_n(page.height * _POINTS_PER_MM)}"
-        objects.append(f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {size}] /Resources << >> /Contents {len(objects) + 2} 0 R >>".encode())
-        objects.append(f"<< /Length {len(content)} /Filter /FlateDecode >>\nstream\n".encode() + content + b"\nendstream")
+        objects.append(
+            (
+                f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {size}] /Resources << >> "
+                f"/Contents {len(objects) + 2} 0 R >>"
+            ).encode()
+        )
+        objects.append(
+            f"<< /Length {len(content)} /Filter /FlateDecode >>\nstream\n".encode() + content + b"\nendstream"
+        )
     objects[1] = f"<< /Type /Pages /Kids [{' '.join(kids)}] /Count {len(kids)} >>".encode()
     return _file(objects)
 

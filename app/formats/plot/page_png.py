@@ -48,7 +48,9 @@ def _draw(image: Pixels, flats: Iterable[Flat], per_mm: float) -> None:
         if flat.filled:
             cv2.fillPoly(image, fixed, colour, cv2.LINE_AA, _SHIFT)
         else:
-            cv2.polylines(image, fixed, False, colour, max(1, round(flat.pen.width * per_mm - 0.5)), cv2.LINE_AA, _SHIFT)
+            cv2.polylines(
+                image, fixed, False, colour, max(1, round(flat.pen.width * per_mm - 0.5)), cv2.LINE_AA, _SHIFT
+            )
 
 
 def _fixed(points: NDArray[np.float64], height: int) -> NDArray[np.int32]:

@@ -26,9 +26,11 @@ def page_svg(page: Page, title: str) -> bytes:
     size = f"{_n(page.width)} {_n(page.height)}"
     parts = (
         '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(page.width)}mm" height="{_n(page.height)}mm" viewBox="0 0 {size}">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(page.width)}mm" height="{_n(page.height)}mm" viewBox="0 0 '
+        f'{size}">',
         f"<title>{escape(title)}</title>",
-        f'<clipPath id="window"><rect x="{_n(x0)}" y="{_n(page.height - y1)}" width="{_n(x1 - x0)}" height="{_n(y1 - y0)}"/></clipPath>',
+        f'<clipPath id="window"><rect x="{_n(x0)}" y="{_n(page.height - y1)}" width="{_n(x1 - x0)}" '
+        f'height="{_n(y1 - y0)}"/></clipPath>',
         '<g id="drawing" clip-path="url(#window)" fill="none" stroke-linecap="round" stroke-linejoin="round">',
         *_elements(page.drawing, page.place, page.height),
         '</g>\n<g id="frame" fill="none">',
@@ -73,8 +75,10 @@ def _text(words: Words, place: Similarity, height: float) -> str:
     foot = (at[0] - words.lift * math.sin(words.angle), at[1] + words.lift * math.cos(words.angle))
     turn = f' transform="rotate({_n(-math.degrees(words.angle))} {_place(foot, height)})"' if words.angle else ""
     x, y = _place(foot, height).split()
-    return (f'<text x="{x}" y="{y}"{turn} font-family="sans-serif" font-size="{_n(words.height)}" '
-            f'text-anchor="{_ANCHORS[words.anchor]}" fill="{words.pen.colour}">{escape(words.text)}</text>')
+    return (
+        f'<text x="{x}" y="{y}"{turn} font-family="sans-serif" font-size="{_n(words.height)}" '
+        f'text-anchor="{_ANCHORS[words.anchor]}" fill="{words.pen.colour}">{escape(words.text)}</text>'
+    )
 
 
 def _place(point: Point, height: float) -> str:

@@ -86,7 +86,15 @@ def _draw(image: Pixels, points: Points, style: Style) -> None:
     """Draw a path in its style."""
     pieces = [points] if not style.dash else list(dashes(points, [length * _FINE for length in style.dash]))
     width = max(1, round(style.width * _FINE))
-    cv2.polylines(image, [_fixed(piece) for piece in pieces if len(piece) > 1], False, _bgr(style.colour), width, cv2.LINE_AA, _SHIFT)
+    cv2.polylines(
+        image,
+        [_fixed(piece) for piece in pieces if len(piece) > 1],
+        False,
+        _bgr(style.colour),
+        width,
+        cv2.LINE_AA,
+        _SHIFT,
+    )
 
 
 def _legend(image: Pixels, picture: Picture) -> None:

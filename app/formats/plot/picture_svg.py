@@ -8,7 +8,22 @@ from html import escape
 import numpy as np
 
 from ...geometry.primitives import TURN, R, Rows, sweeps
-from .picture import AREA, INK, LEFT, LEGEND, MARGIN, MUTED, PAPER, PART, PLUNGE, UNREACHABLE, WIDTH, Picture, layout, legend_rows
+from .picture import (
+    AREA,
+    INK,
+    LEFT,
+    LEGEND,
+    MARGIN,
+    MUTED,
+    PAPER,
+    PART,
+    PLUNGE,
+    UNREACHABLE,
+    WIDTH,
+    Picture,
+    layout,
+    legend_rows,
+)
 
 
 def svg(picture: Picture) -> str:
@@ -18,9 +33,11 @@ def svg(picture: Picture) -> str:
     step = _n(6 * pixel)
     inner = "\n".join((*_areas(picture), *_strokes(picture, pixel), *_plunges(picture, pixel)))
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{place.height}" viewBox="0 0 {WIDTH} {place.height}">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{place.height}" viewBox="0 0 {WIDTH} '
+        f'{place.height}">\n'
         f"<title>{escape(picture.title)}</title>\n"
-        f'<defs><pattern id="hatch" width="{step}" height="{step}" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
+        f'<defs><pattern id="hatch" width="{step}" height="{step}" patternUnits="userSpaceOnUse" '
+        'patternTransform="rotate(45)">'
         f'<path d="M0 0V{step}" stroke="{UNREACHABLE}" stroke-width="{_n(4 * pixel)}"/></pattern></defs>\n'
         f'<rect width="{WIDTH}" height="{place.height}" fill="{PAPER}"/>\n'
         f'<g transform="matrix({_n(place.scale)} 0 0 {_n(-place.scale)} {_n(place.left)} {_n(place.top)})" '
@@ -49,12 +66,18 @@ def _strokes(picture: Picture, pixel: float) -> Iterator[str]:
         dash = " ".join(_n(length * pixel) for length in style.dash)
         dashed = f' stroke-dasharray="{dash}"' if dash else ""
         data = "".join(path_data(rows) for rows in pieces)
-        yield f'<path id="{style.name.lower()}" d="{data}" stroke="{style.colour}" stroke-width="{_n(style.width * pixel)}"{dashed}/>'
+        yield (
+            f'<path id="{style.name.lower()}" d="{data}" stroke="{style.colour}" '
+            f'stroke-width="{_n(style.width * pixel)}"{dashed}/>'
+        )
 
 
 def _plunges(picture: Picture, pixel: float) -> Iterator[str]:
     for x, y in picture.plunges:
-        yield f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{_n(4 * pixel)}" stroke="{PLUNGE}" stroke-width="{_n(1.4 * pixel)}"/>'
+        yield (
+            f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{_n(4 * pixel)}" stroke="{PLUNGE}" '
+            f'stroke-width="{_n(1.4 * pixel)}"/>'
+        )
 
 
 def path_data(rows: Rows) -> str:
@@ -78,7 +101,9 @@ def path_data(rows: Rows) -> str:
 def _legend(picture: Picture) -> str:
     x, y = WIDTH - LEGEND, MARGIN + 14
     font = 'font-family="system-ui, sans-serif"'
-    lines = [f'<text x="{x}" y="{y}" {font} font-size="15" font-weight="600" fill="{INK}">{escape(picture.title)}</text>']
+    lines = [
+        f'<text x="{x}" y="{y}" {font} font-size="15" font-weight="600" fill="{INK}">{escape(picture.title)}</text>'
+    ]
     for number, (label, colour, style) in enumerate(legend_rows(picture), 1):
         at = y + 26 * number
         if style is None:

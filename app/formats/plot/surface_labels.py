@@ -24,7 +24,8 @@ def free_places(lines: Sequence[Floats], points: Floats, texts: Sequence[str], h
     """Return where the foot of each point's text begins; None where there is no room.
 
     Args:
-        lines: polylines (n, 2) that labels keep off. points: (m, 2) to be labelled. texts: m. height: of the letters. All mm on paper.
+        lines: polylines (n, 2) that labels keep off. points: (m, 2) to be labelled. texts: m. height: of the letters.
+            All mm on paper.
     """
     if not len(points):
         return []
@@ -37,13 +38,17 @@ def free_places(lines: Sequence[Floats], points: Floats, texts: Sequence[str], h
         taken[at[:, 0], at[:, 1]] = True
     for point in points:
         _cells(taken, (point - corner - _POINT) / cell, (point - corner + _POINT) / cell)[:] = True
-    found = [_place(taken, (at, points - corner, cell), len(text) * height * _WIDE, height * _BODY) if text else None
-             for at, text in enumerate(texts)]  # fmt: skip
+    found = [
+        _place(taken, (at, points - corner, cell), len(text) * height * _WIDE, height * _BODY) if text else None
+        for at, text in enumerate(texts)
+    ]
     return [None if place is None else (place[0] + float(corner[0]), place[1] + float(corner[1])) for place in found]
 
 
 def _place(taken: NDArray[np.bool_], where: tuple[int, Floats, float], wide: float, high: float) -> Place | None:
-    """Return a free place beside one of the points, nearer to it than to the others, and take it; to the right and above first."""
+    """Return a free place beside one of the points, nearer to it than to the others, and take it; to the right and
+    above first.
+    """
     number, points, cell = where
     point = points[number]
     for away in (1.0, 2.0, 3.2):

@@ -42,5 +42,7 @@ def legend_ink(entries: Sequence[Entry], box: Box) -> Ink:
             made += Ink(traces=(Trace(entry.pen, np.array([[x, y], [x + _SAMPLE, y]])),))
         if entry.pen is not None:
             indent = _SAMPLE + _EDGE
-        made += Ink(words=(Words(fitted(entry.text, _TEXT, wide - indent - 2 * _EDGE), (x + indent, y - 0.36 * _TEXT), _TEXT),))
+        made += Ink(
+            words=(Words(fitted(entry.text, _TEXT, wide - indent - 2 * _EDGE), (x + indent, y - 0.36 * _TEXT), _TEXT),)
+        )
     return made

@@ -1,4 +1,6 @@
-"""Paths over a compound surface on paper, as they are generated: each surface's part told apart by colour or by line type."""
+"""Paths over a compound surface on paper, as they are generated: each surface's part told apart by colour or by line
+type.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ PATH_MM, SURFACE_MM, MARK_MM = 0.3, 0.15, 0.7
 
 LABEL_MM = 2.2
 DASHES = {LineType.SOLID: (), LineType.DOTTED: (0.05, 0.95), LineType.CHAIN: (6.0, 0.95, 0.05, 0.95)}
-"""Dash and gap by turns, mm on paper. Dots are round ends with hardly a dash between: painters draw nothing where there is none."""
+"""Dash and gap by turns, mm on paper. Dots are round ends with hardly a dash between: painters draw nothing where there
+is none.
+"""
 
 _CYCLE = (LineType.SOLID, LineType.DOTTED, LineType.CHAIN)
 _MARK = Pen(1, INK, 0.18)
@@ -59,7 +63,12 @@ class View:
         return np.asarray(points @ np.array([[c, -s * low], [s, c * low], [0.0, high]]), np.float64)
 
 
-VIEWS = {"plan": View(), "front": View(0, 0), "side": View(90, 0), "isometric": View(45, math.degrees(math.asin(math.sqrt(1 / 3))))}
+VIEWS = {
+    "plan": View(),
+    "front": View(0, 0),
+    "side": View(90, 0),
+    "isometric": View(45, math.degrees(math.asin(math.sqrt(1 / 3)))),
+}
 
 
 def colour_of(number: int) -> str:
@@ -148,13 +157,19 @@ class BySurface:
     def ink(self, scale: float) -> Ink:
         """Return the ink, in mm, for paper on which it is `scale` times as large."""
         pieces, marks = self._seen
-        traces = tuple(Trace(self.pen(self._kind(piece), piece.fine), points) for piece, points in zip(self.pieces, pieces, strict=True))
+        traces = tuple(
+            Trace(self.pen(self._kind(piece), piece.fine), points)
+            for piece, points in zip(self.pieces, pieces, strict=True)
+        )
         circles = tuple(Circle((x, y), MARK_MM / scale) for x, y in marks.tolist())
         words: list[Words] = []
         if self.labels:
             places = free_places([points * scale for points in pieces], marks * scale, self.labels, LABEL_MM)
-            words = [Words(text, (at[0] / scale, at[1] / scale), LABEL_MM, pen=_MARK)
-                     for text, at in zip(self.labels, places, strict=True) if at is not None]  # fmt: skip
+            words = [
+                Words(text, (at[0] / scale, at[1] / scale), LABEL_MM, pen=_MARK)
+                for text, at in zip(self.labels, places, strict=True)
+                if at is not None
+            ]
         return Ink((Stroke(_MARK, circles),) if circles else (), (), tuple(words), traces)
 
     @cached_property
@@ -173,5 +188,7 @@ class BySurface:
         return legend_height(len(self._entries)) if self.with_legend else 0.0
 
     def legend(self, box: Box) -> Ink:
-        """Return the legend for that place on the paper: a sample of each line and its surface, boundary points, passes."""
+        """Return the legend for that place on the paper: a sample of each line and its surface, boundary points,
+        passes.
+        """
         return legend_ink(self._entries, box)

@@ -51,9 +51,15 @@ NOTHING_BESIDE = Beside()
 def beside_lines(beside: Beside) -> Iterator[str]:
     """Yield the tables of a project file."""
     if (under := beside.underlay) is not None:
-        yield from ("", "[underlay]", f"path = {spelled(under.path)}", f"origin = {spelled(under.origin)}",
-                    f"mm_per_px = {spelled(under.mm_per_px)}", f"angle = {spelled(angle_said(under.angle))}",
-                    f"opacity = {spelled(under.opacity)}")
+        yield from (
+            "",
+            "[underlay]",
+            f"path = {spelled(under.path)}",
+            f"origin = {spelled(under.origin)}",
+            f"mm_per_px = {spelled(under.mm_per_px)}",
+            f"angle = {spelled(angle_said(under.angle))}",
+            f"opacity = {spelled(under.opacity)}",
+        )
     lines = [f"    {spelled(line)}," for line in beside.text.split("\n")] if beside.text.strip() else []
     if lines and sum(map(len, lines)) <= MOST_TEXT:
         yield from ("", "[text]", f"replaces = {spelled(beside.replaces)}", "lines = [", *lines, "]")
@@ -73,7 +79,11 @@ def read_beside(lines: JobText, tables: Mapping[str, dict[str, Any]]) -> Beside:
     table.take("replaces", read_flag)
     table.take("lines", read_texts)
     table.done("replaces, lines")
-    return Beside(_underlay(lines, tables["underlay"]), "\n".join(table.taken.get("lines", ())), table.taken.get("replaces", False))
+    return Beside(
+        _underlay(lines, tables["underlay"]),
+        "\n".join(table.taken.get("lines", ())),
+        table.taken.get("replaces", False),
+    )
 
 
 def _underlay(lines: JobText, values: dict[str, Any]) -> Underlay | None:

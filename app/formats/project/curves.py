@@ -1,8 +1,9 @@
 """Curves and notes of a project file, one a line: in the words of the shape language, and exact to the last digit.
 
 A line `#17` gives the next one its number; without it a line's number is one more than that of the line before. A line
-`layer "name"` puts what follows on a layer, and `layer "name" letters` says that it is strokes of letters, which bound nothing. An
-ellipse is written by its ratio and a part of it by radians, because the language's own form would round them.
+`layer "name"` puts what follows on a layer, and `layer "name" letters` says that it is strokes of letters, which bound
+nothing. An ellipse is written by its ratio and a part of it by radians, because the language's own form would round
+them.
 """
 
 from __future__ import annotations
@@ -103,7 +104,13 @@ def _curve_text(curve: Curve) -> str:
             part = "" if ends == (0.0, math.tau) else f" from {_number(ends[0])}rad to {_number(ends[1])}rad"
             return f"ellipse {_point(curve.centre)} @{_point(curve.major)} ratio {_number(curve.ratio)}{part}{turn}"
         case Spline():
-            words = ["spline degree", str(curve.degree), *map(_point, curve.control_points), "knots", *map(_number, curve.knots)]
+            words = [
+                "spline degree",
+                str(curve.degree),
+                *map(_point, curve.control_points),
+                "knots",
+                *map(_number, curve.knots),
+            ]
             return " ".join(words + (["weights", *map(_number, curve.weights)] if curve.weights else []))
 
 
@@ -114,10 +121,14 @@ def _note_text(shape: Shape) -> str:
         case Guide():
             return f"guide {_point(shape.through)} {_number(shape.angle)}rad"
         case Dimension():
-            return " ".join(["dimension", shape.measure.value, *map(_point, shape.points), "place", _point(shape.place)])
+            return " ".join(
+                ["dimension", shape.measure.value, *map(_point, shape.points), "place", _point(shape.place)]
+            )
 
 
-def _read(text: str, place: tuple[str, int], readers: Mapping[str, Callable[[list[str]], Made]]) -> Iterator[tuple[int, Made, str, bool]]:
+def _read(
+    text: str, place: tuple[str, int], readers: Mapping[str, Callable[[list[str]], Made]]
+) -> Iterator[tuple[int, Made, str, bool]]:
     """Yield number, shape and layer of every line, and whether it is a stroke of a letter."""
     name, first = place
     number, layer, lettering, used = 0, "0", False, set[int]()
@@ -145,8 +156,13 @@ REMEDY = "mend the line, or open a backup of the file."
 
 
 def _why(error: Exception) -> str:
-    return f"{error} is no word for it" if isinstance(error, KeyError) else "numbers are missing" if isinstance(error, IndexError) \
+    return (
+        f"{error} is no word for it"
+        if isinstance(error, KeyError)
+        else "numbers are missing"
+        if isinstance(error, IndexError)
         else str(error)
+    )
 
 
 def _layer(line: str) -> tuple[str, bool]:
@@ -217,17 +233,25 @@ def _spline(words: list[str]) -> Spline:
     at = words.index("knots")
     weighted = words.index("weights") if "weights" in words else len(words)
     degree, points = int(words[1]), tuple(map(_xy, words[2:at]))
-    knots, weights = tuple(map(_value, words[at + 1:weighted])), tuple(map(_value, words[weighted + 1:]))
-    _expect(1 <= degree < len(points) and len(knots) == len(points) + degree + 1, "points and knots do not go with the degree")
+    knots, weights = tuple(map(_value, words[at + 1 : weighted])), tuple(map(_value, words[weighted + 1 :]))
+    _expect(
+        1 <= degree < len(points) and len(knots) == len(points) + degree + 1,
+        "points and knots do not go with the degree",
+    )
     _expect(all(b >= a for a, b in pairwise(knots)) and knots[-1] > knots[0], "the knots fall")
-    _expect(weighted == len(words) or (len(weights) == len(points) and min(weights) > 0), "each point wants a weight greater than 0")
+    _expect(
+        weighted == len(words) or (len(weights) == len(points) and min(weights) > 0),
+        "each point wants a weight greater than 0",
+    )
     return Spline(degree, points, knots, weights)
 
 
 def _dimension(words: list[str]) -> Dimension:
     measure = Measure(words[0])
     points = tuple(map(_xy, words[1:-2]))
-    _expect(words[-2] == "place" and len(points) == (3 if measure is Measure.ANGLE else 2), "points or place are missing")
+    _expect(
+        words[-2] == "place" and len(points) == (3 if measure is Measure.ANGLE else 2), "points or place are missing"
+    )
     return Dimension(measure, points, _xy(words[-1]))
 
 
@@ -242,6 +266,10 @@ def _guide(words: list[str]) -> Guide:
 
 
 _CURVES: Mapping[str, Callable[[list[str]], Curve]] = {
-    "line": _line, "arc": _arc, "circle": _circle, "ellipse": _ellipse, "spline": _spline,
+    "line": _line,
+    "arc": _arc,
+    "circle": _circle,
+    "ellipse": _ellipse,
+    "spline": _spline,
 }
 _NOTES: Mapping[str, Callable[[list[str]], Shape]] = {"point": _mark, "guide": _guide, "dimension": _dimension}

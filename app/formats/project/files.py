@@ -1,4 +1,6 @@
-"""Project files on the disk: written whole, with the version before kept, and never over what another program has made of them."""
+"""Project files on the disk: written whole, with the version before kept, and never over what another program has made
+of them.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,9 @@ def load_project(path: Path) -> tuple[Project, Stamp | None]:
     """
     stamp = stamp_of(path)
     if stamp is not None and stamp[1] > MOST_BYTES:
-        raise InputError(f"{path.name}: the file has {stamp[1] >> 20} MB; at most {MOST_BYTES >> 20} are read. Part the drawing.")
+        raise InputError(
+            f"{path.name}: the file has {stamp[1] >> 20} MB; at most {MOST_BYTES >> 20} are read. Part the drawing."
+        )
     try:
         data = read_whole(path)
     except OSError as error:

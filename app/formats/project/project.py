@@ -1,7 +1,7 @@
 """Project files, `.hito`: a drawing with its names, its layers, its job and how it was looked at, as one TOML text.
 
-`resources/docs/project.md` explains every key. A file of a newer version is refused rather than half read; of an older one
-`UPGRADES` makes the newest.
+`resources/docs/project.md` explains every key. A file of a newer version is refused rather than half read; of an older
+one `UPGRADES` makes the newest.
 """
 
 from __future__ import annotations
@@ -40,8 +40,23 @@ MOST_HEAD = 8 * 2**20
 UPGRADES: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}
 """By version: what makes of a file's tables those of the next version."""
 
-_HEADER = "# A project of Hitofude: a drawing and the job that is cut from it. resources/docs/project.md explains every key."
-_OWN = ("format", "version", "part", "layer", "view", "underlay", "text", "source", "names", "commands", "curves", "notes")
+_HEADER = (
+    "# A project of Hitofude: a drawing and the job that is cut from it. resources/docs/project.md explains every key."
+)
+_OWN = (
+    "format",
+    "version",
+    "part",
+    "layer",
+    "view",
+    "underlay",
+    "text",
+    "source",
+    "names",
+    "commands",
+    "curves",
+    "notes",
+)
 _REMEDY = "mend the file, or open its backup, the file of the same name with ~ behind it"
 
 
@@ -68,7 +83,9 @@ class Project:
     beside: Beside = NOTHING_BESIDE
 
     def from_folder(self, folder: Path) -> Project:
-        """Return it with the paths of other files as they are seen from elsewhere, where they are told from this folder."""
+        """Return it with the paths of other files as they are seen from elsewhere, where they are told from this
+        folder.
+        """
         source = self.state.source
         state = self.state if source is None else replace(self.state, source=source.from_folder(folder))
         return replace(self, state=state, beside=self.beside.from_folder(folder))
@@ -107,7 +124,9 @@ def read_project(name: str, data: bytes) -> Project:
     beside = read_beside(lines, {path: _table(tree, lines, path) for path in ("underlay", "text")})
     source = read_source(lines, _table(tree, lines, "source"))
     part = part if source is None else replace(part, reading=source.reading.how)
-    return Project(State(replace(job, part=part), layer, last, names, commands, Recorded(part), source), _look(tree, lines), beside)
+    return Project(
+        State(replace(job, part=part), layer, last, names, commands, Recorded(part), source), _look(tree, lines), beside
+    )
 
 
 def project_drawing(data: bytes, name: str, units: Units | None = None, layers: tuple[str, ...] = ()) -> Drawing:
@@ -124,10 +143,16 @@ def check_size(name: str, data: bytes) -> None:
         InputError: they are.
     """
     if len(data) > MOST_BYTES:
-        raise InputError(f"{name}: the project has {len(data) / 2**20:.0f} MB; at most {MOST_BYTES >> 20} are read. Part the drawing.")
+        raise InputError(
+            f"{name}: the project has {len(data) / 2**20:.0f} MB; at most {MOST_BYTES >> 20} are read. Part the "
+            "drawing."
+        )
     blocks = sum(len(found[0]) for found in re.finditer(rb"(?m)^lines = '''\r?\n[^']*'''\r?$", data))
     if len(data) - blocks > MOST_HEAD:
-        raise InputError(f"{name}: beside its curves the project has {(len(data) - blocks) >> 20} MB; at most {MOST_HEAD >> 20} are read.")
+        raise InputError(
+            f"{name}: beside its curves the project has {(len(data) - blocks) >> 20} MB; at most {MOST_HEAD >> 20} are "
+            "read."
+        )
 
 
 def _tree(name: str, data: bytes) -> tuple[str, dict[str, Any]]:
@@ -136,14 +161,14 @@ def _tree(name: str, data: bytes) -> tuple[str, dict[str, Any]]:
     try:
         text = data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
-        line = data[:error.start].count(b"\n") + 1
+        line = data[: error.start].count(b"\n") + 1
         raise InputError(f"{name}:{line}: this is no text in UTF-8; {_REMEDY}.") from error
     try:
         tree = parsed(text)
     except (ValueError, RecursionError) as error:
         raise InputError(f"{name}:{with_line(brief(str(error)), text)}; the file is damaged: {_REMEDY}.") from error
     if tree.get("format") != FORMAT:
-        raise InputError(f"{name}: this is no project of Hitofude, for it does not say format = \"{FORMAT}\"; {_REMEDY}.")
+        raise InputError(f'{name}: this is no project of Hitofude, for it does not say format = "{FORMAT}"; {_REMEDY}.')
     return text, _newest(name, tree)
 
 
@@ -152,8 +177,10 @@ def _newest(name: str, tree: dict[str, Any]) -> dict[str, Any]:
     if type(version) is not int or version < 1:
         raise InputError(f"{name}: version is {shown(version)}; it is a whole number from 1 on; {_REMEDY}.")
     if version > VERSION:
-        raise InputError(f"{name}: the file is of version {version}, and this Hitofude reads up to version {VERSION}; "
-                         "open it with a newer one. The file stays as it is.")
+        raise InputError(
+            f"{name}: the file is of version {version}, and this Hitofude reads up to version {VERSION}; "
+            "open it with a newer one. The file stays as it is."
+        )
     for each in range(version, VERSION):
         tree = UPGRADES[each](tree)
     return tree
@@ -162,7 +189,9 @@ def _newest(name: str, tree: dict[str, Any]) -> dict[str, Any]:
 def _table(tree: dict[str, Any], lines: JobText, path: str) -> dict[str, Any]:
     values = tree.get(path, {})
     if not isinstance(values, dict):
-        raise InputError(f"{lines.name}:{lines.line('', 0, path)}: {path} is a table; write [{path}] and its keys below.")
+        raise InputError(
+            f"{lines.name}:{lines.line('', 0, path)}: {path} is a table; write [{path}] and its keys below."
+        )
     return values
 
 
@@ -182,11 +211,17 @@ def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> tuple[P
     things: tuple[Entity | Note, ...] = (*entities, *notes)
     for thing in things:
         if thing.layer not in known:
-            raise InputError(f"{name}: curve {thing.id} lies on the layer {thing.layer}, which is in no [[layer]]; {_REMEDY}.")
+            raise InputError(
+                f"{name}: curve {thing.id} lies on the layer {thing.layer}, which is in no [[layer]]; {_REMEDY}."
+            )
     if len(ids) + len(notes) > MOST_THINGS or not ids.isdisjoint(note.id for note in notes):
-        raise InputError(f"{name}: a note has the number of a curve, or there are more than {MOST_THINGS} of both; {_REMEDY}.")
+        raise InputError(
+            f"{name}: a note has the number of a curve, or there are more than {MOST_THINGS} of both; {_REMEDY}."
+        )
     said = table.taken
-    part = Part(entities, layers, said.get("units", Units.MM), said.get("name", Part.name), said.get("used_id", 0), notes)
+    part = Part(
+        entities, layers, said.get("units", Units.MM), said.get("name", Part.name), said.get("used_id", 0), notes
+    )
     highest = max((thing.id for thing in things), default=0)
     part = replace(part, used_id=max(part.used_id, highest)) if part.used_id else part
     return part, said.get("layer", layers[0].name), said.get("last", (0.0, 0.0))
@@ -195,7 +230,9 @@ def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> tuple[P
 def _layers(tree: dict[str, Any], lines: JobText) -> Iterator[Layer]:
     given = tree.get("layer", [])
     if not isinstance(given, list) or not all(isinstance(each, dict) for each in given):
-        raise InputError(f"{lines.name}:{lines.line('', 0, 'layer')}: layer is a list of tables; write [[layer]] before each.")
+        raise InputError(
+            f"{lines.name}:{lines.line('', 0, 'layer')}: layer is a list of tables; write [[layer]] before each."
+        )
     for index, each in enumerate(given):
         table = Table(lines, "layer", index, dict(each))
         table.take("name", read_text)
@@ -220,7 +257,9 @@ def _block(name: str, text: str, lines: JobText, tree: dict[str, Any], path: str
 
 
 def _value(file: str, name: str, value: Any) -> Value:
-    """Return what a name stands for: a number, a length such as "25.4mm", a point as a list of two, curves such as "4 7-9"."""
+    """Return what a name stands for: a number, a length such as "25.4mm", a point as a list of two, curves such as "4
+    7-9".
+    """
     try:
         if isinstance(value, str) and value.endswith("mm"):
             return Length(read_number(float(value.removesuffix("mm"))))
@@ -228,7 +267,9 @@ def _value(file: str, name: str, value: Any) -> Value:
             return Curves(tuple(_numbers(value)))
         return read_points([value])[0] if isinstance(value, list) else read_number(value)
     except (InputError, ValueError) as error:
-        raise InputError(f"{file}: {name} in [names] is {str(value)[:60]!r}: no number, point, or numbers of curves; {_REMEDY}.") from error
+        raise InputError(
+            f"{file}: {name} in [names] is {str(value)[:60]!r}: no number, point, or numbers of curves; {_REMEDY}."
+        ) from error
 
 
 def _numbers(text: str) -> Iterator[int]:
@@ -269,11 +310,24 @@ def _lines(project: Project) -> Iterator[str]:
     yield f'format = "{FORMAT}"'
     yield f"version = {VERSION}"
     yield from empty_lists(state.job)
-    yield from ("", "[part]", f"name = {spelled(part.name)}", f"units = {spelled(word_of(UNITS, part.units))}", f"used_id = {part.used_id}",
-                f"layer = {spelled(state.layer)}", f"last = {spelled(state.last)}")
+    yield from (
+        "",
+        "[part]",
+        f"name = {spelled(part.name)}",
+        f"units = {spelled(word_of(UNITS, part.units))}",
+        f"used_id = {part.used_id}",
+        f"layer = {spelled(state.layer)}",
+        f"last = {spelled(state.last)}",
+    )
     for layer in part.layers:
-        yield from ("", "[[layer]]", f"name = {spelled(layer.name)}", f"colour = {spelled(layer.colour)}",
-                    f"visible = {spelled(layer.visible)}", f"locked = {spelled(layer.locked)}")
+        yield from (
+            "",
+            "[[layer]]",
+            f"name = {spelled(layer.name)}",
+            f"colour = {spelled(layer.colour)}",
+            f"visible = {spelled(layer.visible)}",
+            f"locked = {spelled(layer.locked)}",
+        )
     yield from _look_lines(project.look)
     yield from beside_lines(project.beside)
     yield from source_lines(state.source, part)
@@ -293,7 +347,13 @@ def _name_lines(state: State) -> Iterator[str]:
     if state.names:
         yield from ("", "[names]")
     for name, value in state.names.items():
-        said = " ".join(_runs(value.ids)) if isinstance(value, Curves) else f"{value!r}mm" if isinstance(value, Length) else value
+        said = (
+            " ".join(_runs(value.ids))
+            if isinstance(value, Curves)
+            else f"{value!r}mm"
+            if isinstance(value, Length)
+            else value
+        )
         yield f"{_key(name)} = {spelled(said)}"
     if state.commands:
         yield from ("", "[commands]")

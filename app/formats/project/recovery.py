@@ -1,8 +1,8 @@
 """Recovery files: what is drawn and in no file yet, kept for the next start should this one end in a crash.
 
-Each window has a file of its own in the folder of the program's state, and holds a lock beside it as long as it lives; the system
-lets go of the lock when the process ends, however it does. A recovery file is a project file whose first line, a remark, tells
-of the file that was being edited.
+Each window has a file of its own in the folder of the program's state, and holds a lock beside it as long as it lives;
+the system lets go of the lock when the process ends, however it does. A recovery file is a project file whose first
+line, a remark, tells of the file that was being edited.
 """
 
 from __future__ import annotations

@@ -14,8 +14,14 @@ from ..job.tables import JobText, Table, read_flag, read_number, read_text, read
 from ..job.toml import UNITS
 from ..job.write import word_of
 
-_HOW = {"overrule": read_flag, "layout": read_text, "to_zero": read_flag, "pixels_per_inch": read_number, "without_layers": read_texts,
-        "without_types": read_texts}  # fmt: skip
+_HOW = {
+    "overrule": read_flag,
+    "layout": read_text,
+    "to_zero": read_flag,
+    "pixels_per_inch": read_number,
+    "without_layers": read_texts,
+    "without_types": read_texts,
+}
 _KEYS = ("path", "units", "layers", *_HOW)
 
 

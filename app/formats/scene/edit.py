@@ -1,4 +1,6 @@
-"""Changes of a scene's text: one value, one table, and every remark, order and spelling beside it stays as it was written."""
+"""Changes of a scene's text: one value, one table, and every remark, order and spelling beside it stays as it was
+written.
+"""
 
 from __future__ import annotations
 
@@ -102,7 +104,10 @@ def table_of(text: str, name: str, number: int) -> dict[str, Any]:
         InputError: the text is no TOML, or has no such table.
     """
     tree = _tree(text)
-    return cast(dict[str, Any], in_own_units({"table": _list(tree, name, number)[number].unwrap()}, _units(tree), back=False)["table"])
+    return cast(
+        dict[str, Any],
+        in_own_units({"table": _list(tree, name, number)[number].unwrap()}, _units(tree), back=False)["table"],
+    )
 
 
 def line_of(text: str, name: str, number: int) -> int:

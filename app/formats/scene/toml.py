@@ -1,6 +1,7 @@
 """Scene files: surfaces, passes, tools and stock as TOML; resources/samples/compound.toml shows one.
 
-Tools, heights, origin and output are spelled as in job files. Files that a scene names are read by others, who know its place.
+Tools, heights, origin and output are spelled as in job files. Files that a scene names are read by others, who know its
+place.
 """
 
 from __future__ import annotations
@@ -24,10 +25,30 @@ JOB_TABLES = ("tool", "heights", "origin", "output")
 """Tables that are those of job files."""
 
 _UNITS = {"mm": 1.0, "in": 25.4}
-_NO_LENGTHS = frozenset({
-    "number", "flutes", "spindle_speed", "tip_angle", "feeds", "angle_deg", "rotate_deg", "turn_deg", "scale",
-    "degree", "degree_u", "degree_v", "faces", "knots", "knots_u", "knots_v", "weights", "x_axis", "y_axis", "axis",
-})  # fmt: skip
+_NO_LENGTHS = frozenset(
+    {
+        "number",
+        "flutes",
+        "spindle_speed",
+        "tip_angle",
+        "feeds",
+        "angle_deg",
+        "rotate_deg",
+        "turn_deg",
+        "scale",
+        "degree",
+        "degree_u",
+        "degree_v",
+        "faces",
+        "knots",
+        "knots_u",
+        "knots_v",
+        "weights",
+        "x_axis",
+        "y_axis",
+        "axis",
+    }
+)
 """Keys whose numbers are the same in inches."""
 
 
@@ -79,12 +100,24 @@ def _scene(text: JobText, tables: _Tables, job: Job, origin_z: OriginZ | None) -
     """Return the scene of its tables; a name used twice, or a tool that is missing, is told where it is."""
     for index, surface in enumerate(tables.surface):
         if surface.name in [other.name for other in tables.surface[:index]]:
-            raise InputError(f"{text.name}:{text.line('surface', index, 'name')}: name {surface.name} is taken by another surface; "
-                             "give each its own")
+            raise InputError(
+                f"{text.name}:{text.line('surface', index, 'name')}: name {surface.name} is taken by another surface; "
+                "give each its own"
+            )
     scene = Scene(
-        tables.name, tables.surface, tables.stock, job.tools, tables.passes, job.origin_xy, origin_z, job.safe_z,
-        job.retract_z, job.post, job.out_units, job.exact_path,
-    )  # fmt: skip
+        tables.name,
+        tables.surface,
+        tables.stock,
+        job.tools,
+        tables.passes,
+        job.origin_xy,
+        origin_z,
+        job.safe_z,
+        job.retract_z,
+        job.post,
+        job.out_units,
+        job.exact_path,
+    )
     for index, passes in enumerate(tables.passes):
         try:
             scene.tool(passes.tool)
@@ -94,7 +127,9 @@ def _scene(text: JobText, tables: _Tables, job: Job, origin_z: OriginZ | None) -
 
 
 def in_own_units(tables: dict[str, Any], units: str, back: bool) -> dict[str, Any]:
-    """Return tables of a text whose lengths are in `units` in mm, or, `back`, those in mm in its units; others as they are."""
+    """Return tables of a text whose lengths are in `units` in mm, or, `back`, those in mm in its units; others as they
+    are.
+    """
     size = _UNITS.get(units, 1.0)
     scaled: dict[str, Any] = tables if size == 1.0 else _scaled(tables, 1.0 / size if back else size)
     return scaled
@@ -103,8 +138,10 @@ def in_own_units(tables: dict[str, Any], units: str, back: bool) -> dict[str, An
 def _scaled(value: Any, factor: float) -> Any:
     """Return tables with every length in mm."""
     if isinstance(value, dict):
-        return {key: item if key in _NO_LENGTHS or (key == "tool" and isinstance(item, int)) else _scaled(item, factor)
-                for key, item in value.items()}  # fmt: skip
+        return {
+            key: item if key in _NO_LENGTHS or (key == "tool" and isinstance(item, int)) else _scaled(item, factor)
+            for key, item in value.items()
+        }
     if isinstance(value, list):
         return [_scaled(item, factor) for item in value]
     return value * factor if type(value) in (int, float) else value
@@ -116,7 +153,9 @@ def write_scene(scene: Scene) -> bytes:
     lines += _table("heights", {"safe_z": scene.safe_z, "retract_z": scene.retract_z})
     height = {} if scene.origin_z is None else {"z": word_of(ORIGIN_Z, scene.origin_z)}
     lines += _table("origin", {"xy": word_of(ORIGIN_XY, scene.origin_xy), **height})
-    lines += _table("output", {"post": scene.post, "units": word_of(OUT_UNITS, scene.out_units), "exact_path": scene.exact_path})
+    lines += _table(
+        "output", {"post": scene.post, "units": word_of(OUT_UNITS, scene.out_units), "exact_path": scene.exact_path}
+    )
     for tool in scene.tools:
         lines += tool_lines(tool)
     rest = write_tables(replace(_Tables(), stock=scene.stock, surface=scene.surfaces, passes=scene.passes))

@@ -37,7 +37,8 @@ def density_of(root: Node) -> Density:
         root: with the comments before it.
 
     References:
-        Inkscape 0.92 release notes (2017): 90 dpi became 96, as CSS has it. Adobe Illustrator writes points, 72 an inch.
+        Inkscape 0.92 release notes (2017): 90 dpi became 96, as CSS has it. Adobe Illustrator writes points, 72 an
+        inch.
     """
     if "Adobe Illustrator" in root.comments:
         return Density(_ILLUSTRATOR, "Adobe Illustrator")

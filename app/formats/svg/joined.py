@@ -1,4 +1,6 @@
-"""Curves that SVG can only draw in parts become whole again: circles and arcs of several arcs, splines of several Béziers."""
+"""Curves that SVG can only draw in parts become whole again: circles and arcs of several arcs, splines of several
+Béziers.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from ...model.curves import Arc, Circle, Curve, Ellipse, Point, Spline
 _TURN = 1e-9
 """Angles that differ by less are the same, radians."""
 _LEVEL = 1e-9
-"""Ends of an arc as equally far from its centre as this, mm, are left so: to level rounding over a short chord moves the centre more."""
+"""Ends of an arc as equally far from its centre as this, mm, are left so: to level rounding over a short chord moves
+the centre more.
+"""
 _CLOSED = 1e-6
 """An arc that lacks less than this of a full turn, radians, is left as its parts, for its chord tells too little."""
 
@@ -86,7 +90,10 @@ def _arcs(a: Arc, b: Arc) -> Arc | Circle | None:
 
 
 def _ellipses(a: Ellipse, b: Ellipse) -> Ellipse | None:
-    near = math.dist(a.centre, b.centre) <= tolerances.WELD and abs(a.ratio - b.ratio) * math.hypot(*a.major) <= tolerances.WELD
+    near = (
+        math.dist(a.centre, b.centre) <= tolerances.WELD
+        and abs(a.ratio - b.ratio) * math.hypot(*a.major) <= tolerances.WELD
+    )
     along = min(math.dist(a.major, b.major), math.dist(a.major, (-b.major[0], -b.major[1])))
     first, second = a.end_parameter - a.start_parameter, b.end_parameter - b.start_parameter
     whole = first + second

@@ -46,8 +46,8 @@ def read_path(text: str, most: int) -> Path:
 
     Args:
         text: the attribute d.
-        most: after this many curves the rest is left unread (and the count tells the caller), and so it is as soon as Béziers that follow
-            one another have more than `MOST_POINTS` points.
+        most: after this many curves the rest is left unread (and the count tells the caller), and so it is as soon as
+            Béziers that follow one another have more than `MOST_POINTS` points.
     """
     text = text.rstrip(" \t\r\n,")
     pen, at, command = _Pen(), 0, ""
@@ -91,7 +91,11 @@ def _wrong_flag(text: str, at: int) -> str:
         found = (_FLAG if kind else _NUMBER).match(text, at)
         if found is None:
             other = _NUMBER.match(text, at) if kind else None
-            return f"the {kind} flag {other[1][:60]} at character {other.start(1) + 1} of its data is neither 0 nor 1" if other else ""
+            return (
+                f"the {kind} flag {other[1][:60]} at character {other.start(1) + 1} of its data is neither 0 nor 1"
+                if other
+                else ""
+            )
         at = found.end()
     return ""
 
@@ -164,7 +168,14 @@ class _Pen:
         self._here = end
 
     _DO: ClassVar[dict[str, Callable[[_Pen, list[Point], list[float], tuple[str, Point]], None]]] = {
-        "M": _move, "L": _line, "Z": _close, "C": _bezier, "Q": _bezier, "S": _smooth, "T": _smooth, "A": _arc,
+        "M": _move,
+        "L": _line,
+        "Z": _close,
+        "C": _bezier,
+        "Q": _bezier,
+        "S": _smooth,
+        "T": _smooth,
+        "A": _arc,
     }
 
 
@@ -187,7 +198,10 @@ def arc_between(start: Point, end: Point, values: list[float]) -> Curve:
     turn = 0.0 if rx == ry else math.radians(values[2] % 360.0)
     c, s = math.cos(turn), math.sin(turn)
     dx, dy = end[0] - start[0], end[1] - start[1]
-    hx, hy = (c * dx + s * dy) / 2 / rx, (c * dy - s * dx) / 2 / ry  # half the chord where the ellipse is the unit circle
+    hx, hy = (
+        (c * dx + s * dy) / 2 / rx,
+        (c * dy - s * dx) / 2 / ry,
+    )  # half the chord where the ellipse is the unit circle
     half = math.hypot(hx, hy)
     grown = max(half, 1.0)
     over = 1.0 - half
@@ -207,4 +221,3 @@ def _part(centre: Point, axes: tuple[Point, Point], angles: tuple[float, float],
     last = first + ((last - first) % math.tau or math.tau)
     made = ellipse((centre, *axes), first, last, sweep)
     return made if made is not None else Line(centre, centre)
-

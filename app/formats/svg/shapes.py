@@ -44,7 +44,10 @@ def measure(node: Node, key: str, view: View, default: float = 0.0) -> float:
     return length(text).user(whole)
 
 
-_AXIS = {**dict.fromkeys(("x", "cx", "x1", "x2", "rx", "width"), "x"), **dict.fromkeys(("y", "cy", "y1", "y2", "ry", "height"), "y")}
+_AXIS = {
+    **dict.fromkeys(("x", "cx", "x1", "x2", "rx", "width"), "x"),
+    **dict.fromkeys(("y", "cy", "y1", "y2", "ry", "height"), "y"),
+}
 
 
 def _size(node: Node, key: str, view: View, default: float = 0.0) -> float:
@@ -95,7 +98,9 @@ def _rect(node: Node, view: View) -> Path:
     curves: list[Curve] = []
     at = (x + rx, y)
     for quarter, (cx, cy) in enumerate(centres):
-        begin, end = [[(cx, y), (right, cy)], [(right, cy), (cx, low)], [(cx, low), (x, cy)], [(x, cy), (cx, y)]][quarter]
+        begin, end = [[(cx, y), (right, cy)], [(right, cy), (cx, low)], [(cx, low), (x, cy)], [(x, cy), (cx, y)]][
+            quarter
+        ]
         if begin != at:
             curves.append(Line(at, begin))
         curves.append(_corner((begin, end, (cx, cy)), (rx, ry), (quarter - 1) * math.pi / 2))
@@ -137,7 +142,12 @@ def _drawn(curves: list[Curve], start: Point) -> Path:
 
 
 _READERS: dict[str, Callable[[Node, View], Path]] = {
-    "line": _line, "circle": _circle, "ellipse": _ellipse, "rect": _rect, "polyline": _poly, "polygon": _poly,
+    "line": _line,
+    "circle": _circle,
+    "ellipse": _ellipse,
+    "rect": _rect,
+    "polyline": _poly,
+    "polygon": _poly,
 }
 SHAPES = ("path", *_READERS)
 """Elements that draw curves."""

@@ -49,7 +49,9 @@ class Style:
 
 
 class StyleSheet:
-    """The rules of all style elements of one file whose selectors are a type, a class, an id, or a type with one of these."""
+    """The rules of all style elements of one file whose selectors are a type, a class, an id, or a type with one of
+    these.
+    """
 
     def __init__(self, root: Node) -> None:
         self._rules: dict[tuple[str, str, str], dict[str, str]] = defaultdict(dict)
@@ -99,7 +101,10 @@ def _with(outer: Style, declared: dict[str, str]) -> Style:
         outer,
         shown=outer.shown and declared.get("display") != "none",
         visible=outer.visible if visibility is None else visibility == "visible",
-        fill=declared.get("fill", outer.fill), stroke=declared.get("stroke", outer.stroke),
-        color=declared.get("color", outer.color), clipped=outer.clipped or hides,
-        transform=_UNITS.sub("", declared.get("transform", "")), origin=declared.get("transform-origin", ""),
+        fill=declared.get("fill", outer.fill),
+        stroke=declared.get("stroke", outer.stroke),
+        color=declared.get("color", outer.color),
+        clipped=outer.clipped or hides,
+        transform=_UNITS.sub("", declared.get("transform", "")),
+        origin=declared.get("transform-origin", ""),
     )

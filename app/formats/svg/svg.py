@@ -58,15 +58,19 @@ class _Page:
 
 
 def read_svg(
-    data: bytes, name: str = "drawing.svg", units: Units | None = None, layers: tuple[str, ...] = (), how: ReadOptions = AS_DRAWN,
-) -> Drawing:  # fmt: skip
+    data: bytes,
+    name: str = "drawing.svg",
+    units: Units | None = None,
+    layers: tuple[str, ...] = (),
+    how: ReadOptions = AS_DRAWN,
+) -> Drawing:
     """Return the curves of an SVG in mm, and what was left out.
 
     Zero is the page's lower left corner, as its width, height and viewBox give it; a page without a height has it at
     the top. Inkscape's layers become layers, hidden ones too; without them the named groups at the top. Text, pictures
     and what draws nothing are counted, not read; clips and masks are not applied. Without a width or a height in mm,
-    inches or points the file has no real size: it is in `units`, or in pixels, so many to the inch as `how` says, else as
-    the editor had that wrote it, else 96.
+    inches or points the file has no real size: it is in `units`, or in pixels, so many to the inch as `how` says, else
+    as the editor had that wrote it, else 96.
 
     Args:
         data: the whole file.
@@ -88,19 +92,38 @@ def read_svg(
     found = placed(how.to_zero)
     left_out = sheet.left_out + found.missing
     if not found.entities:
-        why = "all of the drawing lies beyond 1 km" if found.far else "the drawing has no lines, arcs or curves to machine"
+        why = (
+            "all of the drawing lies beyond 1 km"
+            if found.far
+            else "the drawing has no lines, arcs or curves to machine"
+        )
         far = bool(found.far and not how.to_zero)
-        raise UndecidedError(f"{name}: {why}{f'; {MOVE}' * far}{listed(left_out, '; left out: ')}.",
-                             about_far(found.far[0][0], reading, page.shown) if far else None)
+        raise UndecidedError(
+            f"{name}: {why}{f'; {MOVE}' * far}{listed(left_out, '; left out: ')}.",
+            about_far(found.far[0][0], reading, page.shown) if far else None,
+        )
     shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
     part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
     assumed = not page.named and units is None  # told, so that whoever reads the drawing again takes the same
-    part = replace(on_layers(part, layers, name), reading=replace(how, pixels_per_inch=density.per_inch) if assumed else how)
-    findings = [*_units(units, page, density, how), *about_place(found), *_faults(sheet), *without_length(sheet.nothing + found.nothing),
-                *_clipped(sheet), *switched_off(part, layers), *all_left_out(sheet.left_out)]  # fmt: skip
+    part = replace(
+        on_layers(part, layers, name), reading=replace(how, pixels_per_inch=density.per_inch) if assumed else how
+    )
+    findings = [
+        *_units(units, page, density, how),
+        *about_place(found),
+        *_faults(sheet),
+        *without_length(sheet.nothing + found.nothing),
+        *_clipped(sheet),
+        *switched_off(part, layers),
+        *all_left_out(sheet.left_out),
+    ]
     own = density_of(root)
-    contents = Contents(tuple(layer.name for layer in shown), units=page.shown if page.named else None,
-                        per_inch=None if page.named else own.per_inch, editor=own.editor)  # fmt: skip
+    contents = Contents(
+        tuple(layer.name for layer in shown),
+        units=page.shown if page.named else None,
+        per_inch=None if page.named else own.per_inch,
+        editor=own.editor,
+    )
     question = strays_or_none(found, reading, placed)
     if question is None and not (page.named or units or how.pixels_per_inch):
         question = _about_pixels(root, density, size_of(part), page.to, reading)
@@ -119,15 +142,19 @@ class _Opened:
 def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _Opened:
     root = read_xml(data, name)
     if root.tag != "svg":
-        raise InputError(f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG.")
+        raise InputError(
+            f"{name}:{root.line}: this is not an SVG file, it begins with {root.tag[:60]}; export the drawing as SVG."
+        )
     if units is not None and how.pixels_per_inch is not None:
         raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
     density = density_of(root) if how.pixels_per_inch is None else Density(how.pixels_per_inch)
     try:
         page = _page(root, units, density.pixel, how.overrule)
     except UnreadableError as error:
-        raise InputError(f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
-                         "give it a size above 0 and save it again.") from None
+        raise InputError(
+            f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
+            "give it a size above 0 and save it again."
+        ) from None
     return _Opened(root, density, page)
 
 
@@ -147,7 +174,9 @@ def _anchors(sheet: Sheet, layers: tuple[str, ...], without: tuple[str, ...]) ->
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
     wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
-    return lambda layer: layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
+    return lambda layer: (
+        layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
+    )
 
 
 def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False) -> _Page:
@@ -162,7 +191,9 @@ def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False)
     """
     width, height = (_given(root, key) for key in ("width", "height"))
     box = view_box(root.attributes["viewBox"]) if "viewBox" in root.attributes else None
-    physical = next((given for given in (width, height) if given is not None and given.is_physical and not overrule), None)
+    physical = next(
+        (given for given in (width, height) if given is not None and given.is_physical and not overrule), None
+    )
     shown = _SHOWN.get(physical.unit, Units.MM) if physical is not None else units or Units.MM
     if physical is None and units is not None:
         unit, width, height = units.value, None if box else width, None if box else height
@@ -213,12 +244,19 @@ def _units(given: Units | None, page: _Page, density: Density, how: ReadOptions)
     if page.named:
         yield from other_units(given, page.shown)
         if how.pixels_per_inch is not None:
-            yield remark("The drawing tells its real size; --px-per-inch counts only for what of it is in pixels of the page.")
+            yield remark(
+                "The drawing tells its real size; --px-per-inch counts only for what of it is in pixels of the page."
+            )
     elif given is None and how.pixels_per_inch is None:
         who = f"It was written by {density.editor}, so " if density.editor else ""
-        other = f", and --px-per-inch {CSS_PER_INCH:g} if it was saved by another editor since" if density.editor else ""
-        text = (f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 mm or 1 inch, "
-                f"choose --units, or on opening{other}.")
+        other = (
+            f", and --px-per-inch {CSS_PER_INCH:g} if it was saved by another editor since" if density.editor else ""
+        )
+        text = (
+            f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 mm "
+            "or 1 inch, "
+            f"choose --units, or on opening{other}."
+        )
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 
 
@@ -227,11 +265,17 @@ def _faults(sheet: Sheet) -> Iterator[Finding]:
         what = "1 shape has" if len(sheet.faults) == 1 else f"{len(sheet.faults)} shapes have"
         first = next((fault for fault in sheet.faults if fault.what), sheet.faults[0])
         why = f" ({first.what})" if first.what else ""
-        text = f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is drawn. Check it."
+        text = (
+            f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is "
+            "drawn. Check it."
+        )
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(sheet.faults)))
 
 
 def _clipped(sheet: Sheet) -> Iterator[Finding]:
     if sheet.clipped:
-        yield remark(f"{sheet.clipped} {'curve is' if sheet.clipped == 1 else 'curves are'} clipped or masked in the drawing; "
-                     "all of it is read.", float(sheet.clipped))
+        yield remark(
+            f"{sheet.clipped} {'curve is' if sheet.clipped == 1 else 'curves are'} clipped or masked in the drawing; "
+            "all of it is read.",
+            float(sheet.clipped),
+        )

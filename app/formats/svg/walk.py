@@ -125,7 +125,8 @@ class Walker:
         return self._sheet
 
     def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
-        """Return how many elements an element unfolds to, with all copies, and in how many levels; a copy of itself counts once.
+        """Return how many elements an element unfolds to, with all copies, and in how many levels; a copy of itself
+        counts once.
 
         Raises:
             InputError: there are too many of either.
@@ -189,7 +190,9 @@ class Walker:
         return made
 
     def _layer_name(self, node: Node, depth: int) -> str:
-        """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are named."""
+        """Return the name of the layer that a group is; a file without Inkscape's layers has its top groups that are
+        named.
+        """
         if node.tag != "g" or (not _is_layer(node) if self._named_layers else depth > 0):
             return ""
         labels = (_BREAK.sub(" ", node.attributes.get(key, "")) for key in (f"{INKSCAPE} label", "data-name", "id"))
@@ -223,7 +226,11 @@ class Walker:
         try:
             box = view_box(node.attributes["viewBox"])
         except UnreadableError:
-            self._refuse(node, f"the viewBox {node.attributes['viewBox'][:60]!r} is not four numbers, the last two above 0; correct it")
+            self._refuse(
+                node,
+                f"the viewBox {node.attributes['viewBox'][:60]!r} is not four numbers, the last two above 0; "
+                "correct it",
+            )
         to = fitted(box, Box(x, y, width, height), node.attributes.get("preserveAspectRatio", ""))
         return replace(state, to=state.to.after(to), view=(box.width, box.height))
 
@@ -236,7 +243,9 @@ class Walker:
     def _draw(self, node: Node, state: State) -> None:
         sheet, style = self._sheet, state.style
         if not (style.shown and style.visible and style.draws):
-            sheet.left_out[f"{node.tag} ({'without stroke and fill' if style.shown and style.visible else 'invisible'})"] += 1
+            sheet.left_out[
+                f"{node.tag} ({'without stroke and fill' if style.shown and style.visible else 'invisible'})"
+            ] += 1
             return
         try:
             drawn = shape(node, state.view, MOST_CURVES)
@@ -250,7 +259,9 @@ class Walker:
             sheet.faults.append(Fault(node.line, drawn.why))
         for curve in curves:
             if isinstance(curve, Spline) and len(curve.control_points) > MOST_POINTS:
-                self._refuse(node, f"a curve has more than {MOST_POINTS} points; split it or thin it out in the CAD program")
+                self._refuse(
+                    node, f"a curve has more than {MOST_POINTS} points; split it or thin it out in the CAD program"
+                )
         if not curves:
             return
         layer = state.layer or "0"
@@ -266,7 +277,9 @@ class Walker:
         curves: list[Curve] = []
         for run in map(beziers_joined, drawn.runs):
             moved = [transformed(curve, to) for curve in run]
-            self._sheet.nothing += [to.point(curve.start) for curve, there in zip(run, moved, strict=True) if there is None]
+            self._sheet.nothing += [
+                to.point(curve.start) for curve, there in zip(run, moved, strict=True) if there is None
+            ]
             seen = [curve for curve in moved if curve is not None]
             curves += joined([curve for curve in seen if not _is_point(curve)] or seen[:1])
         if not any(drawn.runs):

@@ -1,4 +1,6 @@
-"""SVG out: the part at true size, one user unit to the millimetre, its layers as Inkscape's; every curve as exact as SVG can be."""
+"""SVG out: the part at true size, one user unit to the millimetre, its layers as Inkscape's; every curve as exact as
+SVG can be.
+"""
 
 from __future__ import annotations
 
@@ -19,9 +21,13 @@ from .walk import BLACK
 from .xml import SVG
 
 _WIDEST = math.tau / 3
-"""Arcs are drawn in parts no wider than this: from the ends and radii of a wider one its centre comes back less exact."""
+"""Arcs are drawn in parts no wider than this: from the ends and radii of a wider one its centre comes back less
+exact.
+"""
 _THIN = 0.01
-"""A part of an ellipse flatter than this is drawn on the unit circle and stretched: its ends alone tell its centre too badly."""
+"""A part of an ellipse flatter than this is drawn on the unit circle and stretched: its ends alone tell its centre too
+badly.
+"""
 _MARGIN = 1.0
 """Paper round the part, mm."""
 _EMPTY = (0.0, 0.0, 100.0, 100.0)
@@ -32,10 +38,10 @@ _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> Written:
     """Return the part as SVG.
 
-    Lines, circles, arcs, ellipses and polynomial splines up to degree 3 are kept to the last digit; other splines become
-    lines and arcs within `tolerance`, mm. The page holds the whole part; where the part's zero lies on it is written
-    too, so that `read_svg` gives back the same coordinates. Curves that follow one another on a layer are one path. Entities
-    keep their order within a layer. Ink of no colour of its own is black.
+    Lines, circles, arcs, ellipses and polynomial splines up to degree 3 are kept to the last digit; other splines
+    become lines and arcs within `tolerance`, mm. The page holds the whole part; where the part's zero lies on it is
+    written too, so that `read_svg` gives back the same coordinates. Curves that follow one another on a layer are one
+    path. Entities keep their order within a layer. Ink of no colour of its own is black.
 
     Raises:
         GeometryError: a spline cannot be followed.
@@ -47,12 +53,15 @@ def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> Written:
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="{SVG}" xmlns:inkscape="{INKSCAPE}" xmlns:sodipodi="{SODIPODI}" xmlns:hitofude="{HITOFUDE}"',
-        f'     width="{width}mm" height="{height}mm" viewBox="{left} {-low - height} {width} {height}" hitofude:zero="0 0">',
+        f'     width="{width}mm" height="{height}mm" viewBox="{left} {-low - height} {width} {height}" '
+        'hitofude:zero="0 0">',
         f"  <title>{escape(_UNFIT.sub('_', part.name))}</title>",
     ]
     for number, layer in enumerate(part.layers, 1):
         lines += [_group(number, layer)]
-        lines += [f"    {element}" for element in _elements((e for e in part.entities if e.layer == layer.name), conversions)]
+        lines += [
+            f"    {element}" for element in _elements((e for e in part.entities if e.layer == layer.name), conversions)
+        ]
         lines += ["  </g>"]
     return Written("\n".join([*lines, "</svg>", ""]).encode(), conversions.converted)
 
@@ -60,8 +69,12 @@ def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> Written:
 def _group(number: int, layer: Layer) -> str:
     shown = "inline" if layer.visible else "none"
     locked = ' sodipodi:insensitive="true"' if layer.locked else ""
-    return (f'  <g id="layer{number}" inkscape:groupmode="layer" inkscape:label={quoteattr(_UNFIT.sub("_", layer.name))}{locked} '
-            f'style="display:{shown}" fill="none" stroke="{layer.colour or BLACK}" stroke-width="0.1" stroke-linecap="round">')
+    return (
+        f'  <g id="layer{number}" inkscape:groupmode="layer" '
+        f"inkscape:label={quoteattr(_UNFIT.sub('_', layer.name))}{locked} "
+        f'style="display:{shown}" fill="none" stroke="{layer.colour or BLACK}" stroke-width="0.1" '
+        'stroke-linecap="round">'
+    )
 
 
 def _elements(entities: Iterable[Entity], conversions: Conversions) -> Iterator[str]:
@@ -88,7 +101,9 @@ def _held(curve: Curve, conversions: Conversions) -> tuple[Curve, ...]:
 
 def _is_whole(curve: Curve) -> bool:
     """True for what has an element of its own; a clockwise circle is a path, for that alone has a direction."""
-    return (isinstance(curve, Circle) and curve.ccw) or (isinstance(curve, Ellipse) and (_turns(curve) or curve.ratio < _THIN))
+    return (isinstance(curve, Circle) and curve.ccw) or (
+        isinstance(curve, Ellipse) and (_turns(curve) or curve.ratio < _THIN)
+    )
 
 
 def _turns(curve: Ellipse) -> bool:
@@ -101,7 +116,10 @@ def _stretched(curve: Ellipse) -> str:
     matrix = " ".join(map(_number, (a, -b, -b * ratio, -a * ratio, curve.centre[0], -curve.centre[1])))
     unit = Ellipse((0.0, 0.0), (1.0, 0.0), 1.0, -curve.end_parameter, -curve.start_parameter, not curve.ccw)
     arcs = _arcs(_along_ellipse(unit), (1.0, 1.0, 0.0), unit.ccw)
-    return f'<path transform="matrix({matrix})" d="M {_place(unit.start)} {" ".join(arcs)}" vector-effect="non-scaling-stroke"/>'
+    return (
+        f'<path transform="matrix({matrix})" d="M {_place(unit.start)} {" ".join(arcs)}" '
+        'vector-effect="non-scaling-stroke"/>'
+    )
 
 
 def _whole(curve: Curve) -> str:

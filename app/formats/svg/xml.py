@@ -58,7 +58,8 @@ def read_xml(data: bytes, name: str) -> Node:
     """Return the root element.
 
     Raises:
-        InputError: no XML, damaged, nested too deep, too large, or with entities that hold others or come from elsewhere.
+        InputError: no XML, damaged, nested too deep, too large, or with entities that hold others or come from
+            elsewhere.
     """
     if not data.strip():
         raise InputError(f"{name}: the file is empty; export the drawing again.")
@@ -79,7 +80,9 @@ def _refuse_repeated_entities(data: bytes, name: str) -> None:
         return
     uses = sum(1 for _ in _USE.finditer(plain))
     if uses > MOST_USES:
-        raise InputError(f"{name}: entities are used {uses} times, and {MOST_USES} are the most; save it again as a plain SVG.")
+        raise InputError(
+            f"{name}: entities are used {uses} times, and {MOST_USES} are the most; save it again as a plain SVG."
+        )
 
 
 class _Reader:
@@ -102,10 +105,17 @@ class _Reader:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
             what = expat.ErrorString(error.code)
-            raise InputError(f"{self._name}:{error.lineno}: the XML is damaged, column {error.offset + 1}: {what}; "
-                             "save it again from the drawing program.") from None
-        except (LookupError, ValueError) as error:  # an encoding that does not exist, or that Python alone cannot decode
-            raise InputError(f"{self._name}: the text encoding of the XML cannot be read ({error}); save it as UTF-8.") from None
+            raise InputError(
+                f"{self._name}:{error.lineno}: the XML is damaged, column {error.offset + 1}: {what}; "
+                "save it again from the drawing program."
+            ) from None
+        except (
+            LookupError,
+            ValueError,
+        ) as error:  # an encoding that does not exist, or that Python alone cannot decode
+            raise InputError(
+                f"{self._name}: the text encoding of the XML cannot be read ({error}); save it as UTF-8."
+            ) from None
         assert self._root is not None  # XML without a root is an error of the parser
         return self._root
 
@@ -115,7 +125,9 @@ class _Reader:
             self._refuse(f"there are more than {MOST_CURVES} elements; save the drawing in parts.")
         if len(self._open) >= DEEPEST:
             self._refuse(f"elements are nested deeper than {DEEPEST} levels; ungroup some and save again.")
-        node = Node(_plain(tag), {_plain(key): value for key, value in attributes.items()}, self._parser.CurrentLineNumber)
+        node = Node(
+            _plain(tag), {_plain(key): value for key, value in attributes.items()}, self._parser.CurrentLineNumber
+        )
         if self._open:
             self._open[-1].children.append(node)
         else:
@@ -136,8 +148,17 @@ class _Reader:
 
     def _entity(self, entity: str, parameter: bool, value: str | None, *_: str | None) -> None:
         self._entities += 1
-        if value is None or parameter or "&" in value or len(value) > _LONGEST_ENTITY or self._entities > _MOST_ENTITIES:
-            self._refuse(f"the entity {entity[:40]} holds others, comes from elsewhere or is too long; save it again as a plain SVG.")
+        if (
+            value is None
+            or parameter
+            or "&" in value
+            or len(value) > _LONGEST_ENTITY
+            or self._entities > _MOST_ENTITIES
+        ):
+            self._refuse(
+                f"the entity {entity[:40]} holds others, comes from elsewhere or is too long; save it again as a plain "
+                "SVG."
+            )
 
     def _refuse(self, what: str) -> NoReturn:
         raise InputError(f"{self._name}:{self._parser.CurrentLineNumber}: {what}")

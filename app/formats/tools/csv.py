@@ -1,8 +1,9 @@
 """Tools as a spreadsheet: one row a tool, a header row that names each column and its unit, `diameter_mm`.
 
-Columns are parted by commas with decimal points, or by semicolons or tabs with decimal commas or points: as spreadsheets
-write them. What a material's feeds are stands in three columns, `aluminium: surface_speed_m_min` and so on. Lengths may be
-inches (`diameter_in`), feed rates inches a minute; a column without a unit is mm, mm/min, rpm or degrees.
+Columns are parted by commas with decimal points, or by semicolons or tabs with decimal commas or points: as
+spreadsheets write them. What a material's feeds are stands in three columns, `aluminium: surface_speed_m_min` and so
+on. Lengths may be inches (`diameter_in`), feed rates inches a minute; a column without a unit is mm, mm/min, rpm or
+degrees.
 """
 
 from __future__ import annotations
@@ -24,17 +25,46 @@ from .library import ToolLibrary, check_numbers, shortest_degrees
 LENGTH = {"mm": 1.0, "in": 25.4, "inch": 25.4, "": 1.0}
 RATE = {"mm_min": 1.0, "in_min": 25.4, "ipm": 25.4, "": 1.0}
 UNITS: dict[str, dict[str, float]] = {
-    "number": {"": 1.0}, "name": {"": 1.0}, "kind": {"": 1.0}, "diameter": LENGTH, "flutes": {"": 1.0},
-    "spindle_speed": {"rpm": 1.0, "": 1.0}, "feed_rate": RATE, "plunge_rate": RATE, "corner_radius": LENGTH, "tip_diameter": LENGTH,
-    "tip_angle": {"deg": math.pi / 180, "": math.pi / 180}, "flute_length": LENGTH, "overall_length": LENGTH, "stick_out": LENGTH,
-    "shank_diameter": LENGTH, "length_offset": LENGTH, "holder": {"mm": 1.0, "": 1.0}, "remark": {"": 1.0},
-}  # fmt: skip
-FEED_UNITS: dict[str, dict[str, float]] = {"surface_speed": {"m_min": 1.0, "": 1.0}, "feed_per_tooth": LENGTH, "plunge_share": {"": 1.0}}
+    "number": {"": 1.0},
+    "name": {"": 1.0},
+    "kind": {"": 1.0},
+    "diameter": LENGTH,
+    "flutes": {"": 1.0},
+    "spindle_speed": {"rpm": 1.0, "": 1.0},
+    "feed_rate": RATE,
+    "plunge_rate": RATE,
+    "corner_radius": LENGTH,
+    "tip_diameter": LENGTH,
+    "tip_angle": {"deg": math.pi / 180, "": math.pi / 180},
+    "flute_length": LENGTH,
+    "overall_length": LENGTH,
+    "stick_out": LENGTH,
+    "shank_diameter": LENGTH,
+    "length_offset": LENGTH,
+    "holder": {"mm": 1.0, "": 1.0},
+    "remark": {"": 1.0},
+}
+FEED_UNITS: dict[str, dict[str, float]] = {
+    "surface_speed": {"m_min": 1.0, "": 1.0},
+    "feed_per_tooth": LENGTH,
+    "plunge_share": {"": 1.0},
+}
 ALSO = {
-    "t": "number", "tool": "number", "tool_number": "number", "no": "number", "nr": "number", "dia": "diameter", "type": "kind",
-    "description": "name", "comment": "remark", "teeth": "flutes", "speed": "spindle_speed", "rpm": "spindle_speed", "feed": "feed_rate",
+    "t": "number",
+    "tool": "number",
+    "tool_number": "number",
+    "no": "number",
+    "nr": "number",
+    "dia": "diameter",
+    "type": "kind",
+    "description": "name",
+    "comment": "remark",
+    "teeth": "flutes",
+    "speed": "spindle_speed",
+    "rpm": "spindle_speed",
+    "feed": "feed_rate",
     "plunge": "plunge_rate",
-}  # fmt: skip
+}
 TEXTS = ("name", "kind", "remark", "holder")
 COMMA = re.compile(r"[+-]?(\d{1,3}(\.\d{3})+|\d+),\d+")
 THOUSANDS = re.compile(r"[+-]?\d{1,3}(\.\d{3})+")
@@ -42,7 +72,9 @@ THOUSANDS = re.compile(r"[+-]?\d{1,3}(\.\d{3})+")
 
 @dataclass(frozen=True, slots=True)
 class _Column:
-    """What a column holds: a field of `Tool`, or with a material one of `FeedRow`; `unit` makes it mm, radians and so on."""
+    """What a column holds: a field of `Tool`, or with a material one of `FeedRow`; `unit` makes it mm, radians and so
+    on.
+    """
 
     field: str
     unit: float = 1.0
@@ -62,19 +94,26 @@ def read_tool_csv(name: str, data: bytes) -> tuple[ToolLibrary, tuple[str, ...]]
     text = _text(data)
     rows = _rows(name, text)
     if not rows:
-        raise InputError(f"{name}: the file is empty; its first row must name the columns, such as number, diameter_mm, kind.")
+        raise InputError(
+            f"{name}: the file is empty; its first row must name the columns, such as number, diameter_mm, kind."
+        )
     header = [cell.strip() for cell in rows[0][1]]
     columns = [_column(cell) for cell in header]
     found = [column.field for column in columns if column and not column.material]
     for field in ("number", "diameter"):
         if found.count(field) != 1:
-            raise InputError(f"{name}:{rows[0][0]}: there must be one column named {field}{'_mm' * (field == 'diameter')}, "
-                             f"and there {'is none' if field not in found else 'are several'}.")
+            raise InputError(
+                f"{name}:{rows[0][0]}: there must be one column named {field}{'_mm' * (field == 'diameter')}, "
+                f"and there {'is none' if field not in found else 'are several'}."
+            )
     sheet = _Sheet(name, header, columns, _decimal_comma(columns, rows))
     tools = tuple(sheet.tool(line, cells) for line, cells in rows[1:] if any(cell.strip() for cell in cells))
     check_numbers(name, tools)
-    passed = tuple(printable(f"{name}: column '{brief(cell, QUOTED)}' is none of a tool and is passed over.")
-                   for cell, column in zip(header, columns, strict=True) if column is None and cell)
+    passed = tuple(
+        printable(f"{name}: column '{brief(cell, QUOTED)}' is none of a tool and is passed over.")
+        for cell, column in zip(header, columns, strict=True)
+        if column is None and cell
+    )
     return ToolLibrary("", tools), passed
 
 
@@ -96,7 +135,9 @@ def _rows(name: str, text: str) -> list[tuple[int, list[str]]]:
     try:
         return [(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
     except csv.Error as error:
-        raise InputError(f"{name}:{reader.line_num}: this is no row of a spreadsheet ({error}); save it as CSV again.") from error
+        raise InputError(
+            f"{name}:{reader.line_num}: this is no row of a spreadsheet ({error}); save it as CSV again."
+        ) from error
 
 
 def _column(header: str) -> _Column | None:
@@ -114,7 +155,12 @@ def _column(header: str) -> _Column | None:
 
 def _decimal_comma(columns: list[_Column | None], rows: list[tuple[int, list[str]]]) -> bool:
     """Tell whether numbers have decimal commas: one that can be nothing else shows it for the whole file."""
-    cells = (cell for _, row in rows[1:] for column, cell in zip(columns, row, strict=False) if column and column.field not in TEXTS)
+    cells = (
+        cell
+        for _, row in rows[1:]
+        for column, cell in zip(columns, row, strict=False)
+        if column and column.field not in TEXTS
+    )
     return any(COMMA.fullmatch(re.sub(r"\s", "", cell)) for cell in cells)
 
 
@@ -161,8 +207,10 @@ class _Sheet:
         plain = re.sub(r"[\s'\u202f]", "", cell)
         if self.decimal_comma:
             if "." in plain and "," not in plain and not THOUSANDS.fullmatch(plain):
-                raise InputError(f"{place} is {brief(cell, QUOTED)}, but other numbers of this file have decimal commas; "
-                                 "use one sign throughout.")
+                raise InputError(
+                    f"{place} is {brief(cell, QUOTED)}, but other numbers of this file have decimal commas; "
+                    "use one sign throughout."
+                )
             plain = plain.replace(".", "").replace(",", ".")
         try:
             number = float(plain)
@@ -184,18 +232,29 @@ def _built(make: Callable[[], Any], place: str) -> Any:
 def _feed_row(values: dict[str, Any]) -> FeedRow:
     missing = [field for field in ("surface_speed", "feed_per_tooth") if field not in values]
     if missing:
-        raise InputError(f"the feeds for {brief(values['material'], QUOTED)} lack {' and '.join(missing)}; fill it in, or empty the "
-                         "others.")
+        raise InputError(
+            f"the feeds for {brief(values['material'], QUOTED)} lack {' and '.join(missing)}; fill it in, or empty the "
+            "others."
+        )
     return FeedRow(**values)
 
 
 def _kind(cell: str) -> ToolKind:
     word = cell.lower().removesuffix("mill").strip(" -_")
-    word = {"bull-nose": "bull", "bullnose": "bull", "ball-nose": "ball", "ballnose": "ball", "end": "flat", "v-bit": "v"}.get(word, word)
+    word = {
+        "bull-nose": "bull",
+        "bullnose": "bull",
+        "ball-nose": "ball",
+        "ballnose": "ball",
+        "end": "flat",
+        "v-bit": "v",
+    }.get(word, word)
     try:
         return ToolKind(word)
     except ValueError as error:
-        raise InputError(f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(kind.value for kind in ToolKind)}.") from error
+        raise InputError(
+            f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(kind.value for kind in ToolKind)}."
+        ) from error
 
 
 def _holder(cell: str) -> tuple[HolderPoint, ...]:
@@ -227,12 +286,26 @@ def write_tool_csv(library: ToolLibrary, mark: str = ",") -> bytes:
     names = {field: f"{field}_{next(iter(units))}".rstrip("_") for field, units in (UNITS | FEED_UNITS).items()}
     text = io.StringIO(newline="")
     table = csv.writer(text, delimiter=mark, lineterminator="\r\n")
-    table.writerow([*(names[field] for field in UNITS), *(f"{material}: {names[field]}" for material in materials for field in FEED_UNITS)])
+    table.writerow(
+        [
+            *(names[field] for field in UNITS),
+            *(f"{material}: {names[field]}" for material in materials for field in FEED_UNITS),
+        ]
+    )
     for tool in library.tools:
         feeds = {row.material: row for row in tool.feeds}
         cells = [_cell(tool, field) for field in UNITS]
-        cells += [getattr(feeds[material], field) if material in feeds else "" for material in materials for field in FEED_UNITS]
-        table.writerow([repr(cell).replace(".", "," if mark == ";" else ".") if isinstance(cell, float) else cell for cell in cells])
+        cells += [
+            getattr(feeds[material], field) if material in feeds else ""
+            for material in materials
+            for field in FEED_UNITS
+        ]
+        table.writerow(
+            [
+                repr(cell).replace(".", "," if mark == ";" else ".") if isinstance(cell, float) else cell
+                for cell in cells
+            ]
+        )
     return text.getvalue().encode("utf-8-sig")
 
 

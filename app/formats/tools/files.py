@@ -18,7 +18,8 @@ def read_tools(name: str, data: bytes, units: Units = Units.MM) -> tuple[ToolLib
     """Return the tools of a file, and a sentence for each thing in it that is left out.
 
     Args:
-        name: of the file; its suffix tells the kind, and without its suffix it names tools that have no name of their own.
+        name: of the file; its suffix tells the kind, and without its suffix it names tools that have no name of their
+            own.
         data: its bytes.
         units: of a tool table, which names none.
 

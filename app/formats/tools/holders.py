@@ -51,7 +51,9 @@ def outline_of(name: str) -> tuple[HolderPoint, ...]:
         if _plain(holder.name) == wanted:
             return holder.outline
     known = ", ".join(holder.name for holder in named_holders())
-    raise InputError(f"'{name}' is no holder; use one of {known}, or its outline, heights and radii from the lower face up.")
+    raise InputError(
+        f"'{name}' is no holder; use one of {known}, or its outline, heights and radii from the lower face up."
+    )
 
 
 def name_of_outline(outline: tuple[HolderPoint, ...]) -> str:

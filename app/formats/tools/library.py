@@ -1,8 +1,8 @@
 """Tool libraries: TOML files of tools that ship in `resources/tools`, and the user's own beside the settings.
 
-The header that `write_library` puts above each file explains every key. Version 1 of the format; a file of a later one is
-refused rather than half read. Whatever a `Tool` holds is written and read back the same, to the last bit; angles are, where
-they are what some number of degrees is.
+The header that `write_library` puts above each file explains every key. Version 1 of the format; a file of a later one
+is refused rather than half read. Whatever a `Tool` holds is written and read back the same, to the last bit; angles
+are, where they are what some number of degrees is.
 """
 
 from __future__ import annotations
@@ -21,20 +21,15 @@ from .holders import outline_of
 
 FORMAT = 1
 HEADER = """\
-# A tool library of Hitofude. Lengths are mm, angles degrees, speeds rpm, feed rates mm/min.
-# Every [[tool]] needs number (1 to 9999, each once) and diameter; what is left out is not known.
-#   kind             flat, ball, bull (bull-nose), v, drill, taper (cone with a ball at its tip)
-#   name, remark     texts
-#   flutes           cutting edges
-#   spindle_speed, feed_rate, plunge_rate
-#   corner_radius    bull: of the rounded corner
-#   tip_angle        v, drill, taper: full angle of the point or cone
-#   tip_diameter     v: of the flat at the point; taper: of the ball at the tip
-#   flute_length, overall_length, stick_out (tip to holder), shank_diameter
-#   holder           outline above its lower face: [[height, radius], ...], heights from 0 on; or a name, such as "ER20"
-#   length_offset    what the control's tool table takes off (G43)
-# Each [[tool.feeds]] below a tool is one material:
-#   material, surface_speed (m/min, at the full diameter), feed_per_tooth (mm), plunge_share (of the feed, straight down)
+# A tool library of Hitofude. Lengths are mm, angles degrees, speeds rpm, feed rates mm/min. # Every [[tool]] needs
+number (1 to 9999, each once) and diameter; what is left out is not known. #   kind             flat, ball, bull
+(bull-nose), v, drill, taper (cone with a ball at its tip) #   name, remark     texts #   flutes           cutting
+edges #   spindle_speed, feed_rate, plunge_rate #   corner_radius    bull: of the rounded corner #   tip_angle
+v, drill, taper: full angle of the point or cone #   tip_diameter     v: of the flat at the point; taper: of the ball
+at the tip #   flute_length, overall_length, stick_out (tip to holder), shank_diameter #   holder           outline
+above its lower face: [[height, radius], ...], heights from 0 on; or a name, such as "ER20" #   length_offset    what
+the control's tool table takes off (G43) # Each [[tool.feeds]] below a tool is one material: #   material,
+surface_speed (m/min, at the full diameter), feed_per_tooth (mm), plunge_share (of the feed, straight down)
 """
 RANGES = {"format": (1, FORMAT)}
 
@@ -96,7 +91,11 @@ class _Entry:
         """Return a tool's entry, without what is as the model has it anyway."""
         usual = Tool(tool.number, tool.diameter)
         values = {each.name: getattr(tool, each.name) for each in fields(_Entry)}
-        told = {name: value for name, value in values.items() if name in ("number", "diameter") or value != getattr(usual, name)}
+        told = {
+            name: value
+            for name, value in values.items()
+            if name in ("number", "diameter") or value != getattr(usual, name)
+        }
         if tool.tip_angle:
             told["tip_angle"] = shortest_degrees(tool.tip_angle)
         return _Entry(**told)
@@ -155,7 +154,9 @@ def check_numbers(name: str, tools: tuple[Tool, ...]) -> None:
     numbers = [tool.number for tool in tools]
     for number in numbers:
         if numbers.count(number) > 1:
-            raise InputError(f"{name}: T{number} is there {numbers.count(number)} times; give each tool its own number.")
+            raise InputError(
+                f"{name}: T{number} is there {numbers.count(number)} times; give each tool its own number."
+            )
 
 
 def write_library(library: ToolLibrary) -> bytes:

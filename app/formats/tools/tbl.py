@@ -1,8 +1,8 @@
 """LinuxCNC's tool table, `tool.tbl`: one tool a line, `T1 P1 X0 Z+50.0 D6 I0 J0 Q0 ;remark`, words in any order.
 
 What a line means was settled by asking LinuxCNC's own interpreter (2.9): words are parted by spaces alone and may be in
-small letters; of a word that comes twice the last counts, of a tool that comes twice the first; a line with anything else
-in it is passed over, in part or whole, without a word. Such lines are told here.
+small letters; of a word that comes twice the last counts, of a tool that comes twice the first; a line with anything
+else in it is passed over, in part or whole, without a word. Such lines are told here.
 """
 
 from __future__ import annotations
@@ -46,8 +46,11 @@ def read_tool_table(name: str, data: bytes, units: Units = Units.MM) -> ToolTabl
         except InputError as error:
             problems.append(f"{name}:{number}: {error}")
     if not rows:
-        raise InputError(problems[0] if problems else f"{name}: there is no tool in this file; write a line for each, "
-                         "such as T1 P1 Z50 D6 ;end mill.")
+        raise InputError(
+            problems[0]
+            if problems
+            else f"{name}: there is no tool in this file; write a line for each, such as T1 P1 Z50 D6 ;end mill."
+        )
     return ToolTable(tuple(rows), tuple(problems))
 
 
@@ -62,15 +65,28 @@ def _row(text: str, remark: str, line: int, units: Units) -> TableRow:
     """Return the row that the words of a line are."""
     words = dict(_word(word) for word in text.strip(" \r\n").split(" ") if word)
     if "T" not in words:
-        raise InputError("the line has no T word, so LinuxCNC passes over it; begin it with the tool's number, such as T1.")
+        raise InputError(
+            "the line has no T word, so LinuxCNC passes over it; begin it with the tool's number, such as T1."
+        )
     values = {letter: words.get(letter, 0.0) * (units.value if letter in LENGTHS else 1.0) for letter in LETTERS}
 
     def three(letters: str) -> tuple[float, float, float]:
         first, second, third = (values[letter] for letter in letters)
         return first, second, third
 
-    return TableRow(int(values["T"]), int(values["P"]), three("XYZ"), three("UVW"), three("ABC"), values["D"], values["I"], values["J"],
-                    int(values["Q"]), remark, line)
+    return TableRow(
+        int(values["T"]),
+        int(values["P"]),
+        three("XYZ"),
+        three("UVW"),
+        three("ABC"),
+        values["D"],
+        values["I"],
+        values["J"],
+        int(values["Q"]),
+        remark,
+        line,
+    )
 
 
 def _word(word: str) -> tuple[str, float]:
@@ -78,8 +94,10 @@ def _word(word: str) -> tuple[str, float]:
     match = WORD.fullmatch(word)
     letter = match[1].upper() if match else ""
     if match is None or letter not in LETTERS:
-        raise InputError(f"'{word}' is no word of LinuxCNC's tool table; use {' '.join(LETTERS)}, each with its number, "
-                         "parted by spaces, and a semicolon before the remark.")
+        raise InputError(
+            f"'{word}' is no word of LinuxCNC's tool table; use {' '.join(LETTERS)}, each with its number, "
+            "parted by spaces, and a semicolon before the remark."
+        )
     value = float(match[2])
     if not abs(value) < 1e6 or (letter in WHOLE and value < 0):
         raise InputError(f"'{word}' is out of range; correct it.")
@@ -99,7 +117,9 @@ def write_tool_table(rows: Iterable[TableRow], units: Units = Units.MM) -> bytes
     lines: dict[int, bytes] = {}
     for row in rows:
         if row.number in lines:
-            raise InputError(f"T{row.number} is there twice; LinuxCNC would take the first of them, so give one another number.")
+            raise InputError(
+                f"T{row.number} is there twice; LinuxCNC would take the first of them, so give one another number."
+            )
         lines[row.number] = _line(row, units)
     if len(lines) > MOST_ROWS:
         raise InputError(f"There are {len(lines)} tools; LinuxCNC's tool table has places for {MOST_ROWS}.")
@@ -110,7 +130,11 @@ def _line(row: TableRow, units: Units) -> bytes:
     """Return one line; words that are 0 are left out, but for Z and D."""
     digits, value = DIGITS[units], units.value
     words = [f"T{row.number}", f"P{row.pocket or row.number}"]
-    lengths = {**dict(zip("XYZ", row.offset, strict=True)), **dict(zip("UVW", row.second_offset, strict=True)), "D": row.diameter}
+    lengths = {
+        **dict(zip("XYZ", row.offset, strict=True)),
+        **dict(zip("UVW", row.second_offset, strict=True)),
+        "D": row.diameter,
+    }
     angles = {**dict(zip("ABC", row.rotary_offset, strict=True)), "I": row.front_angle, "J": row.back_angle}
     for letter in LETTERS[2:-1]:
         if letter in lengths and (lengths[letter] or letter in "ZD"):

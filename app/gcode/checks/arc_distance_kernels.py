@@ -1,4 +1,6 @@
-"""Compiled inner loop of the arc check: how far a written motion leaves its stretch of a meant arc, both swept in step."""
+"""Compiled inner loop of the arc check: how far a written motion leaves its stretch of a meant arc, both swept in
+step.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,8 @@ def in_step(written, ends, meant, span, distance):
     """Write an upper bound of the distance between each written motion and its stretch of a meant arc, in the plane.
 
     The distance vector is sampled; between two samples it leaves their chord by at most h^2 / 8 times its second
-    derivative. That is at most sweep^2 times the distance itself, which goes to the other side of the inequality, and what
-    the difference of centres, of sweeps and of radii adds.
+    derivative. That is at most sweep^2 times the distance itself, which goes to the other side of the inequality, and
+    what the difference of centres, of sweeps and of radii adds.
 
     Args:
         written, meant: (m, 6) centre x and y, radius at the start and at the end, angle of the start, sweep; radians.
@@ -44,4 +46,6 @@ def in_step(written, ends, meant, span, distance):
             shift = math.hypot(written[i, 0] - meant[i, 0], written[i, 1] - meant[i, 1])
             spiral += 2.0 * abs(own * (written[i, 3] - written[i, 2]))
             bend = own * own * shift + abs(own * own - sweep * sweep) * radius + spiral
-        distance[i] = (largest + bend / (8.0 * SAMPLES * SAMPLES)) / max(0.1, 1.0 - own * own / (8.0 * SAMPLES * SAMPLES))
+        distance[i] = (largest + bend / (8.0 * SAMPLES * SAMPLES)) / max(
+            0.1, 1.0 - own * own / (8.0 * SAMPLES * SAMPLES)
+        )

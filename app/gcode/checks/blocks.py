@@ -1,7 +1,8 @@
 """The blocks of a text that are no moves: those that the post says, in its order, and none of another kind.
 
-What the reader passes over, and what it obeys without a motion (words for blending, coolant between tools, overrides), is
-compared here as text: every block that does not only move is the next one that the post's own lines make for these tools.
+What the reader passes over, and what it obeys without a motion (words for blending, coolant between tools, overrides),
+is compared here as text: every block that does not only move is the next one that the post's own lines make for these
+tools.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ HEAD = re.compile(r"%|o\d+")
 LETTERS = frozenset("defghmpqrstxyz")
 """Letters of the words that the post's own blocks may have: none that turns or moves another axis, none that jumps."""
 _FOLLOWED = """
-G0 G1 G4 G15 G17 G20 G21 G28 G30 G40 G43 G49 G50 G53 G54 G54.1 G55 G56 G57 G58 G59 G59.1 G59.2 G59.3 G61 G61.1 G64 G69 G80 G90 G90.1
+G0 G1 G4 G15 G17 G20 G21 G28 G30 G40 G43 G49 G50 G53 G54 G54.1 G55 G56 G57 G58 G59 G59.1 G59.2 G59.3 G61 G61.1 G64 G69
+G80 G90 G90.1
 G91 G91.1 G94 G97 G98 G99 G187 M0 M1 M2 M3 M5 M6 M7 M8 M9 M19 M30 M48"""
 CODES = frozenset(_FOLLOWED.split())
 """Codes that they may have: what these set is followed, and none of it stays in the machine's tables."""
@@ -51,7 +53,9 @@ class Block:
         """Tell whether another block is this one, however its numbers are spelled."""
         if BLOCK.fullmatch(self.code) is None or BLOCK.fullmatch(code) is None:
             return self.code == code
-        mine, other = ([word for word in _words(each) if not (self.loose and word[0] == "z")] for each in (self.code, code))
+        mine, other = (
+            [word for word in _words(each) if not (self.loose and word[0] == "z")] for each in (self.code, code)
+        )
         return mine == other and self.loose <= ("z" in code)
 
 
@@ -64,11 +68,16 @@ def blocks_of(post: Post, job: Job, tools: tuple[int, ...]) -> list[Block]:
     """
     lines, fields = post.program, program_fields(job, post, blend_mm(job, post))
     filled: list[tuple[str, Fields]] = [(template, fields) for template in (*lines.top, *lines.start)]
-    own = [fields | tool_fields(job.tool(number), post, _next(tools, k)) | {"clearance": "0"} for k, number in enumerate(tools)]
+    own = [
+        fields | tool_fields(job.tool(number), post, _next(tools, k)) | {"clearance": "0"}
+        for k, number in enumerate(tools)
+    ]
     for k, mine in enumerate(own):
         filled += [(template, own[k - 1]) for template in lines.leave] if k else []
         filled += [(template, fields) for template in lines.home] + [(template, mine) for template in lines.tool]
-    filled += [(template, own[-1]) for template in lines.leave] + [(template, fields) for template in (*lines.home, *lines.end)]
+    filled += [(template, own[-1]) for template in lines.leave] + [
+        (template, fields) for template in (*lines.home, *lines.end)
+    ]
     spelled = [(template.format(**values).strip(), "{clearance" in template) for template, values in filled]
     blocks = [Block(text, _code(text, post), loose) for text, loose in spelled]
     return [block for block in blocks if block.code]
@@ -126,14 +135,28 @@ def approach_problems(text: str, first: list[int]) -> Iterator[Problem]:
         missing = [letter for letter in "XY" if letter not in lines[number - 1].upper()]
         if missing:
             axes = " and ".join(missing)
-            yield Problem(number, 0, "", f"this tool's first move does not say {axes}, and where the tool was changed nobody knows.")
+            yield Problem(
+                number,
+                0,
+                "",
+                f"this tool's first move does not say {axes}, and where the tool was changed nobody knows.",
+            )
 
 
 def _moving_codes(post: Post) -> list[str]:
     """Return the numbers of the post's G words of motion and of drilling."""
     drilling = post.drilling
-    words = " ".join((*post.words.motion, drilling.drill, drilling.peck, drilling.chip_break, drilling.to_initial, drilling.to_r,
-                      drilling.cancel))  # fmt: skip
+    words = " ".join(
+        (
+            *post.words.motion,
+            drilling.drill,
+            drilling.peck,
+            drilling.chip_break,
+            drilling.to_initial,
+            drilling.to_r,
+            drilling.cancel,
+        )
+    )
     return sorted({f"{float(value):g}" for letter, value in WORD.findall(words.lower()) if letter == "g"})
 
 
@@ -181,7 +204,10 @@ def _unfit(code: str) -> Iterator[str]:
         if letter not in LETTERS:
             yield f"{name} moves an axis that no path is checked for, or jumps; take it out of the post."
         elif letter in "gm" and name not in CODES:
-            yield f"{name} sets something that the path does not know or that stays in the machine; take it out of the post."
+            yield (
+                f"{name} sets something that the path does not know or that stays in the machine; take it out of the "
+                "post."
+            )
 
 
 class _Machine:

@@ -35,8 +35,11 @@ from .state import Expected, wrong_states
 NOISE = 1e-9
 """mm; what moving a path to another zero and back may add."""
 
-LEFT_SO = ("That is so on a machine that stands elsewhere, or has other modes in force, when the program begins: the program has to say "
-           "itself what it needs.")  # fmt: skip
+LEFT_SO = (
+    "That is so on a machine that stands elsewhere, or has other modes in force, when the program begins: the program "
+    "has to say "
+    "itself what it needs."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,11 +49,12 @@ class Check:
     Attributes:
         largest_distance_mm: the written path is nowhere farther from the moves, nor the moves from it.
         tolerance_mm: how far it may be.
-        problems: every way in which the text differs from the moves, the first line of each; none = it is what was meant.
+        problems: every way in which the text differs from the moves, the first line of each; none = it is what was
+            meant.
         program: what the text was read as.
         post: by which it was written.
-        move: (n,) index of the program's move that each motion was written for; lifts count to the move before them, the
-            approach of a tool to its first move.
+        move: (n,) index of the program's move that each motion was written for; lifts count to the move before them,
+            the approach of a tool to its first move.
     """
 
     largest_distance_mm: float
@@ -71,10 +75,17 @@ class Check:
         """
         if self.problems:
             more = f" ({len(self.problems) - 1} more differences)" if len(self.problems) > 1 else ""
-            mend = ("please report this with the drawing and the post" if comes_with_program(self.post) else
-                    f"{self.post.title} is a post of your own: mend its file, where a post that comes with the program shows how")
-            raise HitofudeError(f"{self.problems[0].told(name)}{more} What was written cannot be proven to be the path that was computed, "
-                                f"so it is not kept; {mend}.")  # fmt: skip
+            mend = (
+                "please report this with the drawing and the post"
+                if comes_with_program(self.post)
+                else f"{self.post.title} is a post of your own: mend its file, where a post that comes with the "
+                "program shows how"
+            )
+            raise HitofudeError(
+                f"{self.problems[0].told(name)}{more} What was written cannot be proven to be the path that was "
+                "computed, "
+                f"so it is not kept; {mend}."
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +134,9 @@ def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGR
     moves = program.moves.part(file.first, stop)
     origin = work_origin(job, stock_box(job, program.regions, program.lines))
     step = writing_tolerance(job, post)
-    compared = _Compared(read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.travel_z - origin[2], step)
+    compared = _Compared(
+        read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.travel_z - origin[2], step
+    )
     mine, far, problems = _differences(compared)
     if not problems:
         problems = _elsewhere(compared, data, options, progress.part(0.5, 1.0))
@@ -160,7 +173,9 @@ def _text_problems(compared: _Compared, text: Text, post: Post) -> Iterator[Prob
 
 
 def _tool_table(job: Job) -> dict[int, ToolOffset]:
-    """Return a length for each tool, no two alike: so a tool whose length is not taken, or another's, shows in its path."""
+    """Return a length for each tool, no two alike: so a tool whose length is not taken, or another's, shows in its
+    path.
+    """
     return {tool.number: ToolOffset((0.0, 0.0, float(rank))) for rank, tool in enumerate(job.tools, start=1)}
 
 
@@ -187,9 +202,14 @@ def _path_problems(compared: _Compared, far: np.ndarray) -> Iterator[Problem]:
     wrong = np.flatnonzero(~(far <= compared.tolerance))
     if len(wrong):
         move = wrong[0]
-        yield _problem(compared.file.nc.lines[move], "", f"the written path is {far[move]:.4f} mm from the move to "
-                       f"X{compared.meant.end[move, 0]:.4f} Y{compared.meant.end[move, 1]:.4f} Z{compared.meant.end[move, 2]:.4f}, and so "
-                       f"in {len(wrong)} moves; {compared.tolerance:g} mm are allowed.")  # fmt: skip
+        yield _problem(
+            compared.file.nc.lines[move],
+            "",
+            f"the written path is {far[move]:.4f} mm from the move to "
+            f"X{compared.meant.end[move, 0]:.4f} Y{compared.meant.end[move, 1]:.4f} "
+            f"Z{compared.meant.end[move, 2]:.4f}, and so "
+            f"in {len(wrong)} moves; {compared.tolerance:g} mm are allowed.",
+        )
 
 
 def _kind_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
@@ -209,7 +229,9 @@ def _kind_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
 
 
 def _lift_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
-    """Yield motions that belong to no move and are no lifts; only the post's own home blocks go by the machine's coordinates."""
+    """Yield motions that belong to no move and are no lifts; only the post's own home blocks go by the machine's
+    coordinates.
+    """
     motions = compared.read.motions
     free = np.ones(len(motions), bool)
     free[mine.rows] = False
@@ -218,10 +240,16 @@ def _lift_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
     stays = np.abs(motions.end[:, 2] - motions.start[:, 2]) <= NOISE
     up = np.where(machine, _at_home(compared), np.abs(motions.end[:, 2] - compared.safe_z) <= compared.tolerance)
     home = np.isin(motions.line, compared.file.nc.home_lines)
-    wrong = np.where(free, (motions.kind != MotionKind.RAPID) | level | ~(stays & ~machine | up), False) | (machine & (~home | ~free))
+    wrong = np.where(free, (motions.kind != MotionKind.RAPID) | level | ~(stays & ~machine | up), False) | (
+        machine & (~home | ~free)
+    )
     wrong |= home & ~machine & ~stays
     if wrong.any():
-        yield _problem(motions.line[np.argmax(wrong)], "", "this motion belongs to no move of the path and is no lift to clearance.")
+        yield _problem(
+            motions.line[np.argmax(wrong)],
+            "",
+            "this motion belongs to no move of the path and is no lift to clearance.",
+        )
     yield from _home_problems(compared)
 
 
@@ -237,9 +265,18 @@ def _at_home(compared: _Compared) -> NDArray[np.bool_]:
     standing, motions = compared.standing, compared.read.motions
     heights = [standing.homes[code][2] for code in compared.expected.homes] + list(compared.expected.home_heights)
     lengths = _tool_table(compared.expected.job)
-    tip = np.array([lengths[state.length_offset].offset[2] if state.length_offset in lengths else 0.0 for state in compared.read.states])
+    tip = np.array(
+        [
+            lengths[state.length_offset].offset[2] if state.length_offset in lengths else 0.0
+            for state in compared.read.states
+        ]
+    )
     place = motions.end[:, 2] + standing.zero[2] + tip[motions.state]
-    return np.any([np.abs(place - height) <= NOISE for height in heights], axis=0) if heights else np.zeros(len(motions), bool)
+    return (
+        np.any([np.abs(place - height) <= NOISE for height in heights], axis=0)
+        if heights
+        else np.zeros(len(motions), bool)
+    )
 
 
 def _home_problems(compared: _Compared) -> Iterator[Problem]:
@@ -247,7 +284,11 @@ def _home_problems(compared: _Compared) -> Iterator[Problem]:
     motions, lines = compared.read.motions, np.array(compared.file.nc.home_lines, int)
     there = motions.line[_machine(compared.read) & _at_home(compared)]
     blocks = np.cumsum(np.diff(lines, prepend=0) != 1)
-    away = [int(lines[blocks == block][0]) for block in np.unique(blocks) if not np.isin(lines[blocks == block], there).any()]
+    away = [
+        int(lines[blocks == block][0])
+        for block in np.unique(blocks)
+        if not np.isin(lines[blocks == block], there).any()
+    ]
     if away:
         yield _problem(away[0], "", "the tool does not go home here, as it should.")
 
@@ -263,7 +304,9 @@ def _section_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
     last = np.append(mine.last[begins[1:] - 1], len(compared.read.motions) - 1)
     x, y, z = compared.read.motions.known_from
     if not (x == y == first[0] >= z):
-        yield _problem(lines[0], "", "the first tool does not go to clearance along Z alone, and then to a place in X and Y.")
+        yield _problem(
+            lines[0], "", "the first tool does not go to clearance along Z alone, and then to a place in X and Y."
+        )
     sections = _Sections(compared, first, last)
     yield from sections.problems()
 
@@ -299,9 +342,13 @@ class _Sections:
         for section, tool in enumerate(numbers):
             line = int(self.compared.file.nc.lines[self.compared.begins[section]])
             if expected.changes and len(changes[section]) != 1:
-                yield _problem(line, "", f"T{tool} is changed to {len(changes[section])} times before its first motion.")
+                yield _problem(
+                    line, "", f"T{tool} is changed to {len(changes[section])} times before its first motion."
+                )
             if expected.dwell_s is not None and abs(dwell[section] - expected.dwell_s) > 1e-3:
-                yield _problem(line, "", f"the spindle has {dwell[section]:g} s to reach its speed, not {expected.dwell_s:g}.")
+                yield _problem(
+                    line, "", f"the spindle has {dwell[section]:g} s to reach its speed, not {expected.dwell_s:g}."
+                )
             if not self._clear(section, max(changes[section], default=0)):
                 yield _problem(line, "", f"T{tool} does not go to clearance height before it moves in X or Y.")
             if section and changes[section] and not self._left(section, min(changes[section])):
@@ -313,7 +360,9 @@ class _Sections:
         return row > changed and abs(motions.end[row - 1, 2] - self.compared.safe_z) <= self.compared.tolerance
 
     def _left(self, section: int, changed: int) -> bool:
-        """Tell whether the tool before was lifted to clearance by its own moves or behind them, before it went home or was changed."""
+        """Tell whether the tool before was lifted to clearance by its own moves or behind them, before it went home or
+        was changed.
+        """
         motions, home = self.compared.read.motions, _machine(self.compared.read)
         rows = np.arange(self.last[section - 1], changed)
         rows = rows[~home[rows]]

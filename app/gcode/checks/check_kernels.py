@@ -32,7 +32,9 @@ def _after_number(data, i):
 
 @kernel(f"int64({_BYTES}, int64, {_BYTES}, {_TABLE})", counts=False)
 def _after_code(data, i, codes, spans):
-    """Return the offset behind the number of a G word, where it is one of some codes with zeros before it or none; else -1."""
+    """Return the offset behind the number of a G word, where it is one of some codes with zeros before it or none; else
+    -1.
+    """
     end = i
     while end < len(data) and (_ZERO <= data[end] <= _NINE or data[end] == _POINT):
         end += 1
@@ -53,7 +55,8 @@ def lines_with_more(data, codes, spans, lines):
 
     Args:
         data: the text.
-        codes: numbers of the G words behind one another, without zeros before them. spans: (k, 2) where each begins and ends in it.
+        codes: numbers of the G words behind one another, without zeros before them. spans: (k, 2) where each begins and
+            ends in it.
         lines: the answer, 1-based; as long as there are lines.
 
     Returns:

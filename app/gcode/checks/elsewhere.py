@@ -1,7 +1,7 @@
 """A text read again on a machine that was left as another job left it: other zeros, other homes, other modes in force.
 
-A control that is switched on stands where nothing is wrong by chance: at its zero, in millimetres, at G90. What a program does not
-say itself comes out right there, and shows here.
+A control that is switched on stands where nothing is wrong by chance: at its zero, in millimetres, at G90. What a
+program does not say itself comes out right there, and shows here.
 """
 
 from __future__ import annotations
@@ -45,11 +45,15 @@ FRESH = Standing()
 
 
 def elsewhere(written_in: Units) -> Standing:
-    """Return another place, above the work as a machine stands, with the units in force that the program is not written in."""
+    """Return another place, above the work as a machine stands, with the units in force that the program is not written
+    in.
+    """
     return Standing(
-        (-421.5, -263.25, -387.125), (137.25, 91.5, 63.75), {"G28": (-11.5, -23.25, -3.5), "G30": (-211.5, -131.25, -7.25)},
+        (-421.5, -263.25, -387.125),
+        (137.25, 91.5, 63.75),
+        {"G28": (-11.5, -23.25, -3.5), "G30": (-211.5, -131.25, -7.25)},
         Units.MM if written_in is Units.INCH else Units.INCH,
-    )  # fmt: skip
+    )
 
 
 def read_elsewhere(data: bytes, options: ReadOptions, standing: Standing, progress: Progress) -> NcProgram:
@@ -79,9 +83,16 @@ def _leave_behind(control: Control, options: ReadOptions, standing: Standing) ->
     offsets.work = {name: (10.5 * rank, 20.25 * rank, 5.125 * rank) for rank, name in enumerate(OFFSETS[1:], start=1)}
     control.selected, control.motion = max(options.tool_table, default=0) + 1, "G1"
     control.change(
-        units=standing.units, plane=Plane.ZX, absolute=False, arc_absolute=options.dialect in WITH_ARC_DISTANCE,
-        feed_mode=FeedMode.INVERSE_TIME, tool=control.selected, speed=777.0, spindle=-1, length_offset=control.selected - 1,
-    )  # fmt: skip
+        units=standing.units,
+        plane=Plane.ZX,
+        absolute=False,
+        arc_absolute=options.dialect in WITH_ARC_DISTANCE,
+        feed_mode=FeedMode.INVERSE_TIME,
+        tool=control.selected,
+        speed=777.0,
+        spindle=-1,
+        length_offset=control.selected - 1,
+    )
     if options.dialect is not Dialect.GRBL:
         control.compensation = Compensation(CUTTER_RADIUS, Plane.ZX, control.at)
     control.offsets_changed()
@@ -96,4 +107,6 @@ def _from_zero(program: NcProgram, zero: Place) -> NcProgram:
     motions = program.motions
     shift = np.array(zero)
     moved = replace(motions, start=motions.start - shift, end=motions.end - shift, centre=motions.centre - shift)
-    return replace(program, motions=moved, states=tuple(replace(state, shift=taken(state.shift, zero)) for state in program.states))
+    return replace(
+        program, motions=moved, states=tuple(replace(state, shift=taken(state.shift, zero)) for state in program.states)
+    )

@@ -43,8 +43,10 @@ class Owned:
     Attributes:
         rows: (m,) the motions that belong to moves, in order.
         move: (m,) index of the move of each, not decreasing.
-        first: (n,) place in `rows` of each move's first motion. count: (n,) how many it has; 0 = it is nothing after rounding.
-        last: (n,) row of the motion after which each move is done: its own last one, else the one before; -1 = there is none.
+        first: (n,) place in `rows` of each move's first motion. count: (n,) how many it has; 0 = it is nothing after
+            rounding.
+        last: (n,) row of the motion after which each move is done: its own last one, else the one before; -1 = there is
+            none.
     """
 
     rows: Rows
@@ -58,8 +60,8 @@ def owned(motions: Motions, lines: NDArray[np.int32], begins: Rows, meant: Meant
     """Tell which motions belong to which moves.
 
     A move has the motions behind the line of the move before, up to its own line. Of moves that share a line the first
-    has them all, the others are nothing after rounding; but where that line does several straight motions it is a canned
-    cycle, and moves and motions follow one another, those that are alike together.
+    has them all, the others are nothing after rounding; but where that line does several straight motions it is a
+    canned cycle, and moves and motions follow one another, those that are alike together.
 
     Args:
         motions: as the text was read; their lines do not decrease.
@@ -98,7 +100,9 @@ class _Cycles:
         own, first, many = np.unique(line, return_index=True, return_counts=True)
         shared = np.searchsorted(self.lines, own, side="right") - np.searchsorted(self.lines, own)
         kept, move = np.ones(len(rows), bool), move.copy()
-        for at, begin, count in zip(*(column[(many > 1) & (shared > 1)].tolist() for column in (own, first, many)), strict=True):
+        for at, begin, count in zip(
+            *(column[(many > 1) & (shared > 1)].tolist() for column in (own, first, many)), strict=True
+        ):
             places = np.arange(begin, begin + count)
             stays = np.all(self.motions.start[rows[places]] == self.motions.end[rows[places]], axis=1)
             stays &= self.motions.kind[rows[places]] == MotionKind.RAPID
@@ -107,7 +111,9 @@ class _Cycles:
         return rows[kept], move[kept]
 
     def _handed_out(self, rows: Rows, line: int) -> Rows:
-        """Return the move of each motion of a cycle, in turn; the first move of the line for all, where they are not alike."""
+        """Return the move of each motion of a cycle, in turn; the first move of the line for all, where they are not
+        alike.
+        """
         first, stop = (int(np.searchsorted(self.lines, line, side=side)) for side in ("left", "right"))
         found, k = np.full(len(rows), first), first
         for i, row in enumerate(rows):

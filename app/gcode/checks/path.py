@@ -16,8 +16,9 @@ NOTHING = 1e-9
 def distances(motions: Motions, meant: MeantPath, owned: Owned) -> Floats:
     """Return (n,) how far the written path may be from each move at most, mm: a bound both ways, all along the move.
 
-    A straight move and a straight motion are nowhere farther apart than at their ends. An arc is compared point by point with
-    the motions that stand for it, each with the stretch between the two points of the arc that its own ends mean.
+    A straight move and a straight motion are nowhere farther apart than at their ends. An arc is compared point by
+    point with the motions that stand for it, each with the stretch between the two points of the arc that its own ends
+    mean.
     """
     last = owned.last
     reached = motions.end[last] if len(motions) else np.full_like(meant.end, np.inf)
@@ -41,7 +42,9 @@ def _still_on_arcs(places: Floats, meant: MeantPath, move: Rows) -> Floats:
     from .arc_distance_kernels import in_step
 
     flat, whole = np.empty(len(move)), np.tile([0.0, 1.0], (len(move), 1))
-    in_step(np.zeros((len(move), 6)), np.column_stack([places[:, :2], places[:, :2]]), _meant_arcs(meant, move), whole, flat)
+    in_step(
+        np.zeros((len(move), 6)), np.column_stack([places[:, :2], places[:, :2]]), _meant_arcs(meant, move), whole, flat
+    )
     heights = np.maximum(np.abs(places[:, 2] - meant.start[move, 2]), np.abs(places[:, 2] - meant.end[move, 2]))
     return np.asarray(np.hypot(flat, heights))
 
@@ -56,7 +59,10 @@ def _along_arcs(motions: Motions, meant: MeantPath, owned: Owned, mine: Mask) ->
     flat, ends = np.empty(len(rows)), np.column_stack([motions.start[rows, :2], motions.end[rows, :2]])
     in_step(written, ends, _meant_arcs(meant, move), np.column_stack([begins, stops]), flat)
     rise = meant.end[move, 2] - meant.start[move, 2]
-    heights = [points[rows, 2] - meant.start[move, 2] - rise * at for points, at in ((motions.start, begins), (motions.end, stops))]
+    heights = [
+        points[rows, 2] - meant.start[move, 2] - rise * at
+        for points, at in ((motions.start, begins), (motions.end, stops))
+    ]
     return np.asarray(np.hypot(flat, np.max(np.abs(heights), axis=0)))
 
 
@@ -76,15 +82,18 @@ def _written_arcs(motions: Motions, rows: Rows) -> Floats:
     written = np.zeros((len(rows), 6))
     round_ = chosen >= 0
     k = chosen[round_]
-    written[round_] = np.column_stack([arcs.centre[k], arcs.start_radius[k], arcs.end_radius[k], arcs.angle[k], arcs.sweep[k]])
+    written[round_] = np.column_stack(
+        [arcs.centre[k], arcs.start_radius[k], arcs.end_radius[k], arcs.angle[k], arcs.sweep[k]]
+    )
     return written
 
 
 def _fractions(motions: Motions, meant: MeantPath, at: tuple[Rows, Rows], sweep: Floats) -> tuple[Floats, Floats]:
     """Return at which fractions of its arc each motion ends and begins.
 
-    Where a motion ends, its angle round the meant centre from where the arc was to begin, and the height it has risen, both
-    tell how far along the arc it is; each counts by the square of what it is worth in length. The last motion of a move has to end at 1.
+    Where a motion ends, its angle round the meant centre from where the arc was to begin, and the height it has risen,
+    both tell how far along the arc it is; each counts by the square of what it is worth in length. The last motion of a
+    move has to end at 1.
     """
     rows, move = at
     centre = meant.centre[move]

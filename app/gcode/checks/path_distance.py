@@ -17,7 +17,8 @@ MOST_SAMPLES = 4000
 """Places along a path that are looked at, beside its own points, for the one farthest away."""
 SPLINE_CHORDS = 1024
 STRAY = 1e-3
-"""How much nearer, in parts of the way to it, a place must be to be taken before one at about the same length: where a path
+"""How much nearer, in parts of the way to it, a place must be to be taken before one at about the same length: where a
+path
 runs over itself both are as near."""
 PORTION = 50_000
 """Points whose nearest places are looked for at once, so that memory stays small."""
@@ -101,8 +102,8 @@ def leash(a: Polyline, b: Polyline) -> float:
     """Return a length, mm, with which a leash between two points is long enough while each runs one path, never back.
 
     It is never less than the distance of the paths both ways, and it is the largest distance of the two points in one
-    way of running them, the better of two: each point of b is reached when a is at the same share of its length, or at the
-    nearest place of its own near there.
+    way of running them, the better of two: each point of b is reached when a is at the same share of its length, or at
+    the nearest place of its own near there.
     """
     along_a, along_b = a.along, b.along
     if min(along_a[-1], along_b[-1]) == 0.0:
@@ -112,7 +113,9 @@ def leash(a: Polyline, b: Polyline) -> float:
 
 
 def _leash_by(a: Polyline, b: Polyline, at: Floats) -> float:
-    """Return the length of the leash where each point of b is reached when a is at these lengths, or as far as it ever was."""
+    """Return the length of the leash where each point of b is reached when a is at these lengths, or as far as it ever
+    was.
+    """
     at = np.maximum.accumulate(at)
     at[0], at[-1] = 0.0, a.along[-1]
     rise = at + np.arange(len(at)) * (1e-12 * a.along[-1])
@@ -142,7 +145,9 @@ def _feet(b: Polyline, expected: Floats, a: Polyline, along_a: Floats) -> Floats
 
 
 def _nearest(points: Floats, starts: Floats, steps: Floats, squared: Floats) -> tuple[Floats, Floats]:
-    """Return where on straight pieces the points beside them are nearest, as a part of the piece, and how far they are, mm."""
+    """Return where on straight pieces the points beside them are nearest, as a part of the piece, and how far they are,
+    mm.
+    """
     share = np.clip(np.sum((points - starts) * steps, axis=-1) / np.where(squared > 0, squared, 1.0), 0.0, 1.0)
     return share, np.sqrt(np.sum((starts + share[..., None] * steps - points) ** 2, axis=-1))
 
@@ -163,8 +168,8 @@ class Farthest:
 def farthest(a: Polyline, b: Polyline) -> Farthest:
     """Return where two paths are farthest apart: the point of either that lies farthest from the other path.
 
-    Looked at are the points of both, and places evenly along each, 16 a piece but not more than 4000; between two of these
-    the distance is not more than half their spacing larger.
+    Looked at are the points of both, and places evenly along each, 16 a piece but not more than 4000; between two of
+    these the distance is not more than half their spacing larger.
     """
     dense_a, dense_b = (_dense(path, min(MOST_SAMPLES, 16 * len(path.points))) for path in (a, b))
     from_a, from_b = _one_way(dense_a, dense_b), _one_way(dense_b, dense_a)

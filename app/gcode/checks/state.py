@@ -35,7 +35,8 @@ class Expected:
         exact: G61. blend_mm: how far G64 P and Q may let the control leave the path; None = no word says it.
         dwell_s: what the spindle has to reach its speed; None = the post lets the control wait.
         stops: the post's own blocks stop the program. ends: they end it.
-        homes: codes by which the post's own blocks go home. home_heights: where G53 sends them along Z, mm, machine coordinates.
+        homes: codes by which the post's own blocks go home. home_heights: where G53 sends them along Z, mm, machine
+            coordinates.
         feed_step: of the last decimal of F, mm/min.
     """
 
@@ -61,18 +62,21 @@ class Expected:
         offsets = WORK_OFFSET.findall(" ".join((*lines.start, *lines.tool)))
         blocks = (*lines.top, *lines.start, *lines.tool, *lines.leave, *lines.home, *lines.end)
         return Expected(
-            job=job, changes=not post.file_per_tool, lengths=any("G43" in line for line in lines.tool),
+            job=job,
+            changes=not post.file_per_tool,
+            lengths=any("G43" in line for line in lines.tool),
             flood=post.coolant.use is Coolant.FLOOD and any("{coolant_on}" in line for line in lines.tool),
             mist=post.coolant.use is Coolant.MIST and any("{coolant_on}" in line for line in lines.tool),
             work_offset=offsets[-1] if offsets else "G54",
             exact=job.exact_path,
             blend_mm=None if job.exact_path or not BLEND.match(post.blending.blend) else blend_mm(job, post),
             dwell_s=post.spindle.dwell_s if any("{dwell" in line for line in lines.tool) else None,
-            stops=any(STOP.search(line) for line in blocks), ends=any(END.search(line) for line in blocks),
+            stops=any(STOP.search(line) for line in blocks),
+            ends=any(END.search(line) for line in blocks),
             homes=tuple(code for code in ("G28", "G30") if code in " ".join(lines.home)),
             home_heights=tuple(float(z) * job.out_units.value for z in HOME_HEIGHT.findall("\n".join(lines.home))),
             feed_step=job.out_units.value * 10.0 ** -post.digits(job.out_units).F,
-        )  # fmt: skip
+        )
 
 
 def wrong_states(read: NcProgram, moves: Moves, owned: Owned, expected: Expected) -> Iterator[Problem]:
@@ -112,13 +116,19 @@ def _state_faults(state: ModalState, number: int, expected: Expected) -> Iterato
     if (state.flood, state.mist) != (expected.flood, expected.mist):
         yield "the coolant is not what was meant."
     if state.work_offset != expected.work_offset or any(state.shift) or state.rotation:
-        yield f"the work offset is {state.work_offset}, shifted by {state.shift}, where plain {expected.work_offset} was meant."
+        yield (
+            f"the work offset is {state.work_offset}, shifted by {state.shift}, where plain {expected.work_offset} "
+            "was meant."
+        )
     if state.feed_mode is not FeedMode.PER_MINUTE:
         yield f"feeds are by {state.feed_mode.value}, not per minute (G94)."
     if expected.exact and not state.path.startswith("G61"):
         yield f"the control may leave the path ({state.path}), and an exact path was meant."
     if expected.blend_mm is not None and _blends(state) > expected.blend_mm + 1e-9:
-        yield f"the control may leave the path by {_blends(state):g} mm ({state.path}); {expected.blend_mm:g} mm were meant."
+        yield (
+            f"the control may leave the path by {_blends(state):g} mm ({state.path}); {expected.blend_mm:g} mm were "
+            "meant."
+        )
 
 
 def _blends(state: ModalState) -> float:
@@ -137,5 +147,9 @@ def _feed_faults(read: NcProgram, moves: Moves, owned: Owned, expected: Expected
     wrong: NDArray[np.bool_] = cuts & ~(np.abs(feed - np.maximum(meant, step)) <= step / 2 + 1e-9 * meant)
     if wrong.any():
         k = int(np.argmax(wrong))
-        yield Problem(int(read.motions.line[owned.rows[k]]), 0, "F", f"the feed is {feed[k]:g} mm/min where {meant[k]:g} was meant, and so "
-                      f"in {int(np.sum(wrong))} motions.")  # fmt: skip
+        yield Problem(
+            int(read.motions.line[owned.rows[k]]),
+            0,
+            "F",
+            f"the feed is {feed[k]:g} mm/min where {meant[k]:g} was meant, and so in {int(np.sum(wrong))} motions.",
+        )

@@ -68,7 +68,8 @@ SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
 
 
 def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> Parsed:
-    """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long ones.
+    """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long
+    ones.
 
     Args:
         code: as `text.code_of` gives it.
@@ -196,7 +197,9 @@ def block_of(parsed: Parsed, parameters: Parameters) -> Block:
             block.values[word.letter] = value
             if word.whole:
                 block.whole.add(word.letter)
-    settings = [(key(parameters) if callable(key) else key, evaluated(value, parameters)) for key, value in parsed.settings]
+    settings = [
+        (key(parameters) if callable(key) else key, evaluated(value, parameters)) for key, value in parsed.settings
+    ]
     for key, value in settings:
         parameters.set(key, value)
     return block
@@ -212,7 +215,10 @@ def _add_code(block: Block, code: str, word: Word) -> None:
         code, before = (before if code == "G80" else code), None  # any other motion ends a cycle as G80 does
     both = {before, code} == {"M7", "M8"}
     if before is not None and not both and before != "G53" and code != "G53":
-        raise Fault(f"{before} and {code} in one block contradict one another ({group.value}); write them in two.", column=-1 - word.begin)
+        raise Fault(
+            f"{before} and {code} in one block contradict one another ({group.value}); write them in two.",
+            column=-1 - word.begin,
+        )
     if group is Group.COOLANT:
         block.coolant.append(code)
     block.codes[group] = code

@@ -48,7 +48,8 @@ def _codes(text: str) -> tuple[str, ...]:
 _G: dict[Group, tuple[str, ...]] = {
     Group.ONCE: _codes("G4 G9 G10 G28 G28.1 G30 G30.1 G52 G53 G65 G92 G92.1 G92.2 G92.3"),
     Group.MOTION: _codes(
-        "G0 G1 G2 G3 G5 G5.1 G5.2 G5.3 G6.2 G33 G33.1 G38.2 G38.3 G38.4 G38.5 G73 G74 G80 G81 G82 G83 G84 G85 G86 G87 G88 G89"
+        "G0 G1 G2 G3 G5 G5.1 G5.2 G5.3 G6.2 G33 G33.1 G38.2 G38.3 G38.4 G38.5 G73 G74 G80 G81 G82 G83 G84 G85 G86 G87 "
+        "G88 G89"
     ),
     Group.PLANE: _codes("G17 G18 G19"),
     Group.DISTANCE: _codes("G90 G91"),
@@ -66,7 +67,7 @@ _G: dict[Group, tuple[str, ...]] = {
     Group.SCALING: _codes("G50 G51"),
     Group.TURNING: _codes("G68 G69"),
     Group.SMOOTHING: _codes("G187"),
-}  # fmt: skip
+}
 _M: dict[Group, tuple[str, ...]] = {
     Group.STOP: _codes("M0 M1 M2 M30 M60"),
     Group.TOOL: _codes("M6 M61"),
@@ -84,10 +85,47 @@ WITHOUT_AXES = frozenset({"G4", "G9", "G28.1", "G30.1", "G53", "G92.1", "G92.2",
 """Codes done once that leave the axis words of their block to its motion."""
 
 TAKES: dict[str, str] = {code: letters.lower() for code, letters in CYCLE_WORDS.items()} | {
-    "G2": "ijkrp", "G3": "ijkrp", "G4": "pxu", "G5": "ijpq", "G5.1": "ijpq", "G5.2": "pl", "G6.2": "pkr", "G10": "lprijq", "G33": "k",
-    "G33.1": "ki", "G41": "d", "G42": "d", "G41.1": "dl", "G42.1": "dl", "G43": "h", "G43.1": "", "G43.2": "h", "G44": "h",
-    "G51": "ijkp", "G54.1": "p", "G64": "pqr", "G65": "abcdefhijklmqrstuvwxyzp", "G68": "abr",
-    "G96": "d", "G187": "pe", "M19": "rpq", "M3": "$", "M50": "p", "M51": "p", "M52": "p", "M53": "p", "M61": "q",
-    "M62": "p", "M63": "p", "M64": "p", "M65": "p", "M66": "pelq", "M67": "eq", "M68": "eq", "M97": "pl", "M98": "pl", "M99": "p",
-}  # fmt: skip
+    "G2": "ijkrp",
+    "G3": "ijkrp",
+    "G4": "pxu",
+    "G5": "ijpq",
+    "G5.1": "ijpq",
+    "G5.2": "pl",
+    "G6.2": "pkr",
+    "G10": "lprijq",
+    "G33": "k",
+    "G33.1": "ki",
+    "G41": "d",
+    "G42": "d",
+    "G41.1": "dl",
+    "G42.1": "dl",
+    "G43": "h",
+    "G43.1": "",
+    "G43.2": "h",
+    "G44": "h",
+    "G51": "ijkp",
+    "G54.1": "p",
+    "G64": "pqr",
+    "G65": "abcdefhijklmqrstuvwxyzp",
+    "G68": "abr",
+    "G96": "d",
+    "G187": "pe",
+    "M19": "rpq",
+    "M3": "$",
+    "M50": "p",
+    "M51": "p",
+    "M52": "p",
+    "M53": "p",
+    "M61": "q",
+    "M62": "p",
+    "M63": "p",
+    "M64": "p",
+    "M65": "p",
+    "M66": "pelq",
+    "M67": "eq",
+    "M68": "eq",
+    "M97": "pl",
+    "M98": "pl",
+    "M99": "p",
+}
 """Which words beside axes, F, S and T a code takes; codes that are not named take none."""

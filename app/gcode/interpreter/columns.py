@@ -85,9 +85,18 @@ class Columns:
         """
         self._resize(self.count)
         cut = Motions(
-            self.start, self.end, self.centre, self.kind, self.plane, self.turns, self.feed, self.line, self.state,
-            splines or {}, known_from,
-        )  # fmt: skip
+            self.start,
+            self.end,
+            self.centre,
+            self.kind,
+            self.plane,
+            self.turns,
+            self.feed,
+            self.line,
+            self.state,
+            splines or {},
+            known_from,
+        )
         self._clear()
         return cut
 

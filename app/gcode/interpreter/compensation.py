@@ -1,7 +1,8 @@
 """Cutter compensation, G41 and G42: the programmed contour becomes the path of the tool's centre, one move behind.
 
-As LinuxCNC has it: each line and arc is offset to its side; at an outer corner an arc rolls round the programmed point, at an
-inner one both are cut off where they meet; the first move leads to beside its own end, and after G40 the next one starts there.
+As LinuxCNC has it: each line and arc is offset to its side; at an outer corner an arc rolls round the programmed point,
+at an inner one both are cut off where they meet; the first move leads to beside its own end, and after G40 the next one
+starts there.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from .columns import Columns, Motion, Place
 from .fault import Fault
 
 SMOOTH = 0.05
-"""A corner of less, radians, is taken for none, and one of so much less than half a turn for an outer one, as LinuxCNC has it."""
+"""A corner of less, radians, is taken for none, and one of so much less than half a turn for an outer one, as LinuxCNC
+has it.
+"""
 _NO_ROOM = "the tool does not reach into the inner corner before this move without cutting into the contour."
 SLACK = 1e-9
 """Where two offset curves meet may lie so far beyond the end of one, as a part of it."""
@@ -140,12 +143,21 @@ class Compensation:
         inward = self._radius if ccw else -self._radius
         first, last = start - centre, end - centre
         if min(abs(first), abs(last)) - inward < SLACK:
-            raise Fault(f"the tool (radius {abs(self._radius):g} mm) does not fit into an arc of radius {abs(first):g} mm.", letter="g")
+            raise Fault(
+                f"the tool (radius {abs(self._radius):g} mm) does not fit into an arc of radius {abs(first):g} mm.",
+                letter="g",
+            )
         turn = 1j if ccw else -1j
         return Side(
-            motion, start - first / abs(first) * inward, end - last / abs(last) * inward, centre, ccw,
-            first / abs(first) * turn, last / abs(last) * turn, end,
-        )  # fmt: skip
+            motion,
+            start - first / abs(first) * inward,
+            end - last / abs(last) * inward,
+            centre,
+            ccw,
+            first / abs(first) * turn,
+            last / abs(last) * turn,
+            end,
+        )
 
     def _enter(self, side: Side, start: complex) -> None:
         """Make a side the way in: from where the tool is to beside the move's end."""
@@ -154,12 +166,17 @@ class Compensation:
         here = complex(self.place[u], self.place[v])
         if side.centre is None:
             if abs(side.corner - start) <= abs(self._radius) + SLACK:
-                raise Fault("the first move under cutter compensation must be longer than the tool's radius.", letter="g")
+                raise Fault(
+                    "the first move under cutter compensation must be longer than the tool's radius.", letter="g"
+                )
         else:
             radial, way = side.arriving * 1j, side.end - here
             across = (way * radial.conjugate()).real
             if abs(way) < SLACK or abs(across) < SLACK:
-                raise Fault("this arc cannot lead the tool to beside its end; begin cutter compensation with a line.", letter="g")
+                raise Fault(
+                    "this arc cannot lead the tool to beside its end; begin cutter compensation with a line.",
+                    letter="g",
+                )
             side.centre = side.end - radial * abs(way) ** 2 / (2 * across)
             side.start = here
 
@@ -181,7 +198,8 @@ class Compensation:
             side.start = meeting
 
     def _between(self, before: Side, side: Side) -> bool:
-        """Tell whether a turn straight back is an inner corner: between a line and the outside of an arc, where the tool would have
+        """Tell whether a turn straight back is an inner corner: between a line and the outside of an arc, where the
+        tool would have
         to go round the arc to get to the line's other side."""
         arc = before if side.centre is None else side
         return arc.centre is not None and self._outside(arc)
@@ -198,13 +216,16 @@ class Compensation:
             columns.add(replace(side.motion, start=start, end=end))
         else:
             kind = MotionKind.ARC_CW if self._radius > 0 else MotionKind.ARC_CCW
-            columns.add(replace(side.motion, kind=kind, start=start, end=end, centre=self._placed(corner, start), turns=1))
+            columns.add(
+                replace(side.motion, kind=kind, start=start, end=end, centre=self._placed(corner, start), turns=1)
+            )
         self._place = end
 
     def _meeting(self, before: Side, side: Side) -> complex:
         """Return where two offset curves meet at an inner corner.
 
-        As LinuxCNC has it: an arc must reach so far, and whether a line is turned round by that `flush` tells, when its other end is known.
+        As LinuxCNC has it: an arc must reach so far, and whether a line is turned round by that `flush` tells, when its
+        other end is known.
         """
         points = _intersections(before, side)
         if (before.centre is None) != (side.centre is None):

@@ -43,13 +43,14 @@ class Control:
         offsets: where zero is. tool_table: as the program has changed it.
         selected: T number that the next M6 takes.
         homes: of G28 and G30, mm, machine coordinates.
-        known: for each axis the first motion that the program itself set, -1 = none yet; then the first that moved it in G91
-            before any had set it.
-        cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run began,
-            program coordinates and units. before_cycle: the motion before it.
-        curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last G5, mm.
-        compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes it to be,
-            after G40.
+        known: for each axis the first motion that the program itself set, -1 = none yet; then the first that moved it
+            in G91 before any had set it.
+        cycle: the last canned cycle with its words, None after another motion. initial: the height at which their run
+            began, program coordinates and units. before_cycle: the motion before it.
+        curve: the spline over several blocks that is being written, None outside of one. last_offset: P, Q of the last
+            G5, mm.
+        compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes
+            it to be, after G40.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
         asked: parameters that the machine tells, or that nobody has set, and the line that read each first.
         columns, splines, events, homeward, warnings: what comes out; a warning is a text, its letter and its line.
@@ -91,7 +92,9 @@ class Control:
         return self.modal.units.value
 
     def feed_unit(self, block: Block) -> float:
-        """Return the millimetres of a unit of the block's F; only LinuxCNC takes it in the units before the block's own."""
+        """Return the millimetres of a unit of the block's F; only LinuxCNC takes it in the units before the block's
+        own.
+        """
         code = block.codes.get(Group.UNITS)
         if code is None or self.options.dialect is Dialect.LINUXCNC:
             return self.unit
@@ -178,11 +181,14 @@ class Control:
     def known_from(self) -> tuple[int, int, int]:
         """Return from which motion on each axis is known, as `Motions` has it.
 
-        Where one moves in G91 before it is set the tool is taken to stand at zero, as LinuxCNC has it, along all axes not set by then.
+        Where one moves in G91 before it is set the tool is taken to stand at zero, as LinuxCNC has it, along all axes
+        not set by then.
         """
         assumed, begun = self.taken_for_known(), self._first_in_g91
-        x, y, z = (begun - 1 if letter in assumed else row if row >= 0 else self.columns.count
-                   for letter, row in zip("XYZ", self.known, strict=False))  # fmt: skip
+        x, y, z = (
+            begun - 1 if letter in assumed else row if row >= 0 else self.columns.count
+            for letter, row in zip("XYZ", self.known, strict=False)
+        )
         return x, y, z
 
     @property
@@ -254,7 +260,10 @@ class Control:
         """
         self.unrolled += blocks
         if self.unrolled > self.options.limits.looped_blocks:
-            raise Fault(f"loops, calls and cycles repeat more than {self.options.limits.looped_blocks} blocks; the reader stops here.")
+            raise Fault(
+                f"loops, calls and cycles repeat more than {self.options.limits.looped_blocks} blocks; the reader "
+                "stops here."
+            )
 
     def warn(self, text: str, letter: str = "") -> None:
         """Note something that the reader does not follow, once for each text."""
@@ -268,13 +277,17 @@ class Control:
             Fault: there are more than anybody needs.
         """
         if len(self.events) >= MOST_EVENTS:
-            raise Fault(f"the program stops, dwells and changes tools more than {MOST_EVENTS} times; the reader stops here.")
+            raise Fault(
+                f"the program stops, dwells and changes tools more than {MOST_EVENTS} times; the reader stops here."
+            )
         self.events.append(Event(kind, self.row, self.line, value))
 
     def own_parameter(self, key: Key) -> float | None:
         """Return a parameter that the control itself sets, None if it is another; those of tables are in mm."""
         axis = _PLACES.get(key)
-        if (axis is not None and self.known[axis] < 0) or (axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM):
+        if (axis is not None and self.known[axis] < 0) or (
+            axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM
+        ):
             self.asked.setdefault(key, self.line)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
@@ -312,11 +325,16 @@ class Control:
             return self.program_place["xyz".index(key[1])] / self.unit
         modal = self.modal
         own: dict[str, float] = CONTROL_NAMES | {
-            "_metric": float(modal.units is Units.MM), "_imperial": float(modal.units is Units.INCH), "_absolute": float(modal.absolute),
-            "_incremental": float(not modal.absolute), "_plane": (170.0, 180.0, 190.0)[modal.plane], "_rpm": modal.speed,
-            "_feed": 0.0 if math.isnan(self.feed) else self.feed / self.unit, "_current_tool": float(modal.tool),
-            "_selected_tool": float(self.selected), "_spindle_on": float(modal.spindle != 0),
+            "_metric": float(modal.units is Units.MM),
+            "_imperial": float(modal.units is Units.INCH),
+            "_absolute": float(modal.absolute),
+            "_incremental": float(not modal.absolute),
+            "_plane": (170.0, 180.0, 190.0)[modal.plane],
+            "_rpm": modal.speed,
+            "_feed": 0.0 if math.isnan(self.feed) else self.feed / self.unit,
+            "_current_tool": float(modal.tool),
+            "_selected_tool": float(self.selected),
+            "_spindle_on": float(modal.spindle != 0),
             "_coord_system": 530 + 10 * self._offset_number(),
-        }  # fmt: skip
+        }
         return own.get(key)
-

@@ -1,4 +1,6 @@
-"""Compiled: the canned cycles of LinuxCNC in which the spindle turns on, as `holes` and `cycles` do them, motion by motion."""
+"""Compiled: the canned cycles of LinuxCNC in which the spindle turns on, as `holes` and `cycles` do them, motion by
+motion.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,7 @@ import math
 
 from ...core.jit import kernel
 from .cycles import CHIP_CLEARANCE_MM
-from .lane_fields import (  # fmt: skip
+from .lane_fields import (
     ABSOLUTE,
     COUNT,
     CYCLE,
@@ -51,7 +53,9 @@ def _rounded(value):
 
 @kernel(f"float64({_REALS}, int64)")
 def _here(reals, axis):
-    """Return where the point is along an axis, program coordinates and units, without the noise of its way through the offsets."""
+    """Return where the point is along an axis, program coordinates and units, without the noise of its way through the
+    offsets.
+    """
     return _rounded((reals[PLACE + axis] - reals[SHIFT + axis]) / reals[SCALE])
 
 
@@ -66,7 +70,15 @@ def _go(ints, reals, columns, kind, first, second, height):
     end = columns[1][row]
     for axis, value in ((u, first), (v, second), (w, height)):
         end[axis] = value * reals[SCALE] + reals[SHIFT + axis]
-    _write(columns, row, reals[PLACE : PLACE + 3], end, columns[2][row], reals[FEED], (kind, ints[PLANE], ints[LINE], ints[STATE]))
+    _write(
+        columns,
+        row,
+        reals[PLACE : PLACE + 3],
+        end,
+        columns[2][row],
+        reals[FEED],
+        (kind, ints[PLANE], ints[LINE], ints[STATE]),
+    )
     for axis in range(3):
         reals[PLACE + axis] = end[axis]
     ints[COUNT], ints[UNROLLED] = row + 1, ints[UNROLLED] + 1
@@ -83,7 +95,9 @@ def note(ints, events, kind, value):
 
 @kernel(f"boolean({_INTS}, {_REALS}, {_COLUMNS}, {_EVENTS}, UniTuple(float64, 5))")
 def _bored(ints, reals, columns, events, hole):
-    """Do what a cycle does from R on: the place in the plane, R, bottom and clearance of a hole; return whether there was room."""
+    """Do what a cycle does from R on: the place in the plane, R, bottom and clearance of a hole; return whether there
+    was room.
+    """
     first, second, r, bottom, clear = hole
     code, peck = ints[CYCLE], reals[CYCLE_Q]
     depth = r - peck if code == 73 or code == 83 else bottom
@@ -114,13 +128,21 @@ def _worded(ints, reals, code, words, given):
     w = _AXES[ints[PLANE]][2]
     dwells = code == 82 or code == 89
     for entry, letter, stays in (
-        (CYCLE_Z, _X + w, same), (CYCLE_R, _R, same), (CYCLE_Q, _Q, same), (CYCLE_P, _P, same or (any_before and not dwells)),
-    ):  # fmt: skip
+        (CYCLE_Z, _X + w, same),
+        (CYCLE_R, _R, same),
+        (CYCLE_Q, _Q, same),
+        (CYCLE_P, _P, same or (any_before and not dwells)),
+    ):
         if given[letter] != _ABSENT:
             reals[entry] = words[letter]
         elif not stays:
             reals[entry] = math.nan
-    if math.isnan(reals[CYCLE_Z]) or math.isnan(reals[CYCLE_R]) or reals[CYCLE_P] < 0.0 or (dwells and math.isnan(reals[CYCLE_P])):
+    if (
+        math.isnan(reals[CYCLE_Z])
+        or math.isnan(reals[CYCLE_R])
+        or reals[CYCLE_P] < 0.0
+        or (dwells and math.isnan(reals[CYCLE_P]))
+    ):
         return False
     ints[CYCLE], ints[CYCLED] = code, 1
     return (code != 73 and code != 83) or reals[CYCLE_Q] > 0.0

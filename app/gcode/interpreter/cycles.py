@@ -17,9 +17,18 @@ from .fault import Fault
 Point = tuple[float, float, float]
 
 CYCLE_WORDS: dict[str, str] = {
-    "G73": "RLQ", "G74": "RP", "G81": "RL", "G82": "RLP", "G83": "RLQ", "G84": "RLP", "G85": "RL", "G86": "RLP", "G87": "RLIJK",
-    "G88": "RLP", "G89": "RLP",
-}  # fmt: skip
+    "G73": "RLQ",
+    "G74": "RP",
+    "G81": "RL",
+    "G82": "RLP",
+    "G83": "RLQ",
+    "G84": "RLP",
+    "G85": "RL",
+    "G86": "RLP",
+    "G87": "RLIJK",
+    "G88": "RLP",
+    "G89": "RLP",
+}
 """The cycles, and the words beside X, Y, Z that LinuxCNC takes with each."""
 
 CHIP_CLEARANCE_MM = 0.254
@@ -47,9 +56,10 @@ class Cycle:
         dwell: P, s. peck: Q. shift: I, J, K of G87.
         absolute: G90 rather than G91. retract_to_r: G99 rather than G98.
         spindle: -1, 0, 1 as it turns before the block.
-        unit_mm: mm per unit of the lengths: 1 where they are mm, 25.4 where they are inches. LinuxCNC keeps the numbers that
-            stay, and the initial height, as they were written, also over G20 and G21.
-        fanuc: words stay from one code to the next; a dwell need not be said; 0 repeats bore nothing, as on Fanuc and Haas.
+        unit_mm: mm per unit of the lengths: 1 where they are mm, 25.4 where they are inches. LinuxCNC keeps the numbers
+            that stay, and the initial height, as they were written, also over G20 and G21.
+        fanuc: words stay from one code to the next; a dwell need not be said; 0 repeats bore nothing, as on Fanuc and
+            Haas.
     """
 
     code: str
@@ -74,8 +84,8 @@ class Move(NamedTuple):
     Attributes:
         kind: RAPID or LINE.
         target: where the control sends the axes.
-        meant: where it takes itself to be afterwards; differs from `target` where `taps_astray`, and at the end of G88, out
-            of which the operator takes the tool by hand.
+        meant: where it takes itself to be afterwards; differs from `target` where `taps_astray`, and at the end of G88,
+            out of which the operator takes the tool by hand.
     """
 
     kind: MotionKind
@@ -118,9 +128,13 @@ def with_sticky(cycle: Cycle, before: Cycle | None) -> Cycle:
         return replace(cycle, dwell=kept)
     shift = tuple(_said(mine, theirs) for mine, theirs in zip(cycle.shift, before.shift, strict=True))
     return replace(
-        cycle, depth=_said(cycle.depth, before.depth), r=_said(cycle.r, before.r), dwell=kept, peck=_said(cycle.peck, before.peck),
+        cycle,
+        depth=_said(cycle.depth, before.depth),
+        r=_said(cycle.r, before.r),
+        dwell=kept,
+        peck=_said(cycle.peck, before.peck),
         shift=(shift[0], shift[1], shift[2]),
-    )  # fmt: skip
+    )
 
 
 def _dwell_kept(cycle: Cycle, before: Cycle) -> float | None:
@@ -136,7 +150,8 @@ def _said(mine: float | None, theirs: float | None) -> float | None:
 def taps_astray(cycle: Cycle) -> bool:
     """Tell whether LinuxCNC takes the axes of another plane for the feeds of this cycle.
 
-    Its interpreter (2.9.0~pre1) does that for G74 and G84: in G18 it feeds with the axes of G19, and the other way round.
+    Its interpreter (2.9.0~pre1) does that for G74 and G84: in G18 it feeds with the axes of G19, and the other way
+    round.
     """
     return cycle.code in _TAPS and cycle.plane is not Plane.XY and not cycle.fanuc
 
@@ -159,7 +174,11 @@ def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]
     if not cycle.absolute:
         r, depth = initial + r, initial + r + depth
     if r < depth:
-        raise Fault(f"R at {r:g} lies below the bottom of the hole at {_normal(cycle)} {depth:g}; a cycle bores from R downwards.", "R")
+        raise Fault(
+            f"R at {r:g} lies below the bottom of the hole at {_normal(cycle)} {depth:g}; a cycle bores from R "
+            "downwards.",
+            "R",
+        )
     if cycle.code in _PECKS and r - depth > MOST_PECKS * _known(cycle.peck, "Q"):
         raise Fault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
     return _steps(cycle, position, initial, (r, depth))
@@ -242,8 +261,9 @@ def _point(plane: Plane, first: float, second: float, normal: float) -> Point:
 def _steps(cycle: Cycle, position: Point, initial: float, heights: tuple[float, float]) -> Iterator[Step]:
     """Yield the way to each hole and what is done there.
 
-    An initial height below R counts as R: the tool goes there first, even when it already is there. A tool that is not above
-    R rises on its way to the hole, at a slant, to the height that it will retract to; on Fanuc and Haas it goes level.
+    An initial height below R counts as R: the tool goes there first, even when it already is there. A tool that is not
+    above R rises on its way to the hole, at a slant, to the height that it will retract to; on Fanuc and Haas it goes
+    level.
     """
     r, bottom = heights
     first, second, height = (position[axis] for axis in cycle.plane.axes)
@@ -372,6 +392,15 @@ def _bore_dwell_out(hole: _Hole) -> Iterator[Step]:
 
 
 _BORING: dict[str, Callable[[_Hole], Iterator[Step]]] = {
-    "G73": _break_chips, "G74": _tap, "G81": _drill, "G82": _drill, "G83": _deep_drill, "G84": _tap, "G85": _bore_out_at_feed,
-    "G86": _bore_stop_out, "G87": _back_bore, "G88": _bore_by_hand_out, "G89": _bore_dwell_out,
-}  # fmt: skip
+    "G73": _break_chips,
+    "G74": _tap,
+    "G81": _drill,
+    "G82": _drill,
+    "G83": _deep_drill,
+    "G84": _tap,
+    "G85": _bore_out_at_feed,
+    "G86": _bore_stop_out,
+    "G87": _back_bore,
+    "G88": _bore_by_hand_out,
+    "G89": _bore_dwell_out,
+}

@@ -28,7 +28,8 @@ class Habits:
         ngc_flow: O words with sub, if, while, repeat; named parameters.
         fanuc_flow: O words are program numbers; IF [...] GOTO n, WHILE [...] DO m, M98 P calls.
         least_mm, least_inch: what a length without a decimal point counts in; 1 = the unit itself.
-        dwell_unit_s: what P of G4 counts in, s, where it has no decimal point. dwell_unit_with_point_s: where it has one.
+        dwell_unit_s: what P of G4 counts in, s, where it has no decimal point. dwell_unit_with_point_s: where it has
+            one.
         length_from_tool: G43 without H takes the length of the tool in the spindle.
         tool_changes: M6 is known. splines: "G5" (LinuxCNC), "G6.2" (Fanuc) or "".
         calls: how deep subroutines may call one another.
@@ -51,25 +52,83 @@ class Habits:
     missing: frozenset[str] = frozenset()
 
 
-_GRBL_LACKS = frozenset({
-    "G5", "G5.1", "G5.2", "G5.3", "G41", "G42", "G43", "G52", "G59.1", "G59.2", "G59.3", "G61.1", "G64", "G73", "G81", "G82", "G83", "G84",
-    "G85", "G86", "G87", "G88", "G89", "G90.1", "G95", "G96", "G97", "G98", "G99", "M6", "M98", "M99",
-})  # fmt: skip
+_GRBL_LACKS = frozenset(
+    {
+        "G5",
+        "G5.1",
+        "G5.2",
+        "G5.3",
+        "G41",
+        "G42",
+        "G43",
+        "G52",
+        "G59.1",
+        "G59.2",
+        "G59.3",
+        "G61.1",
+        "G64",
+        "G73",
+        "G81",
+        "G82",
+        "G83",
+        "G84",
+        "G85",
+        "G86",
+        "G87",
+        "G88",
+        "G89",
+        "G90.1",
+        "G95",
+        "G96",
+        "G97",
+        "G98",
+        "G99",
+        "M6",
+        "M98",
+        "M99",
+    }
+)
 
-_LINUXCNC_LACKS = frozenset({
-    "G6.2", "G9", "G15", "G16", "G44", "G50", "G51", "G54.1", "G65", "G68", "G69", "G187", "M97",
-})  # fmt: skip
+_LINUXCNC_LACKS = frozenset(
+    {
+        "G6.2",
+        "G9",
+        "G15",
+        "G16",
+        "G44",
+        "G50",
+        "G51",
+        "G54.1",
+        "G65",
+        "G68",
+        "G69",
+        "G187",
+        "M97",
+    }
+)
 
 HABITS: dict[Dialect, Habits] = {
     Dialect.LINUXCNC: Habits("LinuxCNC", calls=9, longest_line=252, missing=_LINUXCNC_LACKS),
     Dialect.GRBL: Habits("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
     Dialect.FANUC: Habits(
-        "Fanuc", ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
-        length_from_tool=False, splines="G6.2",
+        "Fanuc",
+        ngc_flow=False,
+        fanuc_flow=True,
+        least_mm=0.001,
+        least_inch=0.0001,
+        dwell_unit_s=0.001,
+        length_from_tool=False,
+        splines="G6.2",
     ),
     Dialect.HAAS: Habits(
-        "Haas", ngc_flow=False, fanuc_flow=True, least_mm=0.001, least_inch=0.0001, dwell_unit_s=0.001,
-        length_from_tool=False, splines="",
+        "Haas",
+        ngc_flow=False,
+        fanuc_flow=True,
+        least_mm=0.001,
+        least_inch=0.0001,
+        dwell_unit_s=0.001,
+        length_from_tool=False,
+        splines="",
     ),
     Dialect.MACH3: Habits("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),
-}  # fmt: skip
+}

@@ -1,7 +1,7 @@
 """Values of words: numbers, parameters, expressions in square brackets, functions (RS274/NGC, and Fanuc's macro B).
 
-A value that does not change is a float; any other is a function of the parameters, so that a line is parsed once however
-often a loop runs it.
+A value that does not change is a float; any other is a function of the parameters, so that a line is parsed once
+however often a loop runs it.
 """
 
 from __future__ import annotations
@@ -24,8 +24,22 @@ ALIKE = 1e-4
 """Comparisons take numbers for equal that differ by less, as LinuxCNC does."""
 
 _RANK = {
-    "**": 5, "*": 4, "/": 4, "mod": 4, "+": 3, "-": 3, "eq": 2, "ne": 2, "gt": 2, "ge": 2, "lt": 2, "le": 2, "and": 1, "or": 1, "xor": 1,
-}  # fmt: skip
+    "**": 5,
+    "*": 4,
+    "/": 4,
+    "mod": 4,
+    "+": 3,
+    "-": 3,
+    "eq": 2,
+    "ne": 2,
+    "gt": 2,
+    "ge": 2,
+    "lt": 2,
+    "le": 2,
+    "and": 1,
+    "or": 1,
+    "xor": 1,
+}
 
 
 def _divided(a: float, b: float) -> float:
@@ -42,21 +56,37 @@ def _modulo(a: float, b: float) -> float:
 
 
 _BINARY: dict[str, Callable[[float, float], float]] = {
-    "**": lambda a, b: float(a**b), "*": lambda a, b: a * b, "/": _divided, "mod": _modulo,
-    "+": lambda a, b: a + b, "-": lambda a, b: a - b,
-    "eq": lambda a, b: float(abs(a - b) < ALIKE), "ne": lambda a, b: float(abs(a - b) >= ALIKE),
-    "gt": lambda a, b: float(a > b), "ge": lambda a, b: float(a >= b), "lt": lambda a, b: float(a < b), "le": lambda a, b: float(a <= b),
-    "and": lambda a, b: float(a != 0 and b != 0), "or": lambda a, b: float(a != 0 or b != 0),
+    "**": lambda a, b: float(a**b),
+    "*": lambda a, b: a * b,
+    "/": _divided,
+    "mod": _modulo,
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "eq": lambda a, b: float(abs(a - b) < ALIKE),
+    "ne": lambda a, b: float(abs(a - b) >= ALIKE),
+    "gt": lambda a, b: float(a > b),
+    "ge": lambda a, b: float(a >= b),
+    "lt": lambda a, b: float(a < b),
+    "le": lambda a, b: float(a <= b),
+    "and": lambda a, b: float(a != 0 and b != 0),
+    "or": lambda a, b: float(a != 0 or b != 0),
     "xor": lambda a, b: float((a != 0) != (b != 0)),
-}  # fmt: skip
+}
 
 _UNARY: dict[str, Callable[[float], float]] = {
-    "abs": abs, "acos": lambda a: math.degrees(math.acos(a)), "asin": lambda a: math.degrees(math.asin(a)),
-    "cos": lambda a: math.cos(math.radians(a)), "exp": math.exp,
-    "fix": lambda a: float(math.floor(a)), "fup": lambda a: float(math.ceil(a)),
-    "round": lambda a: math.copysign(math.floor(abs(a) + 0.5), a), "ln": math.log, "sin": lambda a: math.sin(math.radians(a)),
-    "sqrt": math.sqrt, "tan": lambda a: math.tan(math.radians(a)),
-}  # fmt: skip
+    "abs": abs,
+    "acos": lambda a: math.degrees(math.acos(a)),
+    "asin": lambda a: math.degrees(math.asin(a)),
+    "cos": lambda a: math.cos(math.radians(a)),
+    "exp": math.exp,
+    "fix": lambda a: float(math.floor(a)),
+    "fup": lambda a: float(math.ceil(a)),
+    "round": lambda a: math.copysign(math.floor(abs(a) + 0.5), a),
+    "ln": math.log,
+    "sin": lambda a: math.sin(math.radians(a)),
+    "sqrt": math.sqrt,
+    "tan": lambda a: math.tan(math.radians(a)),
+}
 
 
 def evaluated(value: Value, parameters: Parameters) -> float:
@@ -219,7 +249,9 @@ class Values:
     def _fault(self, text: str) -> Fault:
         """Return a fault here; a negative column is an index of the code, which the reader turns into a column."""
         found = self._peek()
-        return Fault(f"{text}, found {found!r}." if found else f"{text}, found the end of the line.", column=-1 - self.at)
+        return Fault(
+            f"{text}, found {found!r}." if found else f"{text}, found the end of the line.", column=-1 - self.at
+        )
 
 
 def _negative(value: Callable[[Parameters], float]) -> Value:

@@ -41,11 +41,17 @@ def set_feed(control: Control, block: Block) -> None:
 
 
 def _warn_of_units(control: Control, block: Block, value: float) -> None:
-    """Tell of an F that LinuxCNC takes in the units before those of its own block: 25 times as fast, or as slow, as it reads."""
+    """Tell of an F that LinuxCNC takes in the units before those of its own block: 25 times as fast, or as slow, as it
+    reads.
+    """
     said = {"G20": Units.INCH, "G21": Units.MM}.get(block.codes.get(Group.UNITS, ""))
     if said is None or said is control.modal.units or control.options.dialect is not Dialect.LINUXCNC or not value:
         return
     if control.modal.feed_mode is not FeedMode.INVERSE_TIME:
-        before, after = (("mm", "in") if said is Units.INCH else ("in", "mm"))
-        control.warn(f"F{value:g} stands in the block that changes the units, so LinuxCNC takes it as {value:g} {before}, not {after}, a "
-                     "minute; write it in the next block.", "f")  # fmt: skip
+        before, after = ("mm", "in") if said is Units.INCH else ("in", "mm")
+        control.warn(
+            f"F{value:g} stands in the block that changes the units, so LinuxCNC takes it as {value:g} {before}, not "
+            f"{after}, a "
+            "minute; write it in the next block.",
+            "f",
+        )

@@ -1,4 +1,6 @@
-"""Where the program goes on: subroutines, loops and conditions of RS274/NGC (O words), and the frames that they run in."""
+"""Where the program goes on: subroutines, loops and conditions of RS274/NGC (O words), and the frames that they run
+in.
+"""
 
 from __future__ import annotations
 
@@ -149,7 +151,10 @@ class Flow:
             keyword = _KEYWORD.match(code, values.at)
             if keyword is None:
                 if values.at < len(code):
-                    raise Fault("behind an O word stands sub, call, if, while, do, repeat or one of their partners.", column=-1 - values.at)
+                    raise Fault(
+                        "behind an O word stands sub, call, if, while, do, repeat or one of their partners.",
+                        column=-1 - values.at,
+                    )
                 return
             values.at, statement = keyword.end(), Statement(self.here, label, keyword[0])
             if is_written and len(self._statements) < MOST_KEPT:
@@ -212,12 +217,19 @@ class Flow:
             given.append(evaluated(values.value(), parameters))
         found = self.places.subroutine(statement.label)
         if found is None:
-            raise Fault(f"there is no subroutine O{statement.label} in this file; a file of its own beside the program is not read, so put "
-                        "it into this one.")  # fmt: skip
+            raise Fault(
+                f"there is no subroutine O{statement.label} in this file; a file of its own beside the program is not "
+                "read, so put "
+                "it into this one."
+            )
         if found.keyword != "sub":
-            raise Fault(f"O{statement.label} is a subroutine of M98, for it has no sub; call it with M98 P{statement.label}.")
+            raise Fault(
+                f"O{statement.label} is a subroutine of M98, for it has no sub; call it with M98 P{statement.label}."
+            )
         found = self._labels.call_subroutine(found)
-        arguments: dict[Key, float] = {number: (given[number - 1] if number <= len(given) else 0.0) for number in range(1, 31)}
+        arguments: dict[Key, float] = {
+            number: (given[number - 1] if number <= len(given) else 0.0) for number in range(1, 31)
+        }
         self.call((statement.label, self.places.after(found.at)), arguments, 1)
         self.frames[-1].called = True
 
@@ -327,8 +339,19 @@ class Flow:
 
 
 _ACTS = {
-    "sub": Flow._sub, "endsub": Flow._endsub, "return": Flow._endsub, "call": Flow._call, "if": Flow._if, "elseif": Flow._else,
-    "else": Flow._else, "endif": Flow._endif, "do": Flow._do, "while": Flow._while, "endwhile": Flow._end_loop, "repeat": Flow._repeat,
-    "endrepeat": Flow._end_loop, "break": Flow._break, "continue": Flow._continue,
-}  # fmt: skip
-
+    "sub": Flow._sub,
+    "endsub": Flow._endsub,
+    "return": Flow._endsub,
+    "call": Flow._call,
+    "if": Flow._if,
+    "elseif": Flow._else,
+    "else": Flow._else,
+    "endif": Flow._endif,
+    "do": Flow._do,
+    "while": Flow._while,
+    "endwhile": Flow._end_loop,
+    "repeat": Flow._repeat,
+    "endrepeat": Flow._end_loop,
+    "break": Flow._break,
+    "continue": Flow._continue,
+}

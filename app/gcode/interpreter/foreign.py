@@ -1,4 +1,6 @@
-"""What Fanuc, Haas and Mach3 write beside the codes that move the tool: modes to pass over, other spellings, cycles of their own."""
+"""What Fanuc, Haas and Mach3 write beside the codes that move the tool: modes to pass over, other spellings, cycles of
+their own.
+"""
 
 from __future__ import annotations
 
@@ -18,15 +20,26 @@ _MODES = {"G5", "G5.1"}
 
 _PASSED = {"G8": "look-ahead", "G103": "look-ahead", "G107": "a cylinder", "G108": "look-ahead"}
 _CYCLES = {
-    "G12": "a circular pocket", "G13": "a circular pocket", "G47": "engraved text", "G70": "a circle of holes", "G71": "an arc of holes",
-    "G72": "a line of holes", "G150": "a pocket of the control's own", "G43.4": "a tool that tilts", "G43.5": "a tool that tilts",
-}  # fmt: skip
-_ARGUMENTS: dict[str, int] = {letter: number for number, letter in enumerate("abcijkdef.h.m...qrstuvwxyz", 1) if letter != "."}
+    "G12": "a circular pocket",
+    "G13": "a circular pocket",
+    "G47": "engraved text",
+    "G70": "a circle of holes",
+    "G71": "an arc of holes",
+    "G72": "a line of holes",
+    "G150": "a pocket of the control's own",
+    "G43.4": "a tool that tilts",
+    "G43.5": "a tool that tilts",
+}
+_ARGUMENTS: dict[str, int] = {
+    letter: number for number, letter in enumerate("abcijkdef.h.m...qrstuvwxyz", 1) if letter != "."
+}
 
 LOOKED_AT = 200_000
 """Bytes in which numbers without a point are looked for."""
 
-_BLOCK_TEXT = re.compile(rb"^[ \t]*(?:/[ \t]*)?(?:[:o][ \t]*[0-9]|[a-z#][ \t]*[-+.]?[0-9])", re.IGNORECASE | re.MULTILINE)
+_BLOCK_TEXT = re.compile(
+    rb"^[ \t]*(?:/[ \t]*)?(?:[:o][ \t]*[0-9]|[a-z#][ \t]*[-+.]?[0-9])", re.IGNORECASE | re.MULTILINE
+)
 _WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
 _UNITS = re.compile(rb"g[ \t]*2[01](?![0-9.])", re.IGNORECASE)
 
@@ -41,7 +54,10 @@ def warn_of_numbers(control: Control, data: bytes) -> None:
     whole_length = _WHOLE_LENGTH.search(data, 0, LOOKED_AT) if control.habits.least_mm != 1.0 else None
     if whole_length is not None:
         control.line = data.count(b"\n", 0, whole_length.end()) + 1
-        control.warn(f"lengths without a decimal point count in {control.habits.least_mm:g} mm or {control.habits.least_inch:g} in here.")
+        control.warn(
+            f"lengths without a decimal point count in {control.habits.least_mm:g} mm or {control.habits.least_inch:g} "
+            "in here."
+        )
     if control.habits.fanuc_flow and data and _UNITS.search(data) is None:
         control.line = 1
         control.warn("the program names no units (G20, G21); mm are taken.")
@@ -90,6 +106,8 @@ def call_macro(flow: Flow, control: Control, block: Block) -> None:
     """
     number = whole(block.need("p", "G65"), "P of G65")
     count = whole(block.values.get("l", 1.0), "L of G65")
-    arguments: dict[Key, float] = {_ARGUMENTS[letter]: value for letter, value in block.values.items() if letter in _ARGUMENTS}
+    arguments: dict[Key, float] = {
+        _ARGUMENTS[letter]: value for letter, value in block.values.items() if letter in _ARGUMENTS
+    }
     if count > 0:
         flow.call(subroutine(flow, number), arguments, count)

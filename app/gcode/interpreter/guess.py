@@ -10,9 +10,13 @@ _LOOKED_AT = 50_000
 """Bytes from the beginning; what tells a control's language stands there, or in none of the program."""
 
 _NAMED = r"(?:hitofude for|post|control|machine)[^)\n]{0,60}\b"
-"""A control's name in a comment counts where the comment says that the program is for it: a vise may be called Haas too."""
+"""A control's name in a comment counts where the comment says that the program is for it: a vise may be called Haas
+too.
+"""
 
-_OWN = re.compile(r"\(hitofude for (" + "|".join(habits.title.lower() for habits in HABITS.values()) + r")\b", re.IGNORECASE)
+_OWN = re.compile(
+    r"\(hitofude for (" + "|".join(habits.title.lower() for habits in HABITS.values()) + r")\b", re.IGNORECASE
+)
 """Who wrote the program says what for, whatever other controls its comments name."""
 
 _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
@@ -37,8 +41,8 @@ _TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
 def guess_dialect(data: bytes) -> Dialect:
     """Return the control that a program looks like, LinuxCNC when nothing tells.
 
-    What a program of our own says it is for; else the first of these that speaks: a name in a comment or a word that only this
-    control has, in the order grbl, Mach3, LinuxCNC, Haas, Fanuc.
+    What a program of our own says it is for; else the first of these that speaks: a name in a comment or a word that
+    only this control has, in the order grbl, Mach3, LinuxCNC, Haas, Fanuc.
 
     Args:
         data: the file's bytes.

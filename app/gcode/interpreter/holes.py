@@ -23,7 +23,9 @@ def bore(control: Control, block: Block) -> None:
     control.cycle = cycle
     control.note_known(block)
     if taps_astray(cycle):
-        control.warn(f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g")
+        control.warn(
+            f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g"
+        )
     for step in cycle_steps(cycle, place, control.initial):
         if isinstance(step, Move):
             control.unroll()
@@ -37,7 +39,9 @@ def bore(control: Control, block: Block) -> None:
 
 
 def _program_place(control: Control) -> Place:
-    """Return where the point is, in units of the program, without the noise of its way through the offsets: R may be just there."""
+    """Return where the point is, in units of the program, without the noise of its way through the offsets: R may be
+    just there.
+    """
     x, y, z = (round(coordinate / control.unit, 9) for coordinate in control.program_place)
     return (x, y, z)
 
@@ -68,11 +72,21 @@ def _cycle(control: Control, block: Block) -> Cycle:
     if dwell is not None:
         dwell *= control.habits.dwell_unit_s if "p" in block.whole else control.habits.dwell_unit_with_point_s
     return Cycle(
-        code=control.motion, plane=control.modal.plane, hole=(words[u], words[v]), depth=words[w], r=_length(control, block, "r"),
-        repeats=1 if repeats is None else whole(repeats, "the number of repeats"), dwell=dwell, peck=_length(control, block, "q"),
-        shift=(_length(control, block, "i"), _length(control, block, "j"), _length(control, block, "k")), absolute=control.modal.absolute,
-        retract_to_r=control.modal.retract_to_r, spindle=control.modal.spindle, unit_mm=control.unit, fanuc=fanuc,
-    )  # fmt: skip
+        code=control.motion,
+        plane=control.modal.plane,
+        hole=(words[u], words[v]),
+        depth=words[w],
+        r=_length(control, block, "r"),
+        repeats=1 if repeats is None else whole(repeats, "the number of repeats"),
+        dwell=dwell,
+        peck=_length(control, block, "q"),
+        shift=(_length(control, block, "i"), _length(control, block, "j"), _length(control, block, "k")),
+        absolute=control.modal.absolute,
+        retract_to_r=control.modal.retract_to_r,
+        spindle=control.modal.spindle,
+        unit_mm=control.unit,
+        fanuc=fanuc,
+    )
 
 
 def _length(control: Control, block: Block, letter: str) -> float | None:

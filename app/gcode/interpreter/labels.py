@@ -1,4 +1,6 @@
-"""What LinuxCNC refuses of O words beside their grammar: a label that stands for two things, a subroutine out of its place."""
+"""What LinuxCNC refuses of O words beside their grammar: a label that stands for two things, a subroutine out of its
+place.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,8 @@ from .places import Statement
 class Labels:
     """The labels that were met so far.
 
-    A label is one for each subroutine and for the program, but where it begins with an underscore. Those of subroutines are others, and
-    everybody's.
+    A label is one for each subroutine and for the program, but where it begins with an underscore. Those of subroutines
+    are others, and everybody's.
     """
 
     def __init__(self) -> None:
@@ -30,8 +32,11 @@ class Labels:
         """
         first = self._defined.setdefault(_key(statement.label, where), statement)
         if first.at.line != statement.at.line:
-            raise Fault(f"O{statement.label} is the label of what begins in line {first.at.line} already; LinuxCNC takes each once, so use "
-                        "another.")  # fmt: skip
+            raise Fault(
+                f"O{statement.label} is the label of what begins in line {first.at.line} already; LinuxCNC takes each "
+                "once, so use "
+                "another."
+            )
 
     def begin_do(self, statement: Statement, where: str) -> None:
         """Note where a do begins; LinuxCNC looks only at its while whether the label is free."""
@@ -45,8 +50,11 @@ class Labels:
         """
         first = self._defined[_key(begin.label, where)]
         if first is not begin and first.at.line != begin.at.line:
-            raise Fault(f"O{begin.label} is the label of what begins in line {first.at.line} already, so this while in line {line} belongs "
-                        "to that; use another.")  # fmt: skip
+            raise Fault(
+                f"O{begin.label} is the label of what begins in line {first.at.line} already, so this while in line "
+                f"{line} belongs "
+                "to that; use another."
+            )
 
     def need_if(self, statement: Statement, where: str) -> None:
         """Check that an else or endif belongs to an if.
@@ -58,7 +66,9 @@ class Labels:
         if first is None:
             raise Fault(f"O{statement.label} {statement.keyword} belongs to no if.")
         if first.keyword != "if":
-            raise Fault(f"O{statement.label} {statement.keyword} belongs to no if: line {first.at.line} has {first.keyword}.")
+            raise Fault(
+                f"O{statement.label} {statement.keyword} belongs to no if: line {first.at.line} has {first.keyword}."
+            )
 
     def meet_subroutine(self, statement: Statement, inner: Statement | None) -> None:
         """Note a subroutine whose lines are passed over.
@@ -74,11 +84,17 @@ class Labels:
         if first.at.line != statement.at.line:
             raise Fault(f"the subroutine O{statement.label} is in line {first.at.line} already; use another label.")
         if statement.label in self._met:
-            raise Fault(f"the program comes to the subroutine O{statement.label} again; it must stand before its first call, and in "
-                        "nothing that is repeated.")  # fmt: skip
+            raise Fault(
+                f"the program comes to the subroutine O{statement.label} again; it must stand before its first call, "
+                "and in "
+                "nothing that is repeated."
+            )
         self._met.add(statement.label)
         if inner is not None:
-            raise Fault(f"the subroutine O{inner.label} begins in line {inner.at.line} within another, O{statement.label}; put it before.")
+            raise Fault(
+                f"the subroutine O{inner.label} begins in line {inner.at.line} within another, O{statement.label}; put "
+                "it before."
+            )
 
     def call_subroutine(self, found: Statement) -> Statement:
         """Note a subroutine that is called, and return the one that this label stands for: the one met first."""

@@ -33,8 +33,8 @@ class Plain:
         shift: (3,) mm, added to absolute coordinates.
         state: index of the modal state.
         semicolon_comments: a semicolon begins a comment.
-        known: (6,) first row whose absolute word commands each axis; then first row whose incremental word moves it before
-            that; -1 = none yet.
+        known: (6,) first row whose absolute word commands each axis; then first row whose incremental word moves it
+            before that; -1 = none yet.
     """
 
     position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
@@ -51,7 +51,9 @@ class Plain:
     known: NDArray[np.int64] = field(default_factory=lambda: np.full(6, -1))
 
 
-def plain_blocks(data: NDArray[np.uint8], at: tuple[int, int], plain: Plain, columns: Columns, most_lines: int) -> tuple[int, int]:
+def plain_blocks(
+    data: NDArray[np.uint8], at: tuple[int, int], plain: Plain, columns: Columns, most_lines: int
+) -> tuple[int, int]:
     """Do the plain lines that begin at a place of the text; return the place of the first line that is not done.
 
     A line is done whole or not at all. An absolute coordinate is number * scale + shift, an incremental one
@@ -70,8 +72,19 @@ def plain_blocks(data: NDArray[np.uint8], at: tuple[int, int], plain: Plain, col
     while most_lines > 0 and offset < len(data):
         portion = min(most_lines, _PORTION)
         columns.reserve(portion)
-        modes = (offset, line, columns.count, plain.motion, portion, plain.plane, plain.state,
-                 plain.absolute, plain.arc_absolute, plain.semicolon_comments, LONGEST)  # fmt: skip
+        modes = (
+            offset,
+            line,
+            columns.count,
+            plain.motion,
+            portion,
+            plain.plane,
+            plain.state,
+            plain.absolute,
+            plain.arc_absolute,
+            plain.semicolon_comments,
+            LONGEST,
+        )
         places = plain.position, plain.shift, plain.known
         first = line
         offset, line, columns.count, plain.motion, plain.feed = run_plain(

@@ -1,4 +1,6 @@
-"""Where the compiled lane keeps what is in force: places of its whole numbers, of its reals, and of the records that it makes."""
+"""Where the compiled lane keeps what is in force: places of its whole numbers, of its reals, and of the records that it
+makes.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +9,17 @@ OFFSET, LINE, COUNT, MOTION = range(4)
 PLANE, ABSOLUTE, ARC_ABSOLUTE, SPINDLE, FLOOD, MIST, TOOL, RETRACT, SELECTED = range(4, 13)
 """As `ModalState` has them, and the T number that M6 takes."""
 STATE, STATES, EVENTS, CHANGES, UNROLLED = range(13, 18)
-"""The row of the state in force; how many states and events are new; how often a parameter changed; motions of cycles."""
+"""The row of the state in force; how many states and events are new; how often a parameter changed; motions of
+cycles.
+"""
 LINES_LEFT, ROWS, MOST_UNROLLED, LONGEST = range(18, 22)
 """Lines to do; motions there may be; motions of cycles there may be; bytes of a line."""
 LINUXCNC, COMPUTES, TOOL_CHANGES, EXTENDED = range(22, 26)
 """Whether the control is LinuxCNC; knows expressions as it does; changes tools; knows G90.1, G97, G98, G99."""
 WORK_OFFSET, UNITS, LENGTH_FREE, SURFACE = range(26, 30)
-"""A hundred times the G codes of work offset and units in force; whether no tool length is, and constant surface speed."""
+"""A hundred times the G codes of work offset and units in force; whether no tool length is, and constant surface
+speed.
+"""
 CYCLE, CYCLED = range(30, 32)
 """The cycle in force (0 = none); whether one was done here."""
 KNOWN = 32

@@ -1,4 +1,5 @@
-"""The compiled lane: line by line through a program, plain ones at once, others word by word, until one is not surely right.
+"""The compiled lane: line by line through a program, plain ones at once, others word by word, until one is not surely
+right.
 
 Nothing of such a line is done; the reader's core does it, exactly and with words for what is wrong.
 """
@@ -11,7 +12,7 @@ import numpy as np
 
 from ...core.jit import kernel
 from .cycle_kernels import bore, note
-from .lane_fields import (  # fmt: skip
+from .lane_fields import (
     ABSOLUTE,
     ARC_ABSOLUTE,
     BARE,
@@ -63,7 +64,22 @@ from .word_kernels import _LINE, M_CODES, read_block
 
 _INTS, _REALS, _RECORDS = "int64[::1]", "float64[::1]", "float64[:, ::1]"
 _F, _I, _J, _K, _L, _P, _Q, _R, _S, _T, _X = (ord(letter) - 65 for letter in "FIJKLPQRSTX")
-_MOTION, _PLANE, _DISTANCE, _ARC_DISTANCE, _FEED_MODE, _ONCE, _RETURN, _STOP, _TOOL, _SPINDLE, _MIST, _FLOOD, _DRY, _SAME = range(14)
+(
+    _MOTION,
+    _PLANE,
+    _DISTANCE,
+    _ARC_DISTANCE,
+    _FEED_MODE,
+    _ONCE,
+    _RETURN,
+    _STOP,
+    _TOOL,
+    _SPINDLE,
+    _MIST,
+    _FLOOD,
+    _DRY,
+    _SAME,
+) = range(14)
 _SLOTS = 14
 """What a block's codes are about; of _SAME are those that change nothing, as far as they are known here."""
 _NEVER_PLAIN = (35, 77, 83, 84, 109, 115, 116)
@@ -93,9 +109,12 @@ def _slot_of_g(code, ints):
     if (code == 9800 or code == 9900) and ints[EXTENDED] != 0:
         return _RETURN
     same = (
-        code == ints[UNITS] or code == ints[WORK_OFFSET] or code == 4000 or (code == 4900 and ints[LENGTH_FREE] != 0)
+        code == ints[UNITS]
+        or code == ints[WORK_OFFSET]
+        or code == 4000
+        or (code == 4900 and ints[LENGTH_FREE] != 0)
         or (code == 9700 and ints[EXTENDED] != 0 and ints[SURFACE] == 0)
-    )  # fmt: skip
+    )
     return _SAME if same else -1
 
 
@@ -115,7 +134,9 @@ def _slot_of_m(number, ints):
 
 @kernel(f"boolean({_INTS}, {_LINE}, {_INTS})", counts=False)
 def _sorted(ints, line, slots):
-    """Put a block's codes where they belong, G and M numbers times a hundred; return whether all are known and none excludes another."""
+    """Put a block's codes where they belong, G and M numbers times a hundred; return whether all are known and none
+    excludes another.
+    """
     slots[:] = -1
     for k in range(line[4][0]):
         code = line[2][k]
@@ -165,7 +186,10 @@ def _set_modes(ints, reals, line, slots, events):
         ints[FLOOD] = slots[_FLOOD] >= 0
     if slots[_ONCE] >= 0:
         given = line[1]
-        if given[_P] == _ABSENT or given[_X] + given[_X + 1] + given[_X + 2] + given[_I] + given[_J] + given[_K] + given[_R] != _ABSENT:
+        if (
+            given[_P] == _ABSENT
+            or given[_X] + given[_X + 1] + given[_X + 2] + given[_I] + given[_J] + given[_K] + given[_R] != _ABSENT
+        ):
             return False
         seconds = line[0][_P] * reals[DWELL_WHOLE if given[_P] == _WHOLE else DWELL_POINT]
         if not 0.0 <= seconds <= _LONGEST_DWELL:
@@ -208,7 +232,11 @@ def _straight_or_arc(ints, reals, line, columns):
         given[k], lengths[k] = line[1][letter], line[0][letter] * reals[BARE if line[1][letter] == _WHOLE else SCALE]
     kind, row = ints[MOTION], ints[COUNT]
     start, shift, known = reals[PLACE : PLACE + 3], reals[SHIFT : SHIFT + 3], ints[KNOWN : KNOWN + 6]
-    if row >= ints[ROWS] or (kind > 0 and math.isnan(reals[FEED])) or not _reach(lengths, shift, ints[ABSOLUTE] != 0, start, given, end):
+    if (
+        row >= ints[ROWS]
+        or (kind > 0 and math.isnan(reals[FEED]))
+        or not _reach(lengths, shift, ints[ABSOLUTE] != 0, start, given, end)
+    ):
         return False
     if kind >= 2 and not _arc(kind, ints[PLANE], ints[ARC_ABSOLUTE] != 0, lengths, shift, given, start, end, centre):
         return False
@@ -230,10 +258,13 @@ def _words_fit(ints, line, slots):
     dwells = motion == 82 or motion == 89
     round_words = given[_I] + given[_J] + given[_K]
     return (
-        (given[_P] == _ABSENT or slots[_ONCE] >= 0 or dwells) and (given[_L] == _ABSENT or cycle)
-        and (given[_Q] == _ABSENT or motion == 73 or motion == 83) and (round_words == _ABSENT or arc)
-        and (given[_R] == _ABSENT or cycle or arc) and not (slots[_ONCE] >= 0 and (cycle or arc))
-    )  # fmt: skip
+        (given[_P] == _ABSENT or slots[_ONCE] >= 0 or dwells)
+        and (given[_L] == _ABSENT or cycle)
+        and (given[_Q] == _ABSENT or motion == 73 or motion == 83)
+        and (round_words == _ABSENT or arc)
+        and (given[_R] == _ABSENT or cycle or arc)
+        and not (slots[_ONCE] >= 0 and (cycle or arc))
+    )
 
 
 @kernel(f"boolean({_INTS}, {_REALS}, {_LINE}, {_INTS}, {_COLUMNS}, Tuple(({_RECORDS}, {_RECORDS})))", counts=False)
@@ -272,8 +303,18 @@ def _do_plain(ints, reals, data, columns, states):
     lines = min(ints[LINES_LEFT], ints[ROWS] - rows)
     first = ints[LINE]
     modes = (
-        ints[OFFSET], first, rows, motion, lines, ints[PLANE], ints[STATE], ints[ABSOLUTE], ints[ARC_ABSOLUTE], 1, ints[LONGEST],
-    )  # fmt: skip
+        ints[OFFSET],
+        first,
+        rows,
+        motion,
+        lines,
+        ints[PLANE],
+        ints[STATE],
+        ints[ABSOLUTE],
+        ints[ARC_ABSOLUTE],
+        1,
+        ints[LONGEST],
+    )
     places = reals[PLACE : PLACE + 3], reals[SHIFT : SHIFT + 3], ints[KNOWN : KNOWN + 6]
     ints[OFFSET], ints[LINE], ints[COUNT], motion, reals[FEED] = run_plain(
         data, (reals[SCALE], reals[BARE], reals[FEED]), modes, places, columns
@@ -299,9 +340,14 @@ def run_lines(data, ints, reals, parameters, columns, records):
         records: out, states and events, of which there is room for one more than lines.
     """
     line = (
-        np.zeros(26), np.zeros(26, np.int64), np.zeros(12, np.int64), np.zeros((8, 2)), np.zeros(2, np.int64), np.zeros(8, np.int64),
+        np.zeros(26),
+        np.zeros(26, np.int64),
+        np.zeros(12, np.int64),
+        np.zeros((8, 2)),
+        np.zeros(2, np.int64),
+        np.zeros(8, np.int64),
         np.zeros((3, 8)),
-    )  # fmt: skip
+    )
     values, waiting, slots = np.zeros(34), np.zeros(34, np.int64), np.zeros(_SLOTS, np.int64)
     old_ints, old_reals = np.zeros(INTS, np.int64), np.zeros(REALS)
     while ints[LINES_LEFT] > 0 and ints[OFFSET] < len(data):
@@ -312,9 +358,11 @@ def run_lines(data, ints, reals, parameters, columns, records):
         old_ints[:], old_reals[:] = ints, reals
         behind = read_block(data, ints[OFFSET], ints[LONGEST], parameters, line, values, waiting, ints[COMPUTES] != 0)
         known = (
-            behind >= 0 and _sorted(ints, line, slots) and _set_modes(ints, reals, line, slots, records[1])
+            behind >= 0
+            and _sorted(ints, line, slots)
+            and _set_modes(ints, reals, line, slots, records[1])
             and _moved(ints, reals, line, slots, columns, records)
-        )  # fmt: skip
+        )
         if not known:
             ints[:], reals[:] = old_ints, old_reals
             break

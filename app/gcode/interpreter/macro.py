@@ -109,7 +109,10 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
     if code == "M99":
         if flow.frames[-1].label or len(flow.frames) > 1:
             if flow.frames[-1].called:
-                raise Fault(f"O{flow.frames[-1].label} is called by an O word, so endsub or return must end it, not M99.", letter="m")
+                raise Fault(
+                    f"O{flow.frames[-1].label} is called by an O word, so endsub or return must end it, not M99.",
+                    letter="m",
+                )
             back = block.get("p")
             flow.leave()
             if back is not None and control.habits.fanuc_flow:
@@ -156,7 +159,10 @@ def subroutine(flow: Flow, number: int, plain: bool = False) -> tuple[str, Curso
     """
     found = flow.places.subroutine(str(number))
     if found is None:
-        raise Fault(f"there is no subroutine O{number} in this file; a file of its own is not read, so put it into this one.", letter="p")
+        raise Fault(
+            f"there is no subroutine O{number} in this file; a file of its own is not read, so put it into this one.",
+            letter="p",
+        )
     if plain and found.keyword == "sub":
         raise Fault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
     return str(number), flow.places.after(found.at)

@@ -1,4 +1,6 @@
-"""Codes that move the tool: straight lines, arcs and helices, home, probing, threads, and the cycles and splines of their own files."""
+"""Codes that move the tool: straight lines, arcs and helices, home, probing, threads, and the cycles and splines of
+their own files.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ RADIUS_SLACK_MM = 0.00127
 
 LEAST_RADIUS_MM = 0.00127
 RELATIVE_MISMATCH = 1e-3
-"""The two radii of an arc may differ by so much of the larger one, whatever the control: LinuxCNC and grbl have it so."""
+"""The two radii of an arc may differ by so much of the larger one, whatever the control: LinuxCNC and grbl have it
+so.
+"""
 GRBL_MISMATCH_MM = (0.005, 0.5)
 LINUXCNC_MISMATCH = {Units.MM: 0.02 * math.sqrt(2.0), Units.INCH: 0.002 * math.sqrt(2.0)}
 """How far the two radii may be apart whatever their size, in units of the program; measured at its interpreter."""
@@ -58,7 +62,11 @@ def move(control: Control, block: Block) -> None:
         if code in CYCLES and control.motion in ("G0", "G1", "G2", "G3"):
             control.before_cycle = control.motion
         control.motion = code
-    elif not axes and not (control.motion in ("G2", "G3") and block.has("ijk")) and not (control.motion == "G6.2" and block.has("k")):
+    elif (
+        not axes
+        and not (control.motion in ("G2", "G3") and block.has("ijk"))
+        and not (control.motion == "G6.2" and block.has("k"))
+    ):
         return
     _check_once(control, once)
     if axes:
@@ -80,7 +88,9 @@ def _check_once(control: Control, once: str | None) -> None:
 
 
 def _go_home(control: Control, block: Block, code: str) -> None:
-    """Go by way of the axis words to where the machine's reference point is; only along the axes that are named, if any."""
+    """Go by way of the axis words to where the machine's reference point is; only along the axes that are named, if
+    any.
+    """
     drop_curve(control)
     named = [axis for axis, letter in enumerate(AXES) if letter in block.values]
     by_way = control.target(block)
@@ -141,7 +151,10 @@ def _arc(control: Control, block: Block) -> None:
     if not block.has(AXES + ROTARY + "ijkr"):
         raise Fault(f"{code} needs its end or its centre.", letter="g")
     if control.offsets.rotation != 0.0 and control.modal.plane is not Plane.XY:
-        raise Fault(f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).", letter="g")
+        raise Fault(
+            f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).",
+            letter="g",
+        )
     _check_arc_words(block, "ijk"[w], code)
     end = _target(control, block)
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
@@ -170,7 +183,10 @@ def _check_arc_words(block: Block, foreign: str, code: str) -> None:
     if not block.has("rijk"):
         raise Fault(f"{code} needs a radius R or a centre I, J, K.", letter="g")
     if block.has(foreign):
-        raise Fault(f"{foreign.upper()} is no coordinate of this plane's arcs; choose the plane, or leave it out.", letter=foreign)
+        raise Fault(
+            f"{foreign.upper()} is no coordinate of this plane's arcs; choose the plane, or leave it out.",
+            letter=foreign,
+        )
 
 
 def _centre_by_r(control: Control, block: Block, end: Place) -> Place:
@@ -182,7 +198,9 @@ def _centre_by_r(control: Control, block: Block, end: Place) -> Place:
     a, b = centre_by_radius(start[u], start[v], end[u], end[v], radius, turn, RADIUS_SLACK_MM)
     if math.isnan(a):
         half = math.hypot(end[u] - start[u], end[v] - start[v]) / 2
-        raise Fault(f"the radius {abs(radius):g} mm is too small to reach the end, which is {2 * half:.6g} mm away.", letter="r")
+        raise Fault(
+            f"the radius {abs(radius):g} mm is too small to reach the end, which is {2 * half:.6g} mm away.", letter="r"
+        )
     return _placed((u, a), (v, b), (w, start[w]))
 
 
@@ -227,13 +245,18 @@ def _check_radii(control: Control, end: Place, centre: Place) -> None:
     some, most = _mismatch(control)
     off = abs(first - last)
     if (off > some and off > RELATIVE_MISMATCH * max(first, last)) or off > most:
-        raise Fault(f"the arc does not end on its circle: its radius is {first:.4f} mm at the start and {last:.4f} mm at the end.", "ijk")
+        raise Fault(
+            f"the arc does not end on its circle: its radius is {first:.4f} mm at the start and {last:.4f} mm at the "
+            "end.",
+            "ijk",
+        )
 
 
 def _mismatch(control: Control) -> tuple[float, float]:
     """Return by how much, mm, the two radii of an arc may differ at any size, and by how much at none.
 
-    Fanuc, Haas and Mach3 leave it to a setting of the machine: they are taken to allow what LinuxCNC allows in mm, at any size.
+    Fanuc, Haas and Mach3 leave it to a setting of the machine: they are taken to allow what LinuxCNC allows in mm, at
+    any size.
     """
     dialect = control.options.dialect
     if dialect is Dialect.GRBL:
@@ -258,7 +281,10 @@ def _thread(control: Control, block: Block) -> None:
     """Feed in step with the spindle; G33.1 comes back the same way."""
     pitch = block.get("k")
     if pitch is None or pitch <= 0:
-        raise Fault(f"{control.motion} needs the way of a revolution, K greater than 0.", letter="k" if pitch is not None else "g")
+        raise Fault(
+            f"{control.motion} needs the way of a revolution, K greater than 0.",
+            letter="k" if pitch is not None else "g",
+        )
     if control.modal.speed <= 0 or not control.modal.spindle:
         raise Fault(f"{control.motion} needs a turning spindle (S and M3 or M4 before).", letter="g")
     start, end, feed = control.at, _target(control, block), pitch * control.unit * control.modal.speed
@@ -274,8 +300,14 @@ def _cycle(control: Control, block: Block) -> None:
 
 
 _MOTIONS: dict[str, Callable[[Control, Block], None]] = {
-    "G0": _rapid, "G1": _line, "G2": _arc, "G3": _arc, "G33": _thread, "G33.1": _thread, "G80": _no_motion,
+    "G0": _rapid,
+    "G1": _line,
+    "G2": _arc,
+    "G3": _arc,
+    "G33": _thread,
+    "G33.1": _thread,
+    "G80": _no_motion,
     **dict.fromkeys(("G38.2", "G38.3", "G38.4", "G38.5"), _probe),
     **dict.fromkeys(CYCLES, _cycle),
     **dict.fromkeys(("G5", "G5.1", *CURVES), move_along_curve),
-}  # fmt: skip
+}

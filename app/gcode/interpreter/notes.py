@@ -30,9 +30,10 @@ _BOUNDS_AROUND = 200
 def notes(data: bytes) -> Notes:
     """Return the tools and the stock that comments tell of, in the order of the text.
 
-    Our own header is believed alone (`notes_own`); else what CAM systems and people write: "(T1 D=6. CR=0. - ZMIN=-5. - flat end mill)",
-    "(TOOL 2 - 6MM BALL ENDMILL)", ";tool_radius = 3.0", '(Assumes 4"x4"x2" finished stock)'. A comment that names no number
-    belongs to the T word beside or below it. Lengths without a unit are in the units of the program near them.
+    Our own header is believed alone (`notes_own`); else what CAM systems and people write: "(T1 D=6. CR=0. - ZMIN=-5. -
+    flat end mill)", "(TOOL 2 - 6MM BALL ENDMILL)", ";tool_radius = 3.0", '(Assumes 4"x4"x2" finished stock)'. A comment
+    that names no number belongs to the T word beside or below it. Lengths without a unit are in the units of the
+    program near them.
 
     Args:
         data: the file's bytes; any encoding, any line ends.

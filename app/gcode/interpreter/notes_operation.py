@@ -19,7 +19,8 @@ _BEFORE = 8
 
 
 def contour_motions(data: bytes, program: NcProgram) -> NDArray[np.bool_]:
-    """Return (n,) which motions follow a comment such as "(Contour T2: depth ...)", up to the next operation or tool change.
+    """Return (n,) which motions follow a comment such as "(Contour T2: depth ...)", up to the next operation or tool
+    change.
 
     Args:
         data: the bytes that the program was read from.
@@ -39,7 +40,12 @@ def contour_motions(data: bytes, program: NcProgram) -> NDArray[np.bool_]:
 def _operations(data: bytes) -> dict[int, bool]:
     """Return, by 1-based line, whether the operation that begins there is a contour."""
     words = ((f"{word.capitalize()} T", kind.FOLLOWS_WALLS) for word, kind in OPERATION_KINDS.items())
-    found = sorted((at, contour) for text, contour in words for each in (text, text.upper()) for at in _comments(data, each.encode()))
+    found = sorted(
+        (at, contour)
+        for text, contour in words
+        for each in (text, text.upper())
+        for at in _comments(data, each.encode())
+    )
     begins, line, last = {}, 1, 0
     for at, contour in found:
         line, last = line + data.count(b"\n", last, at), at

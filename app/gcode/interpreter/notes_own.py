@@ -47,26 +47,47 @@ def own_notes(comments: Comments) -> Notes:
         told.setdefault(key, []).append(values)
     origin = next((triple for _, values in told.get("origin_mm", []) if (triple := _triple(values)) is not None), None)
     header = HeaderNote(
-        origin, tuple(_operations(told)), _units(told.get("drawing_units", [])),
+        origin,
+        tuple(_operations(told)),
+        _units(told.get("drawing_units", [])),
         tuple(_name(values) for _, values in told.get("layer", [])),
-        _first(told.get("join_tolerance_mm", [])), _first(told.get("path_tolerance_mm", [])),
-        _first(told.get("allowance_mm", [])), _copies(told.get("copies", [])),
-        (tuple(_name(values) for _, values in told.get("keep_out", [])), _first(told.get("keep_out_height_mm", [])) or 0.0),
+        _first(told.get("join_tolerance_mm", [])),
+        _first(told.get("path_tolerance_mm", [])),
+        _first(told.get("allowance_mm", [])),
+        _copies(told.get("copies", [])),
+        (
+            tuple(_name(values) for _, values in told.get("keep_out", [])),
+            _first(told.get("keep_out_height_mm", [])) or 0.0,
+        ),
         tuple(Tab(*numbers) for numbers in _fives(told.get("tab", []))),
-        tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))), _reading(told),
-        tuple((int(numbers[0]), numbers[1]) for _, values in told.get("plunge_mm_min", []) if len(numbers := _floats(values)) == 2),
-    )  # fmt: skip
-    return Notes(tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header)
+        tuple(DogBone(*numbers) for numbers in _fives(told.get("dog_bone", []))),
+        _reading(told),
+        tuple(
+            (int(numbers[0]), numbers[1])
+            for _, values in told.get("plunge_mm_min", [])
+            if len(numbers := _floats(values)) == 2
+        ),
+    )
+    return Notes(
+        tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header
+    )
 
 
 def _reading(told: dict[str, list[Values]]) -> ReadOptions:
     """Return how the drawing was read."""
-    without_layers, without_types, layouts = (tuple(_name(values) for _, values in told.get(key, []))
-                                              for key in ("skip_layer", "skip_type", "layout"))  # fmt: skip
+    without_layers, without_types, layouts = (
+        tuple(_name(values) for _, values in told.get(key, [])) for key in ("skip_layer", "skip_type", "layout")
+    )
     density = _first(told.get("px_per_inch", []))
     in_range = density is not None and LEAST_PER_INCH <= density <= MOST_PER_INCH
-    return ReadOptions(_first(told.get("overrule_units", [])) == 1, layouts[0] if layouts else "", _first(told.get("to_zero", [])) == 1,
-                       density if in_range else None, without_layers, without_types)  # fmt: skip
+    return ReadOptions(
+        _first(told.get("overrule_units", [])) == 1,
+        layouts[0] if layouts else "",
+        _first(told.get("to_zero", [])) == 1,
+        density if in_range else None,
+        without_layers,
+        without_types,
+    )
 
 
 def _told(comments: Comments) -> Iterator[tuple[str, Values]]:
@@ -91,7 +112,9 @@ def _tools(told: list[Values]) -> Iterator[ToolNote]:
         numbers = _floats([*values[:1], *values[2:]])
         if len(numbers) in (2, 5):
             corner, tip, angle = numbers[2:] or [0.0] * 3
-            yield ToolNote(int(numbers[0]), values[1].strip().lower(), numbers[1], corner, math.radians(angle), line, tip)
+            yield ToolNote(
+                int(numbers[0]), values[1].strip().lower(), numbers[1], corner, math.radians(angle), line, tip
+            )
 
 
 def _stock(told: list[Values], origin: tuple[float, float, float]) -> StockNote | None:
@@ -109,7 +132,11 @@ def _operations(told: dict[str, list[Values]]) -> Iterator[OperationNote]:
     for number, (_, values) in enumerate(told.get("operation", []), 1):
         kind = OPERATION_KINDS.get(values[0].strip().lower())
         if kind is not None:
-            read = operation_notes.read(kind, values[1:]) if "=" in values[-1] else _earlier(kind, values[1:], _Earlier(told, number))
+            read = (
+                operation_notes.read(kind, values[1:])
+                if "=" in values[-1]
+                else _earlier(kind, values[1:], _Earlier(told, number))
+            )
             if read is not None:
                 yield OperationNote(kind, tuple(read.items()))
 
@@ -141,7 +168,12 @@ def _earlier(kind: type[Operation], values: list[str], beside: _Earlier) -> dict
     (left,), (lead,) = (beside.numbers(key, 1) or [0.0] for key in ("floor_to_leave_mm", "leads_mm"))
     least, most, through = beside.numbers("holes_mm", 3) or [0.0] * 3
     told |= {"stock_to_leave": numbers[2], "floor_to_leave": left, "side": sides[side[0]] if side else Side.INSIDE}
-    told |= {"lead_radius": min(lead, LONGEST_LEAD) or None, "least": least or None, "most": most or None, "through": through}
+    told |= {
+        "lead_radius": min(lead, LONGEST_LEAD) or None,
+        "least": least or None,
+        "most": most or None,
+        "through": through,
+    }
     return {key: value for key, value in told.items() if key in parameters_of(kind)}
 
 
@@ -182,4 +214,8 @@ def _name(values: list[str]) -> str:
 def _floats(values: list[str]) -> list[float]:
     """Return plain numbers; none at all where one of the values is not."""
     plain = [value.strip() for value in values]
-    return [float(value) for value in plain] if all(re.fullmatch(r"-?\d{1,9}(\.\d{1,9})?", value) for value in plain) else []
+    return (
+        [float(value) for value in plain]
+        if all(re.fullmatch(r"-?\d{1,9}(\.\d{1,9})?", value) for value in plain)
+        else []
+    )

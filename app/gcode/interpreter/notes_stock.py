@@ -15,7 +15,9 @@ _WORD = r"[xyz]?\s{0,2}[=:]?\s{0,2}"
 _SIZE = re.compile(rf"(?<![\w.])[x]?\s?{_SIGNED}{_TIMES}{_WORD}{_SIGNED}{_TIMES}{_WORD}{_SIGNED}", re.IGNORECASE)
 _TO = r"\s{0,3}(?:to|\.\.\.?|…)\s{0,3}"
 _AXIS = re.compile(rf"(?<![a-z])([xyz])\s{{0,2}}[=:]?\s{{0,2}}{_SIGNED}(?:{_TO}[xyz]?\s?{_SIGNED})?", re.IGNORECASE)
-_TOP = re.compile(rf"top of (?:the )?(?:stock|material|workpiece)\b[^()]{{0,20}}?z\s{{0,2}}[=:]?\s{{0,2}}{_SIGNED}", re.IGNORECASE)
+_TOP = re.compile(
+    rf"top of (?:the )?(?:stock|material|workpiece)\b[^()]{{0,20}}?z\s{{0,2}}[=:]?\s{{0,2}}{_SIGNED}", re.IGNORECASE
+)
 _BOUND = re.compile(rf"(min|max)([xyz])\s?=\s?{_SIGNED}", re.IGNORECASE)
 
 Three = list[float]
@@ -39,10 +41,12 @@ class Box:
 
     def merged(self, other: Box) -> Box:
         """Return the box with what another tells beside it."""
-        return Box(*(
-            [b if math.isnan(a) else a for a, b in zip(mine, theirs, strict=True)]
-            for mine, theirs in ((self.low, other.low), (self.high, other.high), (self.size, other.size))
-        ))  # fmt: skip
+        return Box(
+            *(
+                [b if math.isnan(a) else a for a, b in zip(mine, theirs, strict=True)]
+                for mine, theirs in ((self.low, other.low), (self.high, other.high), (self.size, other.size))
+            )
+        )
 
     def note(self, line: int) -> StockNote:
         """Return the note, with what follows: of low, high and size two give the third."""

@@ -15,13 +15,20 @@ _SEP = r"\s{0,3}[-=:]?\s{0,3}"
 _KINDS = tuple(
     (re.compile(pattern, _ANY), kind)
     for pattern, kind in (
-        (r"\btap\b|thread|form ?(?:mill|tool)|lollipop|dovetail|probe|reamer|boring|lathe|turning|torch|laser|taper(?:ed)? mill", ""),
+        (
+            r"\btap\b|thread|form "
+            r"?(?:mill|tool)|lollipop|dovetail|probe|reamer|boring|lathe|turning|torch|laser|taper(?:ed)? mill",
+            "",
+        ),
         (r"\bball|\bspher", "ball"),
         (r"\bbull|toroid", "bull"),
         (r"spot|cent(?:er|re) ?drill", "drill"),
         (r"chamfer|engrav|\bv[ _-]?(?:bit|carve|cutt|tool|mill|groove)|\bvee|counter ?sink|conical|\bv\b", "v"),
         (r"drill|bohrer", "drill"),
-        (r"end ?mill|\bflat|square|cylindri|face ?mill|slot|straight|router|schaftfr|compression|(?:up|down) ?cut", "flat"),
+        (
+            r"end ?mill|\bflat|square|cylindri|face ?mill|slot|straight|router|schaftfr|compression|(?:up|down) ?cut",
+            "flat",
+        ),
     )
 )
 _SHAPE = r"(?:flat|ball|bull|v[ -]?bit|square|spot|face|end|drill|chamfer|cent(?:er|re))"
@@ -39,14 +46,21 @@ _DIAMETERS = tuple(
     (re.compile(pattern, _ANY), factor)
     for pattern, factor in (
         (rf"(?<![a-z_])d\s?=\s?{LENGTH}", 1.0),
-        (rf"(?<!shank)(?<!shank[ _])(?<!shaft)(?<!shaft[ _])(?<!handle)(?<![a-z])dia(?:m(?:eter)?)?\b\.?{_SEP}{LENGTH}", 1.0),
+        (
+            r"(?<!shank)(?<!shank[ _])(?<!shaft)(?<!shaft[ "
+            rf"_])(?<!handle)(?<![a-z])dia(?:m(?:eter)?)?\b\.?{_SEP}{LENGTH}",
+            1.0,
+        ),
         (rf"[Øø⌀]\s?{LENGTH}", 1.0),
         (rf"\b(?:tool|cutter|bit|mill)[ _]?(?:dia(?:m(?:eter)?)?){_SEP}{LENGTH}", 1.0),
         (rf"\b(?:tool|cutter|bit|mill)[ _]?radius{_SEP}{LENGTH}", 2.0),
         (rf"{LENGTH}\s{{0,3}}-?dia(?:m(?:eter)?)?\b", 1.0),
     )
 )
-_NO_DIAMETER = rf"(?![\d./])(?!\s{{0,3}}(?:{UNIT})?\s{{0,3}}-?(?:shank|shaft|long|length|deep|rad|flute|loc\b|fl\b|stick|corner|deg|°))"
+_NO_DIAMETER = (
+    rf"(?![\d./])(?!\s{{0,3}}(?:{UNIT})?\s{{0,3}}-?"
+    r"(?:shank|shaft|long|length|deep|rad|flute|loc\b|fl\b|stick|corner|deg|°))"
+)
 _SIZED = re.compile(rf"(?<![\w.#/])(?<![a-z]-){LENGTH}{_NO_DIAMETER}", _ANY)
 _BEFORE_SHAPE = re.compile(rf"(?<![\w.#/]){LENGTH}\s{{0,3}}{_SHAPE}", _ANY)
 _SHORT_D = re.compile(rf"(?<!\w)d{LENGTH}", _ANY)
@@ -55,7 +69,9 @@ _SHORT_R = re.compile(rf"(?<!\w)r\s?{LENGTH}", _ANY)
 _TAPER = re.compile(r"taper\s?=\s?(\d{1,3}(?:\.\d{1,4})?)", _ANY)
 _ANGLE = re.compile(r"(\d{1,3}(?:\.\d{1,4})?)\s{0,2}-?(?:deg|°|º)|angle\s{0,2}[=:]\s{0,2}(\d{1,3}(?:\.\d{1,4})?)", _ANY)
 _NAMED = re.compile(r"tool|cutter|end ?mill|mill\b|\bbit|drill bit|\b[tT]\s?\d|^\s{0,9}\d{1,4}\s?=", _ANY)
-_OF_THE_WORK = re.compile(r"depth|deep|hole|step|stock|pocket|within|above|below|clearance|height|length of|rapid|probe", _ANY)
+_OF_THE_WORK = re.compile(
+    r"depth|deep|hole|step|stock|pocket|within|above|below|clearance|height|length of|rapid|probe", _ANY
+)
 
 
 def tool_of(text: str, program_mm: float, at_change: bool) -> ToolNote:
@@ -67,7 +83,11 @@ def tool_of(text: str, program_mm: float, at_change: bool) -> ToolNote:
         at_change: the comment stands at a tool change, so that a bare size is a diameter.
     """
     kind, (number, rest) = _kind(text), _number(text)
-    diameter = _diameter(rest, program_mm, bool(kind), at_change) if at_change or _NAMED.search(text) else _worded(rest, program_mm)
+    diameter = (
+        _diameter(rest, program_mm, bool(kind), at_change)
+        if at_change or _NAMED.search(text)
+        else _worded(rest, program_mm)
+    )
     corner = _first(_CORNER, text, program_mm)
     if kind == "bull" and not corner:
         corner = _first(_SHORT_R, text, program_mm)

@@ -1,4 +1,6 @@
-"""Where comments stand in a program, and the lengths that they tell. All patterns are bounded, so no text can hang them."""
+"""Where comments stand in a program, and the lengths that they tell. All patterns are bounded, so no text can hang
+them.
+"""
 
 from __future__ import annotations
 
@@ -78,7 +80,9 @@ class Comments:
         return begin + bracket + 1, close if close >= 0 else self.line_end(at)
 
     def texts(self, words: tuple[bytes, ...], most: int = MOST_HITS) -> Iterator[tuple[int, str]]:
-        """Yield each comment that has one of the words, once: where it begins, and its text; looks at `most` places of each."""
+        """Yield each comment that has one of the words, once: where it begins, and its text; looks at `most` places of
+        each.
+        """
         seen = set()
         for at in self.places(words, most):
             place = self.around(at)

@@ -1,7 +1,8 @@
-"""Where zero is: work offsets with their rotation, G52, G92 and tool length, from program coordinates to the table's and back.
+"""Where zero is: work offsets with their rotation, G52, G92 and tool length, from program coordinates to the table's
+and back.
 
-As LinuxCNC has it: table = work offset + rotated (program + G52 + G92). The table's coordinates are those of the machine
-less the tool's length.
+As LinuxCNC has it: table = work offset + rotated (program + G52 + G92). The table's coordinates are those of the
+machine less the tool's length.
 """
 
 from __future__ import annotations

@@ -13,19 +13,35 @@ from .fault import Fault
 from .text import Text, code_of
 
 KEYWORDS = (
-    "sub", "endsub", "return", "call", "do", "while", "endwhile", "if", "elseif", "else", "endif", "repeat", "endrepeat", "break",
+    "sub",
+    "endsub",
+    "return",
+    "call",
+    "do",
+    "while",
+    "endwhile",
+    "if",
+    "elseif",
+    "else",
+    "endif",
+    "repeat",
+    "endrepeat",
+    "break",
     "continue",
-)  # fmt: skip
+)
 
 _SPACED = "|".join(r"[ \t]*".join(word) for word in sorted(KEYWORDS, key=len, reverse=True))
 """The keywords with blanks between their letters, which a control skips: "end sub"."""
 
 _O_LINE = re.compile(
-    rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9](?:[ \t]*[0-9]){0,8})[ \t]*(%s)?" % _SPACED.encode(),
+    rb"^[ \t]*(?:/[ \t]*)?(?:n[ \t]*[0-9.]+[ \t]*)?[o:][ \t]*(<[^>\n]{1,200}>|[0-9](?:[ \t]*[0-9]){0,8})[ \t]*(%s)?"
+    % _SPACED.encode(),
     re.IGNORECASE | re.MULTILINE,
 )
 _N_LINE = re.compile(rb"^[ \t]*(?:/[ \t]*)?n[ \t]*([0-9]{1,9})(?![0-9.])", re.IGNORECASE | re.MULTILINE)
-_DO_END = re.compile(rb"^[ \t]*(?:n[ \t]*[0-9]+[ \t]*)?(?:while[^\n(]*\]do|(end))[ \t]*([0-9])", re.IGNORECASE | re.MULTILINE)
+_DO_END = re.compile(
+    rb"^[ \t]*(?:n[ \t]*[0-9]+[ \t]*)?(?:while[^\n(]*\]do|(end))[ \t]*([0-9])", re.IGNORECASE | re.MULTILINE
+)
 
 
 MOST_PLACES = 500_000
@@ -94,7 +110,8 @@ class Places:
         return found if found is not None and found.at.offset < end else None
 
     def too_long(self, begin: int, end: int, longest: int) -> Cursor | None:
-        """Return the first line between two offsets, the first one of which begins a line, that has more bytes than a control reads.
+        """Return the first line between two offsets, the first one of which begins a line, that has more bytes than a
+        control reads.
 
         Args:
             begin, end: offsets, the latter excluded.
@@ -104,7 +121,9 @@ class Places:
             ends = np.flatnonzero(np.frombuffer(self._text.data, np.uint8) == _LINE_END)
             begins = np.concatenate([[0], ends[:-1] + 1])
             lines = np.flatnonzero(ends - begins > longest)
-            self._long = [Cursor(offset, line + 1) for offset, line in zip(begins[lines].tolist(), lines.tolist(), strict=True)]
+            self._long = [
+                Cursor(offset, line + 1) for offset, line in zip(begins[lines].tolist(), lines.tolist(), strict=True)
+            ]
         first = bisect_left(self._long, begin, key=lambda line: line.offset)
         found = next(iter(self._long[first : first + 1]), None)
         return found if found is not None and found.offset < end else None
@@ -122,9 +141,19 @@ class Places:
     def loop_end(self, number: int, behind: int) -> Cursor | None:
         """Return the line with END n that belongs to the WHILE ... DO n at an offset."""
         if self._loops is None:
-            self._loops = [(Cursor(found.start(), line), found[1] is not None, int(found[2])) for found, line in self._found(_DO_END)]
+            self._loops = [
+                (Cursor(found.start(), line), found[1] is not None, int(found[2]))
+                for found, line in self._found(_DO_END)
+            ]
         first = bisect_right(self._loops, behind, key=lambda loop: loop[0].offset)
-        return next((at for at, ends, its in (self._loops[i] for i in range(first, len(self._loops))) if ends and its == number), None)
+        return next(
+            (
+                at
+                for at, ends, its in (self._loops[i] for i in range(first, len(self._loops)))
+                if ends and its == number
+            ),
+            None,
+        )
 
     def _statements(self, label: str) -> list[Statement]:
         if self._by_label is None:

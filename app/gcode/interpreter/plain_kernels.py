@@ -15,7 +15,9 @@ from .arc_kernels import centre_by_radius, radii
 _X, _Y, _Z, _I, _J, _K, _R, _F = range(8)
 _RAPID, _LINE, _CW, _CCW = range(4)
 _ABSENT, _WHOLE, _POINT = range(3)  # how a number is written; _WHOLE: without a decimal point
-_POWERS = np.array([float(f"1e{k}") for k in range(23)])  # exact, so that digits / power rounds once, as float(text) does
+_POWERS = np.array(
+    [float(f"1e{k}") for k in range(23)]
+)  # exact, so that digits / power rounds once, as float(text) does
 _DIGITS_BOUND = 10**15  # whole numbers below it are exact as floats
 _LARGEST_NUMBER = 999_999_999
 _FARTHEST, _FASTEST = 1e6, 1e7  # mm, mm/min
@@ -24,7 +26,9 @@ _LEAST_RADIUS, _RADII_ALIKE, _SLACK = 0.01, 0.0045, 1e-6  # mm; no control asks 
 
 @kernel("Tuple((int64, float64, int64))(Array(uint8, 1, 'C', True), int64)")
 def _number(data, i):
-    """Return (offset after it, value, how it is written) of the number at offset i; _ABSENT where there is no plain one."""
+    """Return (offset after it, value, how it is written) of the number at offset i; _ABSENT where there is no plain
+    one.
+    """
     n = len(data)
     negative, signed, pointed = False, False, False
     mantissa = digits = decimals = 0
@@ -49,7 +53,9 @@ def _number(data, i):
 
 @kernel("UniTuple(int64, 2)(Array(uint8, 1, 'C', True), int64)")
 def _whole_number(data, i):
-    """Return (offset after it, value) of the number without sign and point at offset i; value -1 where there is none."""
+    """Return (offset after it, value) of the number without sign and point at offset i; value -1 where there is
+    none.
+    """
     value = -1
     while i < len(data) and (48 <= data[i] <= 57 or data[i] == 32 or data[i] == 9):
         if data[i] >= 48:
@@ -88,7 +94,9 @@ def _column(c):
 
 @kernel("UniTuple(int64, 2)(Array(uint8, 1, 'C', True), int64, int64, boolean, float64[::1], int64[::1])")
 def _read_line(data, start, longest, semicolons, words, given):
-    """Read a line into words and how each is written; return (offset of the next line, G number or -1); (-1, -1): not plain."""
+    """Read a line into words and how each is written; return (offset of the next line, G number or -1); (-1, -1): not
+    plain.
+    """
     given[:] = _ABSENT
     motion, i, seen = -1, start, False
     while i < len(data) and data[i] != 10:
@@ -117,7 +125,9 @@ def _read_line(data, start, longest, semicolons, words, given):
     return min(i + 1, len(data)), motion
 
 
-@kernel("boolean(int64, int64, boolean, float64[::1], float64[::1], int64[::1], float64[::1], float64[::1], float64[::1])")
+@kernel(
+    "boolean(int64, int64, boolean, float64[::1], float64[::1], int64[::1], float64[::1], float64[::1], float64[::1])"
+)
 def _arc(motion, plane, arc_absolute, lengths, shift, given, start, end, centre):
     """Write the centre of an arc; return whether it is surely one that every control takes."""
     u, v, w = (0, 1, 2) if plane == 0 else (2, 0, 1) if plane == 1 else (1, 2, 0)
@@ -139,7 +149,8 @@ def _arc(motion, plane, arc_absolute, lengths, shift, given, start, end, centre)
 
 
 _COLUMNS = (
-    "Tuple((float64[:, ::1], float64[:, ::1], float64[:, ::1], uint8[::1], uint8[::1], int32[::1], float64[::1], int32[::1], int32[::1]))"
+    "Tuple((float64[:, ::1], float64[:, ::1], float64[:, ::1], uint8[::1], uint8[::1], int32[::1], float64[::1], "
+    "int32[::1], int32[::1]))"
 )
 
 
@@ -167,18 +178,20 @@ def _write(columns, row, start, end, centre, feed, numbers):
 
 
 @kernel(
-    "Tuple((int64, int64, int64, int64, float64))(Array(uint8, 1, 'C', True), UniTuple(float64, 3), UniTuple(int64, 11), "
+    "Tuple((int64, int64, int64, int64, float64))(Array(uint8, 1, 'C', True), UniTuple(float64, 3), UniTuple(int64, "
+    "11), "
     f"Tuple((float64[::1], float64[::1], int64[::1])), {_COLUMNS})"
 )
 def run_plain(data, factors, modes, places, columns):
-    """Do plain lines until one is not plain, the text ends or enough are done; return (offset, line, count, motion, feed).
+    """Do plain lines until one is not plain, the text ends or enough are done; return (offset, line, count, motion,
+    feed).
 
     Args:
         factors: mm per unit of numbers with a decimal point, of others, and the feed in mm/min (NaN = not known).
         modes: offset, line, count of motions, motion, most lines, plane, state, absolute, arc_absolute, semicolons,
             bytes that a line may have.
-        places: position and shift, mm; (6,) first row that commands each axis, by an absolute word and, where none has yet, by an
-            incremental one. Position and rows are changed.
+        places: position and shift, mm; (6,) first row that commands each axis, by an absolute word and, where none has
+            yet, by an incremental one. Position and rows are changed.
         columns: of the motions, with room for a motion a line.
     """
     scale, bare_scale, feed = factors

@@ -1,4 +1,6 @@
-"""Polar coordinates in LinuxCNC's words: @ is the distance from the program's zero, ^ the angle, degrees, from X towards Y."""
+"""Polar coordinates in LinuxCNC's words: @ is the distance from the program's zero, ^ the angle, degrees, from X
+towards Y.
+"""
 
 from __future__ import annotations
 

@@ -184,7 +184,8 @@ class OperationNote:
 
 @dataclass(frozen=True, slots=True)
 class HeaderNote:
-    """What the header of our own tells beside tools and stock (`app.gcode.writer.header_notes`); None or nothing where it does not.
+    """What the header of our own tells beside tools and stock (`app.gcode.writer.header_notes`); None or nothing where
+    it does not.
 
     Attributes:
         origin: the program's zero in the coordinates of the drawing, mm.
@@ -224,8 +225,8 @@ class NcProgram:
         motions: in the order of doing, loops and subroutines unrolled.
         states: what `Motions.state` counts in; never empty.
         events: in order.
-        homeward: motions to a place of the machine (G28, G30, G53). Where that is in these coordinates only the machine's work
-            offset tells, so their ends, and the starts of those behind them, are no places of the part.
+        homeward: motions to a place of the machine (G28, G30, G53). Where that is in these coordinates only the
+            machine's work offset tells, so their ends, and the starts of those behind them, are no places of the part.
         problems: in the order of the text's running; at most one error, the last one.
         tools, stock: what comments say.
         line_count: lines of the text.

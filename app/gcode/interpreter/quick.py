@@ -1,4 +1,6 @@
-"""The reader's way into its compiled lane: what is in force goes in as numbers, and what the lane made of it comes back."""
+"""The reader's way into its compiled lane: what is in force goes in as numbers, and what the lane made of it comes
+back.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,11 @@ PORTION = 4096
 _CYCLE_ROOM = 64
 """Motions beyond one a line for which there is always room."""
 _KINDS = {
-    at.DWELL: EventKind.DWELL, at.TOOL_CHANGE: EventKind.TOOL_CHANGE, at.STOP: EventKind.STOP, at.OPTIONAL_STOP: EventKind.OPTIONAL_STOP,
-}  # fmt: skip
+    at.DWELL: EventKind.DWELL,
+    at.TOOL_CHANGE: EventKind.TOOL_CHANGE,
+    at.STOP: EventKind.STOP,
+    at.OPTIONAL_STOP: EventKind.OPTIONAL_STOP,
+}
 _GO = {"G0": 0, "G1": 1, "G2": 2, "G3": 3}
 _CYCLES = {f"G{number}": number for number in (80, 73, 81, 82, 83, 85, 89)}
 _CODES = {number: code for table in (_GO, _CYCLES) for code, number in table.items()}
@@ -59,7 +64,11 @@ class QuickLane:
         if control.curve is not None or control.compensation is not None or control.stray is not None:
             return False
         modal = control.modal
-        return modal.feed_mode is FeedMode.PER_MINUTE and modal.rotation == 0.0 and len(control.events) <= MOST_EVENTS - PORTION - 8
+        return (
+            modal.feed_mode is FeedMode.PER_MINUTE
+            and modal.rotation == 0.0
+            and len(control.events) <= MOST_EVENTS - PORTION - 8
+        )
 
     def run(self, begin: Cursor, stop: int) -> Cursor:
         """Do the lines that it knows, from a place of the text on, and return where it stops.
@@ -87,17 +96,46 @@ class QuickLane:
         motion = control.motion
         number = _GO[motion] if motion in _GO else _CYCLES.get(motion, -1) if ints[at.LINUXCNC] else -1
         ints[: at.LINUXCNC] = (
-            begin.offset, begin.line, control.columns.count, number, modal.plane, modal.absolute, modal.arc_absolute, modal.spindle,
-            modal.flood, modal.mist, modal.tool, modal.retract_to_r, control.selected, 0, 0, 0, 0, control.unrolled, PORTION,
-            min(len(control.columns.kind), control.options.limits.motions), control.options.limits.looped_blocks, ints[at.LONGEST],
-        )  # fmt: skip
+            begin.offset,
+            begin.line,
+            control.columns.count,
+            number,
+            modal.plane,
+            modal.absolute,
+            modal.arc_absolute,
+            modal.spindle,
+            modal.flood,
+            modal.mist,
+            modal.tool,
+            modal.retract_to_r,
+            control.selected,
+            0,
+            0,
+            0,
+            0,
+            control.unrolled,
+            PORTION,
+            min(len(control.columns.kind), control.options.limits.motions),
+            control.options.limits.looped_blocks,
+            ints[at.LONGEST],
+        )
         name, inch = control.offsets.name, modal.units is Units.INCH
         ints[at.WORK_OFFSET :] = (
-            round(100 * float(name[1:])) if " " not in name else -1, 2000 if inch else 2100,
-            control.offsets.tool == ZERO and modal.length_offset == 0, modal.constant_surface, 0, 0, *control.known,
-        )  # fmt: skip
+            round(100 * float(name[1:])) if " " not in name else -1,
+            2000 if inch else 2100,
+            control.offsets.tool == ZERO and modal.length_offset == 0,
+            modal.constant_surface,
+            0,
+            0,
+            *control.known,
+        )
         unit = control.unit
-        reals[at.FEED], reals[at.SPEED], reals[at.SCALE], reals[at.BARE] = control.feed, modal.speed, unit, unit * control.least
+        reals[at.FEED], reals[at.SPEED], reals[at.SCALE], reals[at.BARE] = (
+            control.feed,
+            modal.speed,
+            unit,
+            unit * control.least,
+        )
         reals[at.INITIAL], reals[at.PLACE :] = control.initial, (*control.at, *modal.shift)
         self._put_cycle()
 
@@ -137,7 +175,13 @@ class QuickLane:
             depth, r, dwell, peck = (None if math.isnan(word) else word for word in reals[at.CYCLE_Z : at.INITIAL])
             control.initial = reals[at.INITIAL]
             control.cycle = Cycle(
-                f"G{ints[at.CYCLE]}", Plane(ints[at.PLANE]), depth=depth, r=r, dwell=dwell, peck=peck, unit_mm=control.unit
+                f"G{ints[at.CYCLE]}",
+                Plane(ints[at.PLANE]),
+                depth=depth,
+                r=r,
+                dwell=dwell,
+                peck=peck,
+                unit_mm=control.unit,
             )
 
     def _take_events(self, count: int) -> None:
@@ -153,7 +197,9 @@ class QuickLane:
         column[:] = numbers[0] if made == 1 else np.array(numbers, np.int32)[column]
 
     def _modal(self, base: ModalState, row: _Row) -> ModalState:
-        """Return a state whose fields are those of a row, and else those of another state; kept, for most come again and again."""
+        """Return a state whose fields are those of a row, and else those of another state; kept, for most come again
+        and again.
+        """
         known, states = self._known
         if known is not base:
             if known is None or not _same_beside(known, base):
@@ -163,16 +209,30 @@ class QuickLane:
         if state is None:
             plane, absolute, arc_absolute, spindle, flood, mist, tool, retract, speed = row
             state = states[row] = replace(
-                base, plane=Plane(int(plane)), absolute=absolute != 0.0, arc_absolute=arc_absolute != 0.0, spindle=int(spindle),
-                flood=flood != 0.0, mist=mist != 0.0, tool=int(tool), retract_to_r=retract != 0.0, speed=speed,
-            )  # fmt: skip
+                base,
+                plane=Plane(int(plane)),
+                absolute=absolute != 0.0,
+                arc_absolute=arc_absolute != 0.0,
+                spindle=int(spindle),
+                flood=flood != 0.0,
+                mist=mist != 0.0,
+                tool=int(tool),
+                retract_to_r=retract != 0.0,
+                speed=speed,
+            )
         return state
 
 
 def _same_beside(a: ModalState, b: ModalState) -> bool:
     """Tell whether two states are alike in all that the lane does not change."""
     return (
-        a.units is b.units and a.feed_mode is b.feed_mode and a.length_offset == b.length_offset and a.work_offset == b.work_offset
-        and a.constant_surface == b.constant_surface and a.shift == b.shift and a.rotation == b.rotation and a.path == b.path
+        a.units is b.units
+        and a.feed_mode is b.feed_mode
+        and a.length_offset == b.length_offset
+        and a.work_offset == b.work_offset
+        and a.constant_surface == b.constant_surface
+        and a.shift == b.shift
+        and a.rotation == b.rotation
+        and a.path == b.path
         and a.path_tolerance == b.path_tolerance
-    )  # fmt: skip
+    )

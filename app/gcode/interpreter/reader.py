@@ -11,7 +11,9 @@ from .steps import Step
 DEFAULT = ReadOptions()
 
 
-def read_steps(data: bytes, options: ReadOptions, progress: Progress = NO_PROGRESS) -> tuple[NcProgram, tuple[Step, ...]]:
+def read_steps(
+    data: bytes, options: ReadOptions, progress: Progress = NO_PROGRESS
+) -> tuple[NcProgram, tuple[Step, ...]]:
     """Return what a control does with a program, and every block that it did, in the order of doing.
 
     Several times slower than `read_program`, which does plain lines at once.
@@ -45,5 +47,9 @@ def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress
     from .run import Run  # compiled code: loaded where it is used
 
     lines = data.count(b"\n") + 1
-    ask(LINE_BYTES * lines, f"A program of {lines:,} lines", f"cut it in parts of at most {fewer(lines, LINE_BYTES * lines)} lines")
+    ask(
+        LINE_BYTES * lines,
+        f"A program of {lines:,} lines",
+        f"cut it in parts of at most {fewer(lines, LINE_BYTES * lines)} lines",
+    )
     return Run(data, options, progress).read()

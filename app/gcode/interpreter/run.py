@@ -106,14 +106,26 @@ class Run:
         if control.compensation is not None:
             control.compensation.spill(control.columns)
         self._warn_of_start()
-        warnings = [Problem(line, 0, letter.upper(), text, Severity.WARNING) for text, (letter, line) in control.warnings.items()]
+        warnings = [
+            Problem(line, 0, letter.upper(), text, Severity.WARNING)
+            for text, (letter, line) in control.warnings.items()
+        ]
         told = notes(self._text.data)
         motions = control.columns.motions(control.splines, control.known_from())
-        homeward = tuple(row for row in control.homeward if row < len(motions))  # a block that fails has named its way, and not gone it
+        homeward = tuple(
+            row for row in control.homeward if row < len(motions)
+        )  # a block that fails has named its way, and not gone it
         return NcProgram(
-            motions, control.states, tuple(control.events), homeward, (*warnings, *self._problems), told.tools, told.stock,
-            self._text.line_count, told.header,
-        )  # fmt: skip
+            motions,
+            control.states,
+            tuple(control.events),
+            homeward,
+            (*warnings, *self._problems),
+            told.tools,
+            told.stock,
+            self._text.line_count,
+            told.header,
+        )
 
     def _miss_end(self) -> None:
         """Tell that the text has no end, if the control wants one."""
@@ -127,11 +139,16 @@ class Run:
         axes = control.taken_for_known()
         if axes:
             control.line = int(control.columns.line[min(row for row in control.known[3:] if row >= 0)])
-            control.warn("the tool moves in G91 before the program has said where it is; it is taken to begin at "
-                         f"{' '.join(f'{letter}0' for letter in axes)} of the work offsets' table.", "g")  # fmt: skip
+            control.warn(
+                "the tool moves in G91 before the program has said where it is; it is taken to begin at "
+                f"{' '.join(f'{letter}0' for letter in axes)} of the work offsets' table.",
+                "g",
+            )
 
     def _skip_leader(self) -> None:
-        """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before it."""
+        """Begin behind the per cent sign of a program that has one; Fanuc's and Haas' readers skip what stands before
+        it.
+        """
         data = self._text.data
         found = _LEADER.match(data) or (_PERCENT.search(data, 0, LEADER) if self._habits.fanuc_flow else None)
         if found is not None and is_leader(data[: found.start()]):
@@ -199,7 +216,9 @@ class Run:
         return not rest or self._done(self._parse(rest))
 
     def _check_passed(self, behind: int) -> None:
-        """Refuse a line between a jump's own, which ends at an offset, and where it goes on, if the control cannot even pass over it."""
+        """Refuse a line between a jump's own, which ends at an offset, and where it goes on, if the control cannot even
+        pass over it.
+        """
         flow = self._flow
         if behind < flow.next.offset and self._longest < self._options.limits.line_length:
             found = flow.places.too_long(behind, flow.next.offset, self._longest)
@@ -215,14 +234,20 @@ class Run:
         line, before, row, said = control.line, control.modal, control.row, block.copy()
         goes_on = self._execute(block)
         asked, control.asked = tuple(control.asked.items()), {}
-        self._watch(Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked))
+        self._watch(
+            Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked)
+        )
         return goes_on
 
     def _check_percent(self, at: Cursor) -> None:
         """Refuse a per cent sign that ends nothing, as LinuxCNC does."""
         alone = self._text.line(at.offset).strip() == "%"
         if self._options.dialect is Dialect.LINUXCNC and not (self._opened and alone):
-            raise Fault("a per cent sign ends a program that begins with one, alone in its line; take it out.", column=-1, word="%")
+            raise Fault(
+                "a per cent sign ends a program that begins with one, alone in its line; take it out.",
+                column=-1,
+                word="%",
+            )
 
     def _understood(self, at: Cursor) -> Parsed | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
@@ -293,7 +318,9 @@ class Run:
             if (code[0] == "G" or strict) and not (own and self._options.dialect is Dialect.LINUXCNC):
                 raise Fault(f"{code} is not known.", letter=code[0].lower())
             self._control.warn(f"{code} is the machine builder's own; what it does is not followed.", code[0].lower())
-        unused = "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
+        unused = (
+            "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
+        )
         if unused and strict:
             raise Fault("no code in this block takes this word.", letter=unused)
         if unused:
@@ -323,7 +350,9 @@ class Run:
         except Fault:
             return 0, ""
         mine = [word for word in words if word.letter in letters]
-        named = [word for word in mine if isinstance(word.value, float) and f"{word.letter.upper()}{word.value:g}" in text]
+        named = [
+            word for word in mine if isinstance(word.value, float) and f"{word.letter.upper()}{word.value:g}" in text
+        ]
         if not mine:
             return 0, ""
         word = (named or mine)[0]

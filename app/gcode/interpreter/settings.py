@@ -136,7 +136,9 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
     row = control.tool_table.get(number)
     if row is None or not row.diameter:
         letter = "d" if block.has("d") else "g"
-        raise Fault(f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter)
+        raise Fault(
+            f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter
+        )
     return row.diameter
 
 
@@ -144,7 +146,9 @@ def _check_compensation(control: Control, block: Block) -> None:
     """Refuse what cannot be done while cutter compensation is on."""
     for group in (Group.PLANE, Group.OFFSET, Group.LENGTH, Group.TOOL):
         code = block.codes.get(group)
-        if code not in (None, "G17", "G18", "G19") or (code is not None and PLANES.get(code) is not control.modal.plane):
+        if code not in (None, "G17", "G18", "G19") or (
+            code is not None and PLANES.get(code) is not control.modal.plane
+        ):
             raise Fault(f"{code} cannot be while cutter compensation is on; write G40 before.", letter=code[0].lower())
     once = block.codes.get(Group.ONCE)
     if once not in (None, "G4", "G9"):
@@ -244,11 +248,25 @@ def _refused(control: Control, block: Block) -> None:
 
 
 _STEPS: tuple[tuple[Group, Callable[[Control, Block], None]], ...] = (
-    (Group.TOOL, _tool_change), (Group.SPINDLE, _spindle), (Group.COOLANT, _coolant), (Group.ONCE, _dwell), (Group.PLANE, _plane),
-    (Group.UNITS, _units), (Group.RADIUS, _radius), (Group.LENGTH, _length), (Group.OFFSET, _work_offset), (Group.PATH, _path),
-    (Group.DISTANCE, _distance), (Group.ARC_DISTANCE, _arc_distance), (Group.RETURN, _return_level), (Group.ONCE, _refused),
-    (Group.LATHE, _refused), (Group.POLAR, _refused), (Group.SCALING, _refused), (Group.TURNING, _refused),
-)  # fmt: skip
+    (Group.TOOL, _tool_change),
+    (Group.SPINDLE, _spindle),
+    (Group.COOLANT, _coolant),
+    (Group.ONCE, _dwell),
+    (Group.PLANE, _plane),
+    (Group.UNITS, _units),
+    (Group.RADIUS, _radius),
+    (Group.LENGTH, _length),
+    (Group.OFFSET, _work_offset),
+    (Group.PATH, _path),
+    (Group.DISTANCE, _distance),
+    (Group.ARC_DISTANCE, _arc_distance),
+    (Group.RETURN, _return_level),
+    (Group.ONCE, _refused),
+    (Group.LATHE, _refused),
+    (Group.POLAR, _refused),
+    (Group.SCALING, _refused),
+    (Group.TURNING, _refused),
+)
 """What each group does, in the order in which a control does it."""
 
 
@@ -333,7 +351,9 @@ def _set_work(control: Control, block: Block, kind: int, number: int) -> None:
         return
     place = offsets.work.get(name, ZERO)
     for axis, value in values.items():
-        place = replaced(place, axis, value if control.modal.absolute or not control.habits.fanuc_flow else place[axis] + value)
+        place = replaced(
+            place, axis, value if control.modal.absolute or not control.habits.fanuc_flow else place[axis] + value
+        )
     offsets.work[name] = place
     if block.has("r"):
         offsets.turned[name] = math.radians(block.values["r"])
@@ -358,13 +378,21 @@ def _set_tool(control: Control, block: Block, kind: int, number: int) -> None:
 
 
 def _goal(control: Control, kind: int, axis: int, value: float) -> float:
-    """Return where G10 L10 (in program coordinates) and L11 (from G59.3) say that the tool's tip is, table coordinates."""
+    """Return where G10 L10 (in program coordinates) and L11 (from G59.3) say that the tool's tip is, table
+    coordinates.
+    """
     if kind == 10:
         return value + control.modal.shift[axis]
     return value + control.offsets.work.get("G59.3", ZERO)[axis]
 
 
 _ONCE: dict[str, Callable[[Control, Block], None]] = {
-    "G10": _set_table, "G52": _set_local, "G92": _call_here, "G92.1": _forget_here, "G92.2": _suspend_here, "G92.3": _restore_here,
-    "G28.1": _home_here("G28"), "G30.1": _home_here("G30"),
-}  # fmt: skip
+    "G10": _set_table,
+    "G52": _set_local,
+    "G92": _call_here,
+    "G92.1": _forget_here,
+    "G92.2": _suspend_here,
+    "G92.3": _restore_here,
+    "G28.1": _home_here("G28"),
+    "G30.1": _home_here("G30"),
+}

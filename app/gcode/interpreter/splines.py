@@ -1,4 +1,5 @@
-"""Splines in NC programs as curves: G5, G5.1, G5.2 with G5.3 (LinuxCNC), G6.2 (Fanuc). Lengths in mm, program coordinates.
+"""Splines in NC programs as curves: G5, G5.1, G5.2 with G5.3 (LinuxCNC), G6.2 (Fanuc). Lengths in mm, program
+coordinates.
 
 Behaviour: LinuxCNC's G code reference and the points that its interpreter (2.9.0~pre1) drives through; the Fanuc 30i
 operator's manual, chapter on NURBS interpolation.
@@ -39,8 +40,8 @@ def cubic(start: Point, end: Point, first: Offset, second: Offset) -> Nurbs:
     """Return the curve of G5.
 
     Args:
-        first: I, J, from the start to the first control point. Where the block has neither, the end of the last G5 goes on
-            smoothly: minus its P, Q, also over other motions; (0, 0) where there was none.
+        first: I, J, from the start to the first control point. Where the block has neither, the end of the last G5 goes
+            on smoothly: minus its P, Q, also over other motions; (0, 0) where there was none.
         second: P, Q, from the end to the second control point.
     """
     return _bezier([start, _beside(start, first), _beside(end, second), end])
@@ -159,7 +160,9 @@ class OpenNurbs:
 
 
 class OpenFanucNurbs:
-    """The control points and knots of G6.2: every block has a knot; the last ones, as many as the order, only a knot."""
+    """The control points and knots of G6.2: every block has a knot; the last ones, as many as the order, only a
+    knot.
+    """
 
     def __init__(self, start: Point, order: int | None = None) -> None:
         """Begin at where the tool stands.
@@ -196,8 +199,8 @@ class OpenFanucNurbs:
             weight: R; 1 where it is missing.
 
         Raises:
-            Fault: the knot is missing or falls, the weight is out of range, a point comes after a block with a knot alone, or
-                the first point is not where the tool stands.
+            Fault: the knot is missing or falls, the weight is out of range, a point comes after a block with a knot
+                alone, or the first point is not where the tool stands.
         """
         if knot is None:
             raise Fault("every block of the spline needs a knot (K).", "K")
@@ -221,15 +224,23 @@ class OpenFanucNurbs:
         """Return the curve.
 
         Raises:
-            Fault: points or knots are missing, the ends are not clamped, or a knot comes more often than the order allows.
+            Fault: points or knots are missing, the ends are not clamped, or a knot comes more often than the order
+                allows.
         """
         count, order = len(self._points), self._order
         if not self.complete or count < order:
-            raise Fault(f"the spline of order {order} has {count} control points and {len(self._knots)} knots; expected {order} points "
-                        f"or more, and {order} knots more than points.")  # fmt: skip
+            raise Fault(
+                f"the spline of order {order} has {count} control points and {len(self._knots)} knots; expected "
+                f"{order} points "
+                f"or more, and {order} knots more than points."
+            )
         knots = np.array(self._knots)
         if knots[0] != knots[order - 1] or knots[-1] != knots[count]:
-            raise Fault(f"the first {order} knots of the spline, and the last {order}, must be alike: it begins and ends at a point.", "K")
+            raise Fault(
+                f"the first {order} knots of the spline, and the last {order}, must be alike: it begins and ends at a "
+                "point.",
+                "K",
+            )
         if np.any(knots[1:count] == knots[order : count + order - 1]):
             raise Fault(f"a knot comes more than {order - 1} times within the spline, which would break it.", "K")
         points = [self._start, *self._points[1:]]

@@ -41,7 +41,9 @@ _RADIANS, _DEGREES = math.pi / 180.0, 180.0 / math.pi
 
 @kernel(f"int64({_BYTES}, int64)")
 def past_blanks(data, i):
-    """Return the offset of the first byte at or behind an offset that is no blank; the length of the text where there is none."""
+    """Return the offset of the first byte at or behind an offset that is no blank; the length of the text where there
+    is none.
+    """
     while i < len(data) and (data[i] == 32 or data[i] == 9):
         i += 1
     return i
@@ -80,10 +82,16 @@ def _compared(operator, a, b):
     """Return what a comparison or a logical operator makes of two values: 1 or 0."""
     alike = abs(a - b) < _ALIKE
     holds = (
-        (operator == _EQ and alike) or (operator == _NE and not alike) or (operator == _GT and a > b) or (operator == _GE and a >= b)
-        or (operator == _LT and a < b) or (operator == _LE and a <= b) or (operator == _AND and a != 0.0 and b != 0.0)
-        or (operator == _OR and (a != 0.0 or b != 0.0)) or (operator == _XOR and (a != 0.0) != (b != 0.0))
-    )  # fmt: skip
+        (operator == _EQ and alike)
+        or (operator == _NE and not alike)
+        or (operator == _GT and a > b)
+        or (operator == _GE and a >= b)
+        or (operator == _LT and a < b)
+        or (operator == _LE and a <= b)
+        or (operator == _AND and a != 0.0 and b != 0.0)
+        or (operator == _OR and (a != 0.0 or b != 0.0))
+        or (operator == _XOR and (a != 0.0) != (b != 0.0))
+    )
     return 1.0 if holds else 0.0
 
 
@@ -152,7 +160,9 @@ def _function(data, i):
 
 @kernel("int64(float64[::1], int64[::1], int64, int64, float64[::1])")
 def _prefixes(values, waiting, top, count, parameters):
-    """Apply what waits before a whole value: minus, and # for a parameter. Return how much still waits; -1: it has no value."""
+    """Apply what waits before a whole value: minus, and # for a parameter. Return how much still waits; -1: it has no
+    value.
+    """
     while top > 0 and (waiting[top - 1] == _NEGATIVE or waiting[top - 1] == _PARAMETER):
         value = values[count - 1]
         if waiting[top - 1] == _NEGATIVE:
@@ -169,7 +179,9 @@ def _prefixes(values, waiting, top, count, parameters):
 
 @kernel("UniTuple(int64, 2)(float64[::1], int64[::1], int64, int64, int64)")
 def _reduced(values, waiting, top, count, rank):
-    """Do the operators that wait and bind at least as a rank; return (what still waits, values left), -1: there is no value."""
+    """Do the operators that wait and bind at least as a rank; return (what still waits, values left), -1: there is no
+    value.
+    """
     while top > 0 and waiting[top - 1] <= _XOR and _RANKS[waiting[top - 1]] >= rank:
         values[count - 2] = _joined(waiting[top - 1], values[count - 2], values[count - 1])
         if not math.isfinite(values[count - 2]):
@@ -230,7 +242,8 @@ def _operand(data, i, values, waiting, top, count):
 
 @kernel(_VALUE)
 def read_value(data, i, parameters, values, waiting):
-    """Return (offset behind it, value, how it is written) of the value at an offset; _ABSENT: there is surely no plain one.
+    """Return (offset behind it, value, how it is written) of the value at an offset; _ABSENT: there is surely no plain
+    one.
 
     Args:
         data: the text.

@@ -11,8 +11,10 @@ _MOST_CODES, _MOST_SETTINGS = 12, 8
 _LARGEST_CODE = 200.0
 
 _LINE = "Tuple((float64[::1], int64[::1], int64[::1], float64[:, ::1], int64[::1], int64[::1], float64[:, ::1]))"
-"""A line: values by letter (26,), how each is written (26,), codes (12,) as G 100 times their number, M less 100,000 of that,
-settings (8, 2) of number and value, how many codes and settings there are (2,); and room for its motion (8,), (3, 8)."""
+"""A line: values by letter (26,), how each is written (26,), codes (12,) as G 100 times their number, M less 100,000 of
+that,
+settings (8, 2) of number and value, how many codes and settings there are (2,); and room for its motion (8,), (3,
+8)."""
 M_CODES = 100_000
 _TAKEN = "XYZIJKRFSTPLQ"
 """Letters of words that are known here beside G, M and N."""
@@ -35,7 +37,13 @@ def _setting(data, i, parameters, line, values, waiting):
     key = int(number + 0.5) if written != _ABSENT and 0.0 < number < len(parameters) else 0
     i = past_blanks(data, i)
     count = line[4][1]
-    if abs(number - key) > 1e-4 or not 0 < key < len(parameters) or count >= _MOST_SETTINGS or i >= len(data) or data[i] != 61:
+    if (
+        abs(number - key) > 1e-4
+        or not 0 < key < len(parameters)
+        or count >= _MOST_SETTINGS
+        or i >= len(data)
+        or data[i] != 61
+    ):
         return -1
     i, value, written = read_value(data, i + 1, parameters, values, waiting)
     line[3][count, 0], line[3][count, 1] = key, value

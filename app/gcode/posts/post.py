@@ -173,11 +173,11 @@ class ProgramLines:
     """Blocks round the motion, as templates; a block whose text comes out empty is left out.
 
     Fields: {units} {blending} {program} in every block; in `tool` and `leave` also {tool} {speed} {dwell_s} {dwell_ms}
-    {coolant_on} {coolant_off} {preselect}; in `tool` {clearance}. {program} is the program's number: the digits at the end
-    of the part's name where they are one from 1 to 7999, else `number`. "{program:04}" puts zeros before it; so it goes with
-    {tool}, {speed} and {dwell_ms}. {preselect} is the T word of the tool that comes next, and after the last one that of the
-    first; nothing where the program has one tool. A block with {clearance} is the rapid to clearance height, as in
-    "G0 G43 H{tool} Z{clearance}".
+    {coolant_on} {coolant_off} {preselect}; in `tool` {clearance}. {program} is the program's number: the digits at the
+    end of the part's name where they are one from 1 to 7999, else `number`. "{program:04}" puts zeros before it; so it
+    goes with {tool}, {speed} and {dwell_ms}. {preselect} is the T word of the tool that comes next, and after the last
+    one that of the first; nothing where the program has one tool. A block with {clearance} is the rapid to clearance
+    height, as in "G0 G43 H{tool} Z{clearance}".
 
     Attributes:
         number: of the program, where the part's name has none.
@@ -204,7 +204,8 @@ class DrillingWords:
 
     Attributes:
         drill: down at feed, up at rapid rate.
-        peck: the same in steps of Q, each followed by a rapid up to R and down again to `peck_gap_mm` above the last one.
+        peck: the same in steps of Q, each followed by a rapid up to R and down again to `peck_gap_mm` above the last
+            one.
         chip_break: the same in steps of Q, each followed by a rapid up by `chip_gap_mm`.
         to_initial, to_r: whether holes end at the height where the first one began, or at R.
         cancel: ends the cycle.
@@ -223,7 +224,9 @@ class DrillingWords:
 
 @dataclass(frozen=True, slots=True)
 class NurbsWords:
-    """How a NURBS is written: its form, the G word that begins it, the block that ends it, "" where the next G word does."""
+    """How a NURBS is written: its form, the G word that begins it, the block that ends it, "" where the next G word
+    does.
+    """
 
     form: NurbsForm
     word: str

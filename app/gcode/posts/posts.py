@@ -1,8 +1,8 @@
 """Posts from their data files: those of the program and those of the user; what is wrong with one is said exactly.
 
-A user's post is a file NAME.toml in the folder `posts` of the settings folder; it stands before one of the program's of that
-name. With `extends = "linuxcnc"` it says only what differs from that post; where it is named like the post that it extends,
-it extends the program's own.
+A user's post is a file NAME.toml in the folder `posts` of the settings folder; it stands before one of the program's of
+that name. With `extends = "linuxcnc"` it says only what differs from that post; where it is named like the post that it
+extends, it extends the program's own.
 """
 
 from __future__ import annotations
@@ -72,8 +72,8 @@ def read_post(path: Path) -> Post:
     """Return the post in a file.
 
     Raises:
-        InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range; or it extends
-            a post that there is not, or itself.
+        InputError: the text is no TOML, or a key is missing, unknown, of the wrong kind or out of its range; or it
+            extends a post that there is not, or itself.
     """
     data = _bytes(path)
     post: Post = tables_of(Post, _tree(path, ()), (path.name, data), RANGES)
@@ -102,7 +102,9 @@ def _title(name: str) -> str:
 
 def _found(name: str, seen: tuple[Path, ...]) -> Path | None:
     """Return the file of a post, the user's before the program's own, but none of those that are seen already."""
-    return next((posts[name] for posts in (_user_posts(), _own_posts()) if name in posts and posts[name] not in seen), None)
+    return next(
+        (posts[name] for posts in (_user_posts(), _own_posts()) if name in posts and posts[name] not in seen), None
+    )
 
 
 def _bytes(path: Path) -> bytes:
@@ -121,14 +123,19 @@ def _tree(path: Path, seen: tuple[Path, ...]) -> dict[str, Any]:
     name = tree.pop("extends")
     base = _found(name, (*seen, path)) if isinstance(name, str) else None
     if base is None:
-        raise InputError(f"{path.name}: extends is {name!r}; expected is the name of another post: {', '.join(post_names())}.")
+        raise InputError(
+            f"{path.name}: extends is {name!r}; expected is the name of another post: {', '.join(post_names())}."
+        )
     return _laid_over(_tree(base, (*seen, path)), tree)
 
 
 def _laid_over(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     """Return two trees of tables as one; where both have a key, the upper one says."""
-    both = {key: _laid_over(below[key], above[key]) for key in above
-            if isinstance(above[key], dict) and isinstance(below.get(key), dict)}  # fmt: skip
+    both = {
+        key: _laid_over(below[key], above[key])
+        for key in above
+        if isinstance(above[key], dict) and isinstance(below.get(key), dict)
+    }
     return below | above | both
 
 
@@ -141,26 +148,36 @@ def _check_signs(table: Any, place: str) -> None:
             _check_signs(value, f"{place}{field.name}.")
         for text in texts:
             if not (text.isascii() and text.isprintable()):
-                raise InputError(f"{place}{field.name} has {text!r}; programs are lines of ASCII, so other signs cannot stand here.")
+                raise InputError(
+                    f"{place}{field.name} has {text!r}; programs are lines of ASCII, so other signs cannot stand here."
+                )
 
 
 def _check_words(post: Post, file: str) -> None:
     """Check what a single key cannot tell: letters, the four motions, like digits for the two axes of the plane."""
     if sorted(post.words.order) != sorted(LETTERS):
-        raise InputError(f"{file}: words.order is {list(post.words.order)}; expected is each of {', '.join(LETTERS)} once.")
+        raise InputError(
+            f"{file}: words.order is {list(post.words.order)}; expected is each of {', '.join(LETTERS)} once."
+        )
     if len(post.words.motion) != 4:
-        raise InputError(f"{file}: words.motion has {len(post.words.motion)} texts; expected are rapid, line, clockwise and "
-                         "counter-clockwise arc.")
+        raise InputError(
+            f"{file}: words.motion has {len(post.words.motion)} texts; expected are rapid, line, clockwise and "
+            "counter-clockwise arc."
+        )
     for name, digits in (("mm", post.decimals.mm), ("inch", post.decimals.inch)):
         if digits.X != digits.Y or digits.I != digits.J or digits.I < digits.X or digits.Z < digits.X:
-            raise InputError(f"{file}: decimals.{name} must be alike for X and Y, and for I and J, and I and Z not less than X.")
+            raise InputError(
+                f"{file}: decimals.{name} must be alike for X and Y, and for I and J, and I and Z not less than X."
+            )
 
 
 def _check_nurbs(post: Post, file: str) -> None:
     """Check that a form of NURBS has its word."""
     if (post.nurbs.form is NurbsForm.NONE) != (not post.nurbs.word):
-        raise InputError(f"{file}: nurbs.word is {post.nurbs.word!r} for the form {post.nurbs.form.value!r}; expected is a G word, "
-                         "or '' for the form 'none'.")
+        raise InputError(
+            f"{file}: nurbs.word is {post.nurbs.word!r} for the form {post.nurbs.form.value!r}; expected is a G word, "
+            "or '' for the form 'none'."
+        )
 
 
 def _check_templates(post: Post, file: str) -> None:
@@ -179,7 +196,13 @@ def _check_template(template: str, known: frozenset[str], place: str) -> None:
     except ValueError as error:
         raise InputError(f"{place}: {template!r} has a brace without its partner.") from error
     if used.keys() - known:
-        raise InputError(f"{place}: {{{min(used.keys() - known)}}} in {template!r} is not known; expected are {', '.join(sorted(known))}.")
+        raise InputError(
+            f"{place}: {{{min(used.keys() - known)}}} in {template!r} is not known; expected are "
+            f"{', '.join(sorted(known))}."
+        )
     if any(spec and (name not in COUNTS or not re.fullmatch("0[1-9]", spec)) for name, spec in used.items()):
-        raise InputError(f"{place}: {template!r} cannot be filled in; only {', '.join(sorted(COUNTS & known))} can have zeros before, "
-                         "as in {program:04}.")
+        raise InputError(
+            f"{place}: {template!r} cannot be filled in; only {', '.join(sorted(COUNTS & known))} can have zeros "
+            "before, "
+            "as in {program:04}."
+        )

@@ -62,7 +62,9 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class _Range:
-    """Rows a0 to a1 and b0 to b1, ends excluded, that are still to be aligned; `level` counts how often it was parted."""
+    """Rows a0 to a1 and b0 to b1, ends excluded, that are still to be aligned; `level` counts how often it was
+    parted.
+    """
 
     a0: int
     a1: int
@@ -170,7 +172,6 @@ class _Aligner:
             if len(pairs):
                 return np.asarray(pairs[_longest_rise(pairs[:, 1])], np.int64)
         return np.zeros((0, 2), np.int64)
-
 
     def _anchors_of_few(self, rows: _Range) -> Whole:
         """Return the anchors of a range in which every row is soon compared with every other."""

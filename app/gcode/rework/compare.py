@@ -55,7 +55,8 @@ class Span:
 
     Attributes:
         first, stop: motions, `stop` excluded; alike where the program has none there.
-        first_line, last_line: 1-based lines of its text; of a stretch without motions, the line of the motion before it.
+        first_line, last_line: 1-based lines of its text; of a stretch without motions, the line of the motion before
+        it.
     """
 
     first: int
@@ -108,7 +109,9 @@ class Differences:
         return max((item.distance for item in self.items), default=0.0)
 
 
-def compare(a: NcProgram, b: NcProgram, tolerance: float = tolerances.LEVEL, progress: Progress = NO_PROGRESS) -> Differences:
+def compare(
+    a: NcProgram, b: NcProgram, tolerance: float = tolerances.LEVEL, progress: Progress = NO_PROGRESS
+) -> Differences:
     """Return what differs between two programs.
 
     Args:
@@ -127,10 +130,15 @@ def _table(motions: Motions, tolerance: float) -> Table:
     """Return what must be alike of motions that are the same."""
     curves = np.zeros(len(motions), np.int64)
     for row, spline in motions.splines.items():
-        curves[row] = hash((spline.degree, *np.round(np.concatenate([spline.points.ravel(), spline.weights]) / tolerance).tolist()))
+        curves[row] = hash(
+            (spline.degree, *np.round(np.concatenate([spline.points.ravel(), spline.weights]) / tolerance).tolist())
+        )
     round_ = (motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW)
     numbers = np.hstack([motions.start, motions.end, np.nan_to_num(motions.centre)])
-    return Table(numbers, np.column_stack([motions.kind, np.where(round_, motions.plane, 0), motions.turns, curves]).astype(np.int64))
+    return Table(
+        numbers,
+        np.column_stack([motions.kind, np.where(round_, motions.plane, 0), motions.turns, curves]).astype(np.int64),
+    )
 
 
 @dataclass(frozen=True)
@@ -159,7 +167,7 @@ class _Side:
         """Return where motions stand in the text."""
         line = self.program.motions.line
         if stop > first:
-            return Span(first, stop, int(line[first : stop].min()), int(line[first : stop].max()))
+            return Span(first, stop, int(line[first:stop].min()), int(line[first:stop].max()))
         before = int(line[first - 1]) if first else 1
         return Span(first, stop, before, before)
 
@@ -175,7 +183,9 @@ class _Side:
     def pauses(self, first: int, last: int) -> tuple[list[Floats | None], Pauses]:
         """Return what happens before motions, last included: where, and what."""
         rows = sorted(row for row in self.events if first <= row <= last)
-        return [self.place(row) for row in rows for _ in self.events[row]], tuple(event for row in rows for event in self.events[row])
+        return [self.place(row) for row in rows for _ in self.events[row]], tuple(
+            event for row in rows for event in self.events[row]
+        )
 
     def place(self, row: int) -> Floats | None:
         """Return (3,) where the tool stands before a motion; None where the program has no motion."""
@@ -215,16 +225,23 @@ class _Comparison:
         return Differences(tuple(sorted(items, key=lambda item: (item.a.first, item.b.first))), runs, self._tolerance)
 
     def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> tuple[Difference, list[Rows]]:
-        """Return what a stretch that could not be aligned is, and pairs of motions that run along the same path in it."""
+        """Return what a stretch that could not be aligned is, and pairs of motions that run along the same path in
+        it.
+        """
         spans = self._a.span(before[0], after[0]), self._b.span(before[1], after[1])
         parts_a, parts_b = self._a.stretches(before[0], after[0]), self._b.stretches(before[1], after[1])
         if not parts_a or not parts_b:
             return self._one_sided(spans, bool(parts_a), bool(parts_b)), []
         if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b]:
             parts_a, parts_b = self._telling(self._a, parts_a), self._telling(self._b, parts_b)
-            if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b] or self._leash(spans) > self._tolerance:
+            if [rapid for rapid, *_ in parts_a] != [rapid for rapid, *_ in parts_b] or self._leash(
+                spans
+            ) > self._tolerance:
                 return self._apart(spans, whole=True), []
-        lines = [(self._a.paths.polyline(*p[1:]), self._b.paths.polyline(*q[1:])) for p, q in zip(parts_a, parts_b, strict=True)]
+        lines = [
+            (self._a.paths.polyline(*p[1:]), self._b.paths.polyline(*q[1:]))
+            for p, q in zip(parts_a, parts_b, strict=True)
+        ]
         longest = max((leash(*each) for each in lines), default=self._leash(spans))
         if longest > self._tolerance:
             return self._apart(spans, whole=False), []
@@ -233,10 +250,14 @@ class _Comparison:
         return item, [_side_by_side(*each) for each in lines]
 
     def _leash(self, spans: tuple[Span, Span]) -> float:
-        return leash(*(side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True)))
+        return leash(
+            *(side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True))
+        )
 
     def _telling(self, side: _Side, parts: list[tuple[bool, int, int]]) -> list[tuple[bool, int, int]]:
-        """Return stretches without those that are all within the tolerance of where they begin; what follows one another is one."""
+        """Return stretches without those that are all within the tolerance of where they begin; what follows one
+        another is one.
+        """
         found: list[tuple[bool, int, int]] = []
         for rapid, first, stop in parts:
             if float(np.linalg.norm(np.ptp(side.paths.polyline(first, stop).points, axis=0))) > self._tolerance:
@@ -248,10 +269,14 @@ class _Comparison:
         """Return what a stretch is of which one program has nothing."""
         if not in_a and not in_b:
             return Difference(DifferenceKind.SAME_PATH, *spans, text="motions that do not move")
-        kind, side, span = (DifferenceKind.MISSING, self._a, spans[0]) if in_a else (DifferenceKind.EXTRA, self._b, spans[1])
+        kind, side, span = (
+            (DifferenceKind.MISSING, self._a, spans[0]) if in_a else (DifferenceKind.EXTRA, self._b, spans[1])
+        )
         away = self._away(side, span, (self._a if side is self._b else self._b).place(spans[1 if in_a else 0].first))
         if away <= self._tolerance:
-            return Difference(DifferenceKind.SAME_PATH, *spans, away, None, "motions that stay within the tolerance of a place")
+            return Difference(
+                DifferenceKind.SAME_PATH, *spans, away, None, "motions that stay within the tolerance of a place"
+            )
         length = float(side.length[span.first : span.stop].sum())
         x, y, z = side.program.motions.end[span.stop - 1].tolist()
         text = f"{span.stop - span.first} motions, {length:.3f} mm, only in the {'first' if in_a else 'second'}"
@@ -265,13 +290,26 @@ class _Comparison:
 
     def _apart(self, spans: tuple[Span, Span], whole: bool) -> Difference:
         """Return how far two paths are apart; `whole`: they do not rapid and feed at the same places."""
-        lines = [side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True)]
+        lines = [
+            side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True)
+        ]
         found: Farthest = farthest(lines[0], lines[1])
         if whole and leash(lines[0], lines[1]) <= self._tolerance:
-            return Difference(DifferenceKind.RAPID, *spans, found.distance, found.a, "the same path, but rapid in one and fed in the other")
+            return Difference(
+                DifferenceKind.RAPID,
+                *spans,
+                found.distance,
+                found.a,
+                "the same path, but rapid in one and fed in the other",
+            )
         text = f"{found.distance:.3f} mm apart at X {found.a[0]:.3f} Y {found.a[1]:.3f} Z {found.a[2]:.3f}"
-        return Difference(DifferenceKind.PATH, *spans, found.distance, found.a, text if found.distance > self._tolerance else
-                          "the same places in another order or sense")
+        return Difference(
+            DifferenceKind.PATH,
+            *spans,
+            found.distance,
+            found.a,
+            text if found.distance > self._tolerance else "the same places in another order or sense",
+        )
 
     def _changes(self, pairs: Rows) -> Iterator[Difference]:
         """Yield where motions along the same path have another feed, or something else in force."""
@@ -282,8 +320,10 @@ class _Comparison:
         yield from self._grouped(DifferenceKind.FEED, pairs, differ & (a.motions.kind[pairs[0]] != MotionKind.RAPID))
         for kind, told in _IN_FORCE.items():
             names: dict[str, int] = {}
-            codes = [np.array([names.setdefault(told(state), len(names)) for state in side.states])[side.motions.state[rows]]
-                     for side, rows in zip((a, b), pairs, strict=True)]
+            codes = [
+                np.array([names.setdefault(told(state), len(names)) for state in side.states])[side.motions.state[rows]]
+                for side, rows in zip((a, b), pairs, strict=True)
+            ]
             yield from self._grouped(kind, pairs, codes[0] != codes[1])
 
     def _grouped(self, kind: DifferenceKind, pairs: Rows, differ: NDArray[np.bool_]) -> Iterator[Difference]:
@@ -304,7 +344,9 @@ class _Comparison:
         return f"{first} in the first, {second} in the second"
 
     def _pauses(self, runs: tuple[Run, ...], gaps: list[Difference]) -> Iterator[Difference]:
-        """Yield dwells and stops that only one program has, or has elsewhere: before motions that are the same, or along the same path."""
+        """Yield dwells and stops that only one program has, or has elsewhere: before motions that are the same, or
+        along the same path.
+        """
         if not self._a.events and not self._b.events:
             return
         size = Run(len(self._a.length), len(self._b.length), 1)
@@ -335,7 +377,10 @@ def _side_by_side(a: Polyline, b: Polyline) -> Rows:
     """Return (2, k) pairs of motions that run along the same path at the same time."""
     ends: Floats = np.sort(np.concatenate([path.along / (path.along[-1] or 1.0) for path in (a, b)]))
     middle = (ends[1:] + ends[:-1])[ends[1:] > ends[:-1]] / 2
-    owners = [path.owner[np.clip(np.searchsorted(path.along, middle * path.along[-1]), 1, len(path.along) - 1)] for path in (a, b)]
+    owners = [
+        path.owner[np.clip(np.searchsorted(path.along, middle * path.along[-1]), 1, len(path.along) - 1)]
+        for path in (a, b)
+    ]
     pairs = np.stack(owners)
     fresh = np.any(pairs[:, 1:] != pairs[:, :-1], axis=0)
     return pairs[:, np.concatenate([[True], fresh])] if pairs.shape[1] else pairs
@@ -380,6 +425,10 @@ def _path_mode(state: ModalState) -> str:
 
 
 _IN_FORCE: dict[DifferenceKind, Callable[[ModalState], str]] = {
-    DifferenceKind.TOOL: _tool, DifferenceKind.SPINDLE: _spindle, DifferenceKind.COOLANT: _coolant,
-    DifferenceKind.WORK_OFFSET: _work_offset, DifferenceKind.LENGTH_OFFSET: _length_offset, DifferenceKind.PATH_MODE: _path_mode,
-}  # fmt: skip
+    DifferenceKind.TOOL: _tool,
+    DifferenceKind.SPINDLE: _spindle,
+    DifferenceKind.COOLANT: _coolant,
+    DifferenceKind.WORK_OFFSET: _work_offset,
+    DifferenceKind.LENGTH_OFFSET: _length_offset,
+    DifferenceKind.PATH_MODE: _path_mode,
+}

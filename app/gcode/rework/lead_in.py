@@ -1,4 +1,6 @@
-"""The blocks that bring a control to where a program stood at one of its lines: everything in force, then the tool's way there."""
+"""The blocks that bring a control to where a program stood at one of its lines: everything in force, then the tool's
+way there.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ PLANES = ("G17", "G18", "G19")
 ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
 """They know G91.1 and G92.1."""
 HOMEWARD = {Dialect.FANUC: ("G91 G28 Z0.", "G90"), Dialect.HAAS: ("G53 G0 Z0.",)}
-"""Up to the machine's home along Z, wherever the tool stands, as the posts of these controls write it. Where nothing is named here,
+"""Up to the machine's home along Z, wherever the tool stands, as the posts of these controls write it. Where nothing is
+named here,
 no such words are safe on every machine: a LinuxCNC machine may have no home at its top, a router none at all."""
 LEAST = 1e-6
 """mm; shorter ways are none."""
@@ -167,7 +170,9 @@ class _Writer:
             yield f"G1 {self._word('Z', height)} F{_plain(approach.feed / self._control.unit, 4)}"
 
     def rest(self, way: list[str], feed: float) -> Iterator[str]:
-        """Yield the modes that only the program's own blocks need; a motion word stands in feed per minute, as LinuxCNC asks."""
+        """Yield the modes that only the program's own blocks need; a motion word stands in feed per minute, as LinuxCNC
+        asks.
+        """
         modal, control = self._modal, self._control
         if modal.plane:
             yield PLANES[modal.plane]

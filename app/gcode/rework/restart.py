@@ -1,4 +1,5 @@
-"""Start a program again from one of its lines: a new program that leads in safely and goes on with the old one's own text.
+"""Start a program again from one of its lines: a new program that leads in safely and goes on with the old one's own
+text.
 
 The restart program is read in its turn, and given out only if it goes on with exactly the motions of the old one.
 """
@@ -36,11 +37,11 @@ class RestartOptions:
 
     Attributes:
         read: dialect and tool table of the control; its start does not matter.
-        clearance: height above the work's zero in force at the line, mm, from which the tool goes down; None = the highest that
-            the program itself goes.
+        clearance: height above the work's zero in force at the line, mm, from which the tool goes down; None = the
+            highest that the program itself goes.
         approach: how far above its start point the tool leaves the rapid, mm, >= 0.
-        plunge_feed: from there down, mm/min; None = the slowest with which the program itself goes straight down, or, where it
-            never does, the slowest that it has.
+        plunge_feed: from there down, mm/min; None = the slowest with which the program itself goes straight down, or,
+            where it never does, the slowest that it has.
         spin_up: how long the spindle is waited for, s.
     """
 
@@ -107,10 +108,13 @@ def _check_structure(text: Text, line: int) -> None:
             open_words.remove((label, "do"))
         elif keyword in OPENS:
             open_words.append((label, keyword))
-        elif (begun := [each for each in open_words if each[0] == label and OPENS[each[1]] == keyword]):
+        elif begun := [each for each in open_words if each[0] == label and OPENS[each[1]] == keyword]:
             open_words.remove(begun[-1])
         elif keyword in OPENS.values() or (partner[1] and partner not in open_words and keyword != "return"):
-            raise InputError(f"Line {line} is within what O{label} begins before and ends at line {number}; start before it or behind it.")
+            raise InputError(
+                f"Line {line} is within what O{label} begins before and ends at line {number}; start before it or "
+                "behind it."
+            )
 
 
 def _o_words(text: Text, first: int) -> list[tuple[int, tuple[str, str]]]:
@@ -129,7 +133,9 @@ def _leader(text: Text, line: int, control: Control) -> list[str]:
     if control.habits.fanuc_flow:
         begin += [number for number in first if re.match(r"\s*[oO:]\s*\d", lines[number - 1])]
     if begin and line <= begin[-1]:
-        raise InputError(f"Line {line} is the program's beginning; run the whole program, or start at line {begin[-1] + 1}.")
+        raise InputError(
+            f"Line {line} is the program's beginning; run the whole program, or start at line {begin[-1] + 1}."
+        )
     plain = re.sub(r"[^ -~]|[()%;]", " ", lines[line - 1])[:50].strip()
     told = [f"(RESTART FROM LINE {line})", f"({plain or 'an empty line'})"]
     if control.options.dialect not in HOMEWARD:
@@ -163,15 +169,19 @@ def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> 
     height = control.program_place[2]
     if Axis.FREE in standing.axes and standing.axes[2] is Axis.WORK and height < clearance - SAME:
         name = "XYZ"[standing.axes.index(Axis.FREE)]
-        raise InputError(f"Where {name} is at this line the program does not say, and the tool would have to go down there; "
-                         f"start behind the first block that says {name}.")
+        raise InputError(
+            f"Where {name} is at this line the program does not say, and the tool would have to go down there; "
+            f"start behind the first block that says {name}."
+        )
     clearance = float(np.fmax(clearance, height)) if standing.axes[2] is Axis.WORK else clearance
     if control.options.dialect in HOMEWARD and control.modal.length_offset and not np.isfinite(clearance):
         raise InputError("The program says no height to which the tool could go with its length; say a clearance.")
     return Approach(clearance, options.approach, feed, options.spin_up)
 
 
-def _check(made: bytes, original: tuple[NcProgram, int], standing: Standing, options: RestartOptions, progress: Progress) -> None:
+def _check(
+    made: bytes, original: tuple[NcProgram, int], standing: Standing, options: RestartOptions, progress: Progress
+) -> None:
     """Read the restart program, and refuse to give it out if it does not go on with the old one's motions."""
     whole, line = original
     read = replace(options.read, start=ELSEWHERE) if Axis.FREE not in standing.axes else options.read
@@ -181,12 +191,17 @@ def _check(made: bytes, original: tuple[NcProgram, int], standing: Standing, opt
     if (whole.error is None) != (again.error is None) or skipped < 0:
         behind = made.count(b"\n") - whole.line_count + (made[-1:] != b"\n")
         told = f" at line {again.error.line - behind}: {again.error.text}" if again.error is not None else "."
-        raise InputError(f"A restart from line {line} would not go on as the program does{told} Start at a line that says its own "
-                         "G words, and that no later line jumps back over.")
+        raise InputError(
+            f"A restart from line {line} would not go on as the program does{told} Start at a line that says its own "
+            "G words, and that no later line jumps back over."
+        )
     row = _first_other(whole, again, first, skipped)
     if row is not None:
-        raise InputError(f"A restart from line {line} would not move as the program does at line {int(whole.motions.line[row])}: that "
-                         "block goes on with words of a line before the restart; start at a line that says them itself.")
+        raise InputError(
+            f"A restart from line {line} would not move as the program does at line {int(whole.motions.line[row])}: "
+            "that "
+            "block goes on with words of a line before the restart; start at a line that says them itself."
+        )
 
 
 def _first_other(a: NcProgram, b: NcProgram, first: int, skipped: int) -> int | None:
@@ -195,7 +210,9 @@ def _first_other(a: NcProgram, b: NcProgram, first: int, skipped: int) -> int | 
     same = np.ones(len(one) - first, bool)
     for name in ("start", "end", "centre"):
         near = np.abs(getattr(one, name)[first:] - getattr(two, name)[skipped:])
-        near[: max(one.known_from[2] + (name == "start") - first, 0), 2] = 0  # where Z is unknown, a lead-in may go home
+        near[: max(one.known_from[2] + (name == "start") - first, 0), 2] = (
+            0  # where Z is unknown, a lead-in may go home
+        )
         same &= np.all((near < SAME) | np.isnan(near), axis=1)
     for name in ("kind", "plane", "turns"):
         same &= getattr(one, name)[first:] == getattr(two, name)[skipped:]
@@ -211,5 +228,14 @@ def _first_other(a: NcProgram, b: NcProgram, first: int, skipped: int) -> int | 
 def _told(state: ModalState) -> tuple[object, ...]:
     """Return of a state what a machine shows: tool, length, spindle, coolant, work offset, blending."""
     tolerance = None if state.path_tolerance is None else round(state.path_tolerance, 6)
-    return (state.tool, state.length_offset, round(state.speed, 6), state.spindle, state.flood, state.mist, state.work_offset, tolerance,
-            tuple(round(value, 4) + 0.0 for value in state.shift))
+    return (
+        state.tool,
+        state.length_offset,
+        round(state.speed, 6),
+        state.spindle,
+        state.flood,
+        state.mist,
+        state.work_offset,
+        tolerance,
+        tuple(round(value, 4) + 0.0 for value in state.shift),
+    )

@@ -26,7 +26,9 @@ class Rewritten:
     lines: Mapping[int, tuple[int, int]]
 
 
-def rewrite(data: bytes, stretches: Sequence[Stretch], blocks: Mapping[int, Sequence[str]], notes: Sequence[str]) -> Rewritten:
+def rewrite(
+    data: bytes, stretches: Sequence[Stretch], blocks: Mapping[int, Sequence[str]], notes: Sequence[str]
+) -> Rewritten:
     """Return a program in which the lines of some stretches are replaced.
 
     Args:

@@ -1,8 +1,8 @@
 """What is in force at a line of a program, and how the tool's place there is known.
 
 It is learnt by reading the program up to there, twice: the second time as if the tool had begun somewhere else, and the
-machine's zero and its reference points lay elsewhere. What differs between the two depends on what nobody knows; by how much it
-differs tells on what.
+machine's zero and its reference points lay elsewhere. What differs between the two depends on what nobody knows; by how
+much it differs tells on what.
 """
 
 from __future__ import annotations
@@ -93,8 +93,10 @@ def standing_at(data: bytes, line: int, options: ReadOptions, progress: Progress
     axes = [_axis(control, other, axis) if motions else Axis.FREE for axis in range(3)]
     if None in axes or (motions and axes[2] is Axis.FREE):
         name = "XYZ"[axes.index(None) if None in axes else 2]
-        raise InputError(f"Line {line}: where {name} is there depends on where the tool stood when the program began; "
-                         f"start at line 1, or behind the first block that says {name} in absolute coordinates (G90).")
+        raise InputError(
+            f"Line {line}: where {name} is there depends on where the tool stood when the program began; "
+            f"start at line 1, or behind the first block that says {name} in absolute coordinates (G90)."
+        )
     known = (axes[0] or Axis.FREE, axes[1] or Axis.FREE, axes[2] or Axis.FREE)
     _check_here(control, known, line)
     common = control.offsets.common if not _differ(control.offsets.common, other.offsets.common) else ZERO
@@ -117,11 +119,16 @@ def _check_zeros(control: Control, other: Control, line: int) -> None:
     offsets, others = control.offsets, other.offsets
     here = offsets.set_here_on and _differ(offsets.set_here, others.set_here)
     if here or any(_differ(place, others.work.get(name, ZERO)) for name, place in offsets.work.items()):
-        raise InputError(f"Line {line} stands behind a zero that the program sets from where the tool was when it began (G92, G10 L20), "
-                         "and where that was it does not say; set the same zero by hand, and start at the line behind it.")
+        raise InputError(
+            f"Line {line} stands behind a zero that the program sets from where the tool was when it began (G92, G10 "
+            "L20), "
+            "and where that was it does not say; set the same zero by hand, and start at the line behind it."
+        )
     if dict(control.parameters.values()) != dict(other.parameters.values()):
-        raise InputError(f"Line {line} stands behind parameters (#) that the program takes from where the tool stood when it began; "
-                         "start before they are set.")
+        raise InputError(
+            f"Line {line} stands behind parameters (#) that the program takes from where the tool stood when it began; "
+            "start before they are set."
+        )
 
 
 def _check_here(control: Control, axes: tuple[Axis, Axis, Axis], line: int) -> None:
@@ -130,8 +137,10 @@ def _check_here(control: Control, axes: tuple[Axis, Axis, Axis], line: int) -> N
     if dialect is Dialect.LINUXCNC or not offsets.set_here_on or offsets.set_here == ZERO:
         return
     if dialect in (Dialect.FANUC, Dialect.HAAS) or set(axes) != {Axis.WORK}:
-        raise InputError(f"Line {line} stands behind G92, which a restart cannot set again on a {control.habits.title} control; "
-                         "start before it.")
+        raise InputError(
+            f"Line {line} stands behind G92, which a restart cannot set again on a {control.habits.title} control; "
+            "start before it."
+        )
 
 
 def _differ(a: Place, b: Place) -> bool:
@@ -147,11 +156,18 @@ def _read_to(data: bytes, line: int, run: Run) -> tuple[Control, int]:
     run.stop_at(line)
     program, control = run.read(), run.control
     if program.error is not None:
-        raise InputError(f"Line {line} stands behind an error, so what is in force there is not known: {program.error.told('line')}")
+        raise InputError(
+            f"Line {line} stands behind an error, so what is in force there is not known: {program.error.told('line')}"
+        )
     if not run.stopped:
-        raise InputError(f"The program never comes to line {line}: it ends before, at line {control.line}, or jumps over it.")
+        raise InputError(
+            f"The program never comes to line {line}: it ends before, at line {control.line}, or jumps over it."
+        )
     if run.inside:
-        raise InputError(f"Line {line} is done within a subroutine or a loop; start at the line that calls it, or where the loop begins.")
+        raise InputError(
+            f"Line {line} is done within a subroutine or a loop; start at the line that calls it, or where the loop "
+            "begins."
+        )
     _check_begin(control, data, line)
     return control, len(program.motions)
 
@@ -159,20 +175,32 @@ def _read_to(data: bytes, line: int, run: Run) -> tuple[Control, int]:
 def _check_begin(control: Control, data: bytes, line: int) -> None:
     """Refuse where a block alone does not say what it does."""
     if control.curve is not None:
-        raise InputError(f"Line {line} is within a spline that an earlier line begins (G5.2, G6.2); start at that line, or behind "
-                         "the spline.")
+        raise InputError(
+            f"Line {line} is within a spline that an earlier line begins (G5.2, G6.2); start at that line, or behind "
+            "the spline."
+        )
     if control.cycle is not None and not OWN_MOTION.search(_lines(data)[line - 1]):
-        raise InputError(f"Line {line} is within the run of a canned cycle; start at the line that begins it, {_cycle_line(data, line)}.")
+        raise InputError(
+            f"Line {line} is within the run of a canned cycle; start at the line that begins it, "
+            f"{_cycle_line(data, line)}."
+        )
     if control.stray is not None or control.compensation is not None:
-        raise InputError(f"Line {line} is under cutter compensation or directly behind it; start before its G41 or G42, or behind the "
-                         "first move after G40.")
+        raise InputError(
+            f"Line {line} is under cutter compensation or directly behind it; start before its G41 or G42, or behind "
+            "the "
+            "first move after G40."
+        )
     if control.modal.constant_surface:
-        raise InputError(f"Line {line} is under constant surface speed (G96), which a restart does not set; start before it.")
+        raise InputError(
+            f"Line {line} is under constant surface speed (G96), which a restart does not set; start before it."
+        )
     offsets, table = control.offsets, control.options.tool_table
     row = table.get(control.modal.length_offset)
     if offsets.tool != (row.offset if row is not None and control.modal.length_offset else ZERO):
-        raise InputError(f"Line {line} has a tool length that is not one of the tool table (G43.1, G43.2, G44 or G10); "
-                         "start before it is set.")
+        raise InputError(
+            f"Line {line} has a tool length that is not one of the tool table (G43.1, G43.2, G44 or G10); "
+            "start before it is set."
+        )
     if control.tool_table != dict(table):
         raise InputError(f"Line {line} stands behind a change of the tool table (G10); start before it.")
 

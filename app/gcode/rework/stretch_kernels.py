@@ -15,7 +15,9 @@ _G, _N = 71, 78
 
 @kernel("boolean(uint8)", counts=False)
 def _blank(byte):  # type: ignore[no-untyped-def]
-    """Tell whether a byte is a space, a tab, a vertical one, a form or line feed, a return or a separator of files to units."""
+    """Tell whether a byte is a space, a tab, a vertical one, a form or line feed, a return or a separator of files to
+    units.
+    """
     return byte == _SPACE or 9 <= byte <= 13 or 28 <= byte <= 31
 
 
@@ -104,8 +106,11 @@ def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-de
     return places > 0
 
 
-@kernel(f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], {_INTS}, float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, {_FLAGS}, "
-        "int64[:, ::1])")  # fmt: skip
+@kernel(
+    f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], {_INTS}, float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, "
+    f"{_FLAGS}, "
+    "int64[:, ::1])"
+)
 def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):  # type: ignore[no-untyped-def]
     """Read the lines of n straight moves.
 
@@ -130,7 +135,8 @@ def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, n
 
 @kernel(f"int64({_BYTES}, {_INTS}, {_INTS})")
 def read_lines(text, begins, filled):  # type: ignore[no-untyped-def]
-    """Write where each line begins, and behind the last one; and how many lines with something in them are before each, and in all.
+    """Write where each line begins, and behind the last one; and how many lines with something in them are before each,
+    and in all.
 
     Args:
         text: bytes, its last one a line feed. begins, filled: (m + 1,) out, of m lines.

@@ -1,9 +1,9 @@
 """Stretches of an NC program that may be written anew: straight feed moves that follow one another, and nothing beside.
 
-A stretch is one that a reader of the text can vouch for: each of its lines is done once, in the order of the text, says no
-more than G1, X, Y, Z and a feed that does not change, and says by its very words where the tool goes. So lines under G91,
-cutter compensation, rotation, scaling, macros or loops, lines with comments, and those that a slash or a jump may leave
-out stay as they are.
+A stretch is one that a reader of the text can vouch for: each of its lines is done once, in the order of the text, says
+no more than G1, X, Y, Z and a feed that does not change, and says by its very words where the tool goes. So lines under
+G91, cutter compensation, rotation, scaling, macros or loops, lines with comments, and those that a slash or a jump may
+leave out stay as they are.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ class Stretch:
         first_line, last_line: 1-based lines of the text; between them there are no others but empty ones.
         feed: text of the F word that one of its lines has, or "".
         coded: whether its first line says G1 itself.
-        resumed: whether the next line that says anything says G0 to G3 itself, so that G1 need not be in force behind the stretch.
+        resumed: whether the next line that says anything says G0 to G3 itself, so that G1 need not be in force behind
+            the stretch.
     """
 
     first: int
@@ -103,7 +104,16 @@ def _stretch(motions: Motions, text: Text, spoken: _Spoken, first: int, stop: in
     begin, end = spoken.feeds[first].tolist()
     feed = text.data[begin:end].decode() if begin >= 0 else ""
     lines = motions.line[[first, stop - 1]].tolist()
-    return Stretch(first, stop, points, lines[0], lines[1], feed, bool(spoken.coded[first]), _resumed(text, spoken.begins, lines[1]))
+    return Stretch(
+        first,
+        stop,
+        points,
+        lines[0],
+        lines[1],
+        feed,
+        bool(spoken.coded[first]),
+        _resumed(text, spoken.begins, lines[1]),
+    )
 
 
 def _resumed(text: Text, begins: NDArray[np.int64], behind: int) -> bool:
@@ -123,7 +133,11 @@ def _goes_on(motions: Motions, filled: NDArray[np.int64]) -> Flags:
     state, feed, line = motions.state, motions.feed, motions.line
     met = np.all(motions.start[1:] == motions.end[:-1], axis=1)
     goes_on: Flags = (
-        (state[1:] == state[:-1]) & (feed[1:] == feed[:-1]) & (line[1:] > line[:-1]) & (filled[line[1:] - 1] == filled[line[:-1]]) & met
+        (state[1:] == state[:-1])
+        & (feed[1:] == feed[:-1])
+        & (line[1:] > line[:-1])
+        & (filled[line[1:] - 1] == filled[line[:-1]])
+        & met
     )
     return goes_on
 
@@ -171,7 +185,9 @@ def _spoken(program: NcProgram, text: Text) -> _Spoken:
 
 
 def _may_jump(text: Text) -> bool:
-    """Tell whether the text has words that jump; the whole text is searched for them only where it has their letters."""
+    """Tell whether the text has words that jump; the whole text is searched for them only where it has their
+    letters.
+    """
     upper = text.data.upper()
     if not any(word in upper for word in (b"GOTO", b"M97", b"M98", b"M99")):
         return False
@@ -196,8 +212,14 @@ def _reasons(program: NcProgram, spoken: _Spoken) -> NDArray[np.int64]:
     timed = np.array([state.feed_mode is FeedMode.PER_MINUTE for state in states], np.bool_)
     straight = np.array([state.absolute and state.rotation == 0.0 for state in states], np.bool_)
     reasons = np.select(
-        [~line, again | (highest > motions.line) | (spoken.jumps & spoken.numbered), unknown,
-         ~(timed[motions.state] & (motions.feed > 0)), ~(straight[motions.state] & spoken.plain)],
-        [_OTHER, number[Left.REPEATED], number[Left.UNKNOWN], number[Left.FEED], number[Left.WORDS]], _FREE,
-    )  # fmt: skip
+        [
+            ~line,
+            again | (highest > motions.line) | (spoken.jumps & spoken.numbered),
+            unknown,
+            ~(timed[motions.state] & (motions.feed > 0)),
+            ~(straight[motions.state] & spoken.plain),
+        ],
+        [_OTHER, number[Left.REPEATED], number[Left.UNKNOWN], number[Left.FEED], number[Left.WORDS]],
+        _FREE,
+    )
     return reasons.astype(np.int64)

@@ -3,11 +3,12 @@
 Model. Along each motion the speed rises and falls at the machine's acceleration and never exceeds what the feed, the
 axes' rapid rates and, on curves, sqrt(acceleration x radius) allow. From one motion to the next the speed is bounded by
 the corner: where the control may leave it by a distance d, by that of an arc tangent to both motions that passes the
-corner at d; it is never less than what the change of velocity that the axes can make in one servo period carries on. Short
-lines may stand for a curve: at a corner its radius is estimated from the turn and the straight ways on both sides, and
-sqrt(acceleration x radius) bounds the speed there too, so that a circle of chords takes the time of the arc. The control
-looks ahead over the whole program. It stops where feed and rapid motions meet, where G61.1 says so, and where anything but motion
-is done. What real controls do besides (jerk limits, short look-ahead, planning of their own) is not in it.
+corner at d; it is never less than what the change of velocity that the axes can make in one servo period carries on.
+Short lines may stand for a curve: at a corner its radius is estimated from the turn and the straight ways on both
+sides, and sqrt(acceleration x radius) bounds the speed there too, so that a circle of chords takes the time of the arc.
+The control looks ahead over the whole program. It stops where feed and rapid motions meet, where G61.1 says so, and
+where anything but motion is done. What real controls do besides (jerk limits, short look-ahead, planning of their own)
+is not in it.
 
 References: the corner's arc is the usual junction deviation, v^2 = a d s / (1 - s) with s the sine of half the corner's
 inner angle.
@@ -28,8 +29,10 @@ from ..interpreter.program import EventKind, ModalState, NcProgram
 STILL = 1e-9
 """mm; shorter motions take no time and make no corner."""
 
-TIME_METHOD = ("feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this "
-               "machine: {}; no jerk, no stops by hand")
+TIME_METHOD = (
+    "feeds and accelerations with look-ahead, corners blended as the program says, dwells and tool changes, on this "
+    "machine: {}; no jerk, no stops by hand"
+)
 """How times are come by, for reports; {} is the machine's title."""
 
 JUMP = 1e-6
@@ -74,8 +77,11 @@ class Duration:
     @property
     def parts(self) -> dict[str, float]:
         """Seconds of feed motions, of rapids, and of dwells and tool changes."""
-        return {"cut": float(np.sum(self.moving[~self.rapid])), "rapid": float(np.sum(self.moving[self.rapid])),
-                "wait": float(np.sum(self.waiting))}  # fmt: skip
+        return {
+            "cut": float(np.sum(self.moving[~self.rapid])),
+            "rapid": float(np.sum(self.moving[self.rapid])),
+            "wait": float(np.sum(self.waiting)),
+        }
 
 
 def duration(program: NcProgram, machine: Machine) -> Duration:
@@ -98,7 +104,11 @@ def duration(program: NcProgram, machine: Machine) -> Duration:
         speed, acceleration = _limits(motions, machine, length, arcs)
         own = np.column_stack([column[rows] for column in (length, speed, acceleration)])
         ways = np.stack([np.take(vectors, rows, axis=0) for vectors in directions(motions, arcs)], axis=1)
-        entry, seconds, limits = np.empty(len(rows) + 1), np.empty(len(rows)), np.stack([_rapids(machine), _accelerations(machine)])
+        entry, seconds, limits = (
+            np.empty(len(rows) + 1),
+            np.empty(len(rows)),
+            np.stack([_rapids(machine), _accelerations(machine)]),
+        )
         corners(ways, own, _corners(program, machine, rows), limits, entry)
         curves(ways, own, limits, entry)
         run(own, entry, seconds)
@@ -174,7 +184,9 @@ def _round_curves(motions: Motions, arcs: ArcPaths, accelerations: Floats, speed
 
 
 def _corners(program: NcProgram, machine: Machine, rows: NDArray[np.intp]) -> Floats:
-    """Return (k - 1,) how far the control leaves the path between each two of the motions that move, mm; < 0: it stops there."""
+    """Return (k - 1,) how far the control leaves the path between each two of the motions that move, mm; < 0: it stops
+    there.
+    """
     tolerance = np.array([_corner(state, machine) for state in program.states])[program.motions.state[rows[:-1]]]
     return np.where(_stops(program, rows), -1.0, tolerance)
 
@@ -189,14 +201,20 @@ def _corner(state: ModalState, machine: Machine) -> float:
 
 
 def _stops(program: NcProgram, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Tell between which of the motions that move the control stands still: events, spindle, coolant, rapid to feed, jumps."""
+    """Tell between which of the motions that move the control stands still: events, spindle, coolant, rapid to feed,
+    jumps.
+    """
     motions, before, after = program.motions, rows[:-1], rows[1:]
     rapid = motions.kind == MotionKind.RAPID
     seen: dict[object, int] = {}
-    doing = np.array([seen.setdefault((s.tool, s.spindle, s.speed, s.flood, s.mist), len(seen)) for s in program.states])[motions.state]
+    doing = np.array(
+        [seen.setdefault((s.tool, s.spindle, s.speed, s.flood, s.mist), len(seen)) for s in program.states]
+    )[motions.state]
     events = np.zeros(len(motions) + 1, np.int64)
     np.add.at(events, [event.before for event in program.events], 1)
     done = np.cumsum(events)
     gap = motions.start[after] - motions.end[before]
     jump = np.einsum("ij,ij->i", gap, gap) > JUMP**2
-    return np.asarray((rapid[before] != rapid[after]) | (doing[before] != doing[after]) | (done[before] != done[after]) | jump)
+    return np.asarray(
+        (rapid[before] != rapid[after]) | (doing[before] != doing[after]) | (done[before] != done[after]) | jump
+    )

@@ -1,4 +1,6 @@
-"""Compiled inner loop of the time estimate: look-ahead over the whole program, then a trapezoid of speed for each motion."""
+"""Compiled inner loop of the time estimate: look-ahead over the whole program, then a trapezoid of speed for each
+motion.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +9,16 @@ import math
 from ...core.jit import kernel
 
 SERVO_PERIOD = 1e-3
-"""s, in which an axis may change its velocity at a corner by acceleration x period; only the part of the speed that goes on in the
+"""s, in which an axis may change its velocity at a corner by acceleration x period; only the part of the speed that
+goes on in the
 new direction is carried, so a right corner stops."""
 FINE = 0.2
 """Largest tangent of half a corner's turn, 23 degrees in all, with which short lines count as standing for a curve."""
 FAST = 6.0
 """Where the curve would allow more than so many times the speed there is, it is as good as straight."""
 BETWEEN = 0.52
-"""By how much a corner of a curve is slower, in tangents of half its turn: between two corners the speed rises, and the whole must
+"""By how much a corner of a curve is slower, in tangents of half its turn: between two corners the speed rises, and the
+whole must
 not be faster than the curve."""
 
 
@@ -40,7 +44,8 @@ def slow_down(motions, first, stop, speed, acceleration):
 
 @kernel("void(float64[:, :, ::1], float64[:, ::1], float64[::1], float64[:, ::1], float64[::1])")
 def corners(ways, motions, tolerance, limits, entry):
-    """Write the greatest speed between each two of n motions by the tolerance of the corner, mm/s; 0 at both ends of all.
+    """Write the greatest speed between each two of n motions by the tolerance of the corner, mm/s; 0 at both ends of
+    all.
 
     Args:
         ways: (n, 2, 3) unit vectors in which each motion sets out and arrives.
@@ -55,7 +60,11 @@ def corners(ways, motions, tolerance, limits, entry):
         entry[i + 1] = 0.0
         if tolerance[i] < 0.0:
             continue
-        x, y, z = ways[i + 1, 0, 0] - ways[i, 1, 0], ways[i + 1, 0, 1] - ways[i, 1, 1], ways[i + 1, 0, 2] - ways[i, 1, 2]
+        x, y, z = (
+            ways[i + 1, 0, 0] - ways[i, 1, 0],
+            ways[i + 1, 0, 1] - ways[i, 1, 1],
+            ways[i + 1, 0, 2] - ways[i, 1, 2],
+        )
         squared = x * x + y * y + z * z
         half = math.sqrt(max(0.0, 1.0 - 0.25 * squared))
         if half >= 1.0:
@@ -70,9 +79,10 @@ def corners(ways, motions, tolerance, limits, entry):
 def curves(ways, motions, limits, entry):
     """Lower the speeds to what a curve allows that short lines may stand for.
 
-    How bent it is at a corner, the turn and the straight ways before and behind it tell: its radius is that of the arc that
-    touches both in their middles. Straight ways are whole, however many motions they are written as. Where turns are small and
-    the curve counts, speed and acceleration are those that the axes have in every direction of its plane, as on an arc.
+    How bent it is at a corner, the turn and the straight ways before and behind it tell: its radius is that of the arc
+    that touches both in their middles. Straight ways are whole, however many motions they are written as. Where turns
+    are small and the curve counts, speed and acceleration are those that the axes have in every direction of its plane,
+    as on an arc.
 
     Args:
         ways, motions, limits: as for `corners`; speeds and accelerations of motions are lowered.
@@ -85,7 +95,11 @@ def curves(ways, motions, limits, entry):
         straight += motions[i, 0]
         turn = 0.0
         if i < n - 1:
-            x, y, z = ways[i + 1, 0, 0] - ways[i, 1, 0], ways[i + 1, 0, 1] - ways[i, 1, 1], ways[i + 1, 0, 2] - ways[i, 1, 2]
+            x, y, z = (
+                ways[i + 1, 0, 0] - ways[i, 1, 0],
+                ways[i + 1, 0, 1] - ways[i, 1, 1],
+                ways[i + 1, 0, 2] - ways[i, 1, 2],
+            )
             squared = 0.25 * (x * x + y * y + z * z)
             half = math.sqrt(max(0.0, 1.0 - squared))
             if half >= 1.0:
@@ -105,7 +119,8 @@ def run(motions, entry, seconds):
     """Write how long each motion takes.
 
     Args:
-        motions: (n, 3) of each, length, mm, > 0; greatest speed in it, mm/s, > 0; acceleration along the path, mm/s2, > 0.
+        motions: (n, 3) of each, length, mm, > 0; greatest speed in it, mm/s, > 0; acceleration along the path, mm/s2, >
+            0.
         entry: (n + 1,) greatest speed at the beginning of each motion and at the end of the last, mm/s; it is lowered
             to what can be reached from one side and braked to from the other.
         seconds: (n,) the answer.

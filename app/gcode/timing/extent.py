@@ -38,14 +38,16 @@ def extent(program: NcProgram, chosen: NDArray[np.bool_] | None = None) -> Exten
     """Return the box round a program's motions: arcs by what they reach, splines by their control points.
 
     Args:
-        program: an axis counts from the first motion on that sets it, and not while it stands at a place of the machine (G28,
-            G53): where these are, only the operator and the machine know.
+        program: an axis counts from the first motion on that sets it, and not while it stands at a place of the machine
+            (G28, G53): where these are, only the operator and the machine know.
         chosen: (n,) which motions count; None = all.
     """
     low, high = _known_reach(program)
     if chosen is not None:
         low, high = low[chosen], high[chosen]
-    return Extent(_triple(np.fmin.reduce(low, axis=0, initial=np.inf)), _triple(np.fmax.reduce(high, axis=0, initial=-np.inf)))
+    return Extent(
+        _triple(np.fmin.reduce(low, axis=0, initial=np.inf)), _triple(np.fmax.reduce(high, axis=0, initial=-np.inf))
+    )
 
 
 def _triple(values: Floats) -> tuple[float, float, float]:
@@ -77,7 +79,9 @@ def from_nowhere_of(program: NcProgram, nowhere: NDArray[np.bool_]) -> NDArray[n
 
 
 def nowhere_of(program: NcProgram) -> NDArray[np.bool_]:
-    """Return (n, 3) whether a motion ends, along an axis, where nobody knows: before the program sets it, or at the machine's home."""
+    """Return (n, 3) whether a motion ends, along an axis, where nobody knows: before the program sets it, or at the
+    machine's home.
+    """
     motions = program.motions
     nowhere = np.zeros((len(motions), 3), bool)
     for axis, row in enumerate(motions.known_from):
@@ -115,15 +119,20 @@ def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:
 
 
 def _beyond_travel(program: NcProgram, machine: Machine) -> Iterator[Problem]:
-    """Yield a problem for each axis whose travel the program leaves, or whose travel is less than the program's size."""
+    """Yield a problem for each axis whose travel the program leaves, or whose travel is less than the program's
+    size.
+    """
     low, high = _known_reach(program)
     for column, name in enumerate("XYZ"):
         if not np.any(np.isfinite(low[:, column])):
             continue
         reached = _AxisReach(name, low[:, column], high[:, column], program.motions.line)
         axis = machine.axes[column]
-        yield from (reached.too_long(axis, machine) if machine.work_origin is None
-                    else reached.outside(axis, machine.work_origin[column], machine))  # fmt: skip
+        yield from (
+            reached.too_long(axis, machine)
+            if machine.work_origin is None
+            else reached.outside(axis, machine.work_origin[column], machine)
+        )
 
 
 @dataclass(frozen=True)
@@ -140,8 +149,12 @@ class _AxisReach:
         low, high = float(np.nanmin(self.low)), float(np.nanmax(self.high))
         if high - low > axis.travel + ROUNDING:
             line = int(self.line[np.nanargmax(self.high) if -low < high else np.nanargmin(self.low)])
-            yield _problem(line, self.name, f"the program spans {high - low:.3f} mm along {self.name} ({low:.3f} to {high:.3f}), "
-                           f"and {machine.title} travels {axis.travel:g} mm there.")  # fmt: skip
+            yield _problem(
+                line,
+                self.name,
+                f"the program spans {high - low:.3f} mm along {self.name} ({low:.3f} to {high:.3f}), "
+                f"and {machine.title} travels {axis.travel:g} mm there.",
+            )
 
     def outside(self, axis: Axis, origin: float, machine: Machine) -> Iterator[Problem]:
         """Yield the problem at each end of the travel."""
@@ -150,9 +163,14 @@ class _AxisReach:
             rows = np.flatnonzero(beyond > ROUNDING)
             if len(rows):
                 worst = rows[np.argmax(beyond[rows])]
-                yield _problem(int(self.line[rows[0]]), self.name, f"the program goes to {self.name}{values[worst]:.3f}, "
-                               f"{beyond[worst]:.3f} mm beyond the travel of {machine.title}, which ends at {end - origin:g} from the work "
-                               "origin; move the work or the origin.")  # fmt: skip
+                yield _problem(
+                    int(self.line[rows[0]]),
+                    self.name,
+                    f"the program goes to {self.name}{values[worst]:.3f}, "
+                    f"{beyond[worst]:.3f} mm beyond the travel of {machine.title}, which ends at {end - origin:g} from "
+                    "the work "
+                    "origin; move the work or the origin.",
+                )
 
 
 def _too_fast(motions: Motions, machine: Machine) -> Iterator[Problem]:
@@ -160,8 +178,12 @@ def _too_fast(motions: Motions, machine: Machine) -> Iterator[Problem]:
     over = np.flatnonzero((motions.kind != MotionKind.RAPID) & (motions.feed > machine.largest_feed * (1 + 1e-9)))
     if len(over):
         largest = float(np.max(motions.feed[over]))
-        yield _problem(int(motions.line[over[0]]), "F", f"feed is up to {largest:g} mm/min in {len(over)} motions, and {machine.title} "
-                       f"feeds at {machine.largest_feed:g} at most; it will go slower than the program says.")  # fmt: skip
+        yield _problem(
+            int(motions.line[over[0]]),
+            "F",
+            f"feed is up to {largest:g} mm/min in {len(over)} motions, and {machine.title} "
+            f"feeds at {machine.largest_feed:g} at most; it will go slower than the program says.",
+        )
 
 
 def _wrong_speeds(program: NcProgram, machine: Machine) -> Iterator[Problem]:
@@ -174,8 +196,12 @@ def _wrong_speeds(program: NcProgram, machine: Machine) -> Iterator[Problem]:
         if state.spindle == 0 or state.constant_surface or fits or state.speed in told:
             continue
         told.add(state.speed)
-        yield _problem(int(program.motions.line[row]), "S", f"the spindle is to turn at {state.speed:g} rpm, and that of "
-                       f"{machine.title} turns at {machine.spindle.low:g} to {machine.spindle.high:g}.")  # fmt: skip
+        yield _problem(
+            int(program.motions.line[row]),
+            "S",
+            f"the spindle is to turn at {state.speed:g} rpm, and that of "
+            f"{machine.title} turns at {machine.spindle.low:g} to {machine.spindle.high:g}.",
+        )
 
 
 def _problem(line: int, word: str, text: str) -> Problem:

@@ -1,4 +1,6 @@
-"""What a program may say so that another control can be told it; what has no counterpart there is refused by its name."""
+"""What a program may say so that another control can be told it; what has no counterpart there is refused by its
+name.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +18,13 @@ from ..posts.post import Post
 
 ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
 """They know G91.1 and G92.1."""
-_ALIKE_TEXT = """G0 G1 G2 G3 G4 G17 G18 G19 G20 G21 G40 G49 G54 G55 G56 G57 G58 G59 G61 G61.1 G64 G80 G90 G91 G90.1 G91.1 G93 G94 G97
+_ALIKE_TEXT = """G0 G1 G2 G3 G4 G17 G18 G19 G20 G21 G40 G49 G54 G55 G56 G57 G58 G59 G61 G61.1 G64 G80 G90 G91 G90.1
+G91.1 G93 G94 G97
 G98 G99 G187 G15 G50 G69 M0 M1 M2 M30 M3 M4 M5 M7 M8 M9"""
 ALIKE = frozenset(_ALIKE_TEXT.split())
-"""Codes that mean the same everywhere, are said in another way, or end what is never in force in a program that can be read."""
+"""Codes that mean the same everywhere, are said in another way, or end what is never in force in a program that can be
+read.
+"""
 _SAID_OTHERWISE = ("G61.1", "G64", "G90.1", "G97", "G98", "G99", "G187")
 """Of these only what they mean is written, so that it is nothing whether the other control has the word."""
 WRITTEN_OUT = ("G73", "G81", "G82", "G83", "G85", "G89")
@@ -63,7 +68,11 @@ class Source:
     def refuse(self, step: Step, letter: str, code: str, text: str) -> InputError:
         """Return the error that a word of a block cannot be said; `code` = "" where the letter alone finds it."""
         words = [word for word in step.parsed.words if word.letter == letter]
-        said = [word for word in words if isinstance(word.value, float) and code == f"{letter.upper()}{round(word.value, 2):g}"]
+        said = [
+            word
+            for word in words
+            if isinstance(word.value, float) and code == f"{letter.upper()}{round(word.value, 2):g}"
+        ]
         found = next(iter(said or words), None)
         return self.refusal(step.line, text, None if found is None else (found.begin, found.end))
 
@@ -77,7 +86,9 @@ def check_step(step: Step, source: Source) -> None:
     title = source.post.title
     for key, line in step.asked:
         named = f"#{key}" if isinstance(key, int) else f"#<{key}>"
-        raise source.refusal(line, f"what {named} is the program does not say, so what it makes of it cannot be written for {title}")
+        raise source.refusal(
+            line, f"what {named} is the program does not say, so what it makes of it cannot be written for {title}"
+        )
     for code in [*step.block.codes.values(), *step.block.coolant, *step.block.unknown]:
         why = _missing(code, step, source)
         if why:
@@ -132,7 +143,12 @@ def _machine(step: Step, source: Source) -> bool:
 
 def _table(step: Step, source: Source) -> bool:
     values = step.block.values
-    return values.get("l") == 2 and values.get("p", 0) in range(1, 7) and values.keys() <= TABLE_LETTERS and step.states[1].absolute
+    return (
+        values.get("l") == 2
+        and values.get("p", 0) in range(1, 7)
+        and values.keys() <= TABLE_LETTERS
+        and step.states[1].absolute
+    )
 
 
 def _here(step: Step, source: Source) -> bool:
@@ -140,9 +156,15 @@ def _here(step: Step, source: Source) -> bool:
 
 
 _SPECIAL = {
-    "G10": _table, "G28": _home, "G30": _home, "G53": _machine, "G92": _here, "G92.1": _arc_mode_control, "G52": _fanuc_likes,
+    "G10": _table,
+    "G28": _home,
+    "G30": _home,
+    "G53": _machine,
+    "G92": _here,
+    "G92.1": _arc_mode_control,
+    "G52": _fanuc_likes,
     "G54.1": _extended,
-}  # fmt: skip
+}
 
 
 def _odd_words(step: Step) -> Iterator[tuple[str, str]]:
@@ -156,5 +178,10 @@ def _odd_words(step: Step) -> Iterator[tuple[str, str]]:
             yield letter, f"the axis {letter.upper()} is not written for {{}}"
         elif letter not in taken:
             yield letter, "no code here takes this word, so it cannot be said for {}"
-        elif letter == "p" and step.motion in ("G2", "G3") and not block.codes.keys() & {Group.ONCE, Group.PATH} and value != 1:
+        elif (
+            letter == "p"
+            and step.motion in ("G2", "G3")
+            and not block.codes.keys() & {Group.ONCE, Group.PATH}
+            and value != 1
+        ):
             yield letter, "several turns in one block have no counterpart on {}"

@@ -1,4 +1,5 @@
-"""The motions of a block in another control's words: each place rounded once, arcs as that control takes them, cycles written out
+"""The motions of a block in another control's words: each place rounded once, arcs as that control takes them, cycles
+written out
 where it has none that is known to do the same."""
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ class Mover:
         self._motions: Motions = program.motions
         self._arcs: ArcPaths = arc_paths(program.motions)
         self._initial = self._feed = 0.0
-        self._dwells = {(event.line, event.before): event.value for event in program.events if event.kind is EventKind.DWELL}
+        self._dwells = {
+            (event.line, event.before): event.value for event in program.events if event.kind is EventKind.DWELL
+        }
 
     @property
     def _unit(self) -> float:
@@ -58,7 +61,9 @@ class Mover:
                 self._row(step, row, self._letters(step, row))
 
     def _letters(self, step: Step, row: int) -> str:
-        """Return the axes that a block names, and those along which its motion goes without: cutter compensation has moved it."""
+        """Return the axes that a block names, and those along which its motion goes without: cutter compensation has
+        moved it.
+        """
         start, end = self._place(row, self._motions.start[row]), self._place(row, self._motions.end[row])
         return "".join(letter for k, letter in enumerate("XYZ") if step.block.has(letter.lower()) or start[k] != end[k])
 
@@ -146,9 +151,12 @@ class Mover:
             raise sheet.source.refusal(step.line, f"the tool length cannot begin in an arc on {sheet.post.title}")
         shift = self._program.states[self._motions.state[row]].shift
         meant = MeantArc(
-            (complex(*arcs.centre[k]) - complex(shift[u], shift[v])) / self._unit, arcs.start_radius[k] / self._unit,
-            arcs.end_radius[k] / self._unit, float(arcs.angle[k]), float(arcs.sweep[k]),
-        )  # fmt: skip
+            (complex(*arcs.centre[k]) - complex(shift[u], shift[v])) / self._unit,
+            arcs.start_radius[k] / self._unit,
+            arcs.end_radius[k] / self._unit,
+            float(arcs.angle[k]),
+            float(arcs.sweep[k]),
+        )
         at = start
         for piece in written_pieces(meant, (start[u], start[v]), (end[u], end[v]), self._rules()):
             place = list(start)
@@ -156,15 +164,24 @@ class Mover:
             place[w] = end[w] if piece.fraction == 1.0 else round(start[w] + (end[w] - start[w]) * piece.fraction)
             to = (place[0], place[1], place[2])
             if piece.centre is None:
-                self._straight(step, MotionKind.LINE, (at, to), "XYZ"[u] + "XYZ"[v] + ("XYZ"[w] if to[w] != at[w] else ""))
+                self._straight(
+                    step, MotionKind.LINE, (at, to), "XYZ"[u] + "XYZ"[v] + ("XYZ"[w] if to[w] != at[w] else "")
+                )
             else:
                 self._turn(step, MotionKind(self._motions.kind[row]), (at, to), ((u, v, w), piece.centre))
             at = to
         if at != end:
-            self._straight(step, MotionKind.LINE, (at, end), "".join("XYZ"[axis] for axis in (u, v, w) if at[axis] != end[axis]))
+            self._straight(
+                step, MotionKind.LINE, (at, end), "".join("XYZ"[axis] for axis in (u, v, w) if at[axis] != end[axis])
+            )
 
-    def _turn(self, step: Step, kind: MotionKind, ends: tuple[Position, Position],
-              centre: tuple[tuple[int, int, int], tuple[int, int]]) -> None:  # fmt: skip
+    def _turn(
+        self,
+        step: Step,
+        kind: MotionKind,
+        ends: tuple[Position, Position],
+        centre: tuple[tuple[int, int, int], tuple[int, int]],
+    ) -> None:
         (u, v, w), offsets = centre
         digits = self._sheet.post.digits(self._sheet.modal.units)
         words = {letter: self._axis(letter, *ends) for letter in ("XYZ"[u], "XYZ"[v])}
@@ -180,9 +197,14 @@ class Mover:
         post, digits = self._sheet.post, self._sheet.post.digits(self._sheet.modal.units)
         arcs = post.arcs
         return ArcRules(
-            digits.X, digits.I, _ARC_STEPS * 10.0**-digits.X, math.radians(arcs.largest_sweep_deg), arcs.smallest_radius_mm / self._unit,
-            arcs.largest_radius_mm / self._unit, arcs.radius_mismatch_mm / self._unit,
-        )  # fmt: skip
+            digits.X,
+            digits.I,
+            _ARC_STEPS * 10.0**-digits.X,
+            math.radians(arcs.largest_sweep_deg),
+            arcs.smallest_radius_mm / self._unit,
+            arcs.largest_radius_mm / self._unit,
+            arcs.radius_mismatch_mm / self._unit,
+        )
 
     def _cycle(self, step: Step) -> None:
         """Write a drilling cycle: as the control's own where that is surely the same, else move by move."""
@@ -219,6 +241,10 @@ class Mover:
         values = (("X", x, "X"), ("Y", y, "Y"), ("Z", z, "Z"), ("R", top, "Z"))
         body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
         feed = sheet.feed_word(step, float(motions.feed[row]))
-        sheet.emit(" ".join([words.to_r if state.retract_to_r else words.to_initial, words.drill, *body, *([feed] if feed else [])]))
+        sheet.emit(
+            " ".join(
+                [words.to_r if state.retract_to_r else words.to_initial, words.drill, *body, *([feed] if feed else [])]
+            )
+        )
         sheet.cycle, sheet.motion, self._initial = words.drill, "", initial
         return True

@@ -29,7 +29,9 @@ from .moves import Mover
 from .sheet import Sheet
 
 _STEPS = 2.0
-"""So many steps of the last decimal may the written path be off: a place is half a step off along each axis, an arc all of it."""
+"""So many steps of the last decimal may the written path be off: a place is half a step off along each axis, an arc all
+of it.
+"""
 _LINES_A_STEP = 1000
 _COLUMNS = ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
 _COMMENT = re.compile(r"\(([^()]*)\)|;(.*)$")
@@ -38,8 +40,9 @@ _O_WORD = re.compile(r"(?:/|n[0-9.]+)*o")
 _COMPENSATION = frozenset({"G41", "G42", "G41.1", "G42.1"})
 _STALE = re.compile(
     r"hitofude for |hitofude: blend_mm|hitofude smooth:|proven on the path|the control may add|"
-    r"(?:tolerance|largest bend|effective points)\b.*(?:proven|after|corrected)", re.IGNORECASE,
-)  # fmt: skip
+    r"(?:tolerance|largest bend|effective points)\b.*(?:proven|after|corrected)",
+    re.IGNORECASE,
+)
 """Comments of our own that were true of the program as it was."""
 
 
@@ -62,9 +65,9 @@ class Translated:
 def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: Progress = NO_PROGRESS) -> Translated:
     """Return a program in the words of a post, proven by reading it back as that post's control would.
 
-    Comments stay, as the control takes them. Loops, subroutines, jumps, expressions and cutter compensation are written as the motions that
-    they make, and the head says so. Cycles that it has not, or that its own settings change, are moves; a length that
-    its G43 takes up by moving stands with the next move along Z.
+    Comments stay, as the control takes them. Loops, subroutines, jumps, expressions and cutter compensation are written
+    as the motions that they make, and the head says so. Cycles that it has not, or that its own settings change, are
+    moves; a length that its G43 takes up by moving stands with the next move along Z.
 
     Args:
         name: of the file, for messages.
@@ -85,7 +88,9 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
 
 
 def _written(source: Source, program: NcProgram, steps: tuple[Step, ...], progress: Progress) -> bytes:
-    """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of doing."""
+    """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of
+    doing.
+    """
     jumps = _jumps(source, steps)
     units = program.states[0].units
     sheet = Sheet(source, units if units is Units.INCH else Units.MM, _number(source))
@@ -156,17 +161,25 @@ def _jumps(source: Source, steps: tuple[Step, ...]) -> bool:
 def _is_jump(source: Source, line: int) -> bool:
     code = _code(source.lines[line - 1])
     habits = HABITS[source.dialect]
-    return bool(code) and ((habits.ngc_flow and _O_WORD.match(code) is not None) or (habits.fanuc_flow and is_macro(code)))
+    return bool(code) and (
+        (habits.ngc_flow and _O_WORD.match(code) is not None) or (habits.fanuc_flow and is_macro(code))
+    )
 
 
 def _remarks(jumps: bool, steps: tuple[Step, ...]) -> list[str]:
     """Return what the head has to say of how the program was written anew."""
-    computed = any(step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps)
+    computed = any(
+        step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps
+    )
     compensated = any(code in _COMPENSATION for step in steps for code in step.block.codes.values())
     return [
         *(["Loops, subroutines and jumps are written out as what they do"] if jumps else []),
         *(["Parameters and expressions are written as the numbers that they give"] if computed else []),
-        *(["Cutter compensation is written out: the path is that of the tool's centre, so G40 throughout"] if compensated else []),
+        *(
+            ["Cutter compensation is written out: the path is that of the tool's centre, so G40 throughout"]
+            if compensated
+            else []
+        ),
     ]
 
 
@@ -190,7 +203,8 @@ def _comments(line: str) -> list[str]:
 
 
 def _check_rest(source: Source, line: int, ends: bool, jumps: bool) -> None:
-    """Refuse a line that was not done as a block, but where it is empty, the tape's mark, the program's number or passed over by a jump.
+    """Refuse a line that was not done as a block, but where it is empty, the tape's mark, the program's number or
+    passed over by a jump.
 
     Args:
         source: the program. line: 1-based.
@@ -224,8 +238,10 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
     before, after = programs
     title = source.post.title
     if after.error is not None:
-        raise InputError(f"{source.name} cannot be written for {title}: as written, {after.error.told('line')} Keep the program for "
-                         f"{HABITS[source.dialect].title}.")  # fmt: skip
+        raise InputError(
+            f"{source.name} cannot be written for {title}: as written, {after.error.told('line')} Keep the program for "
+            f"{HABITS[source.dialect].title}."
+        )
     _check_modes(source, after, made)
     units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
     off = _STEPS * max(10.0 ** -source.post.digits(unit).X * unit.value for unit in units)
@@ -234,8 +250,10 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
     wrong = [item for item in found.items if not _same(item, first, second)]
     if wrong:
         item = wrong[0]
-        raise InputError(f"{source.name}:{item.a.first_line}: what is written for {title} is not the same there ({item.kind.value}: "
-                         f"{item.text}); keep the program for {HABITS[source.dialect].title}.")  # fmt: skip
+        raise InputError(
+            f"{source.name}:{item.a.first_line}: what is written for {title} is not the same there ({item.kind.value}: "
+            f"{item.text}); keep the program for {HABITS[source.dialect].title}."
+        )
     rows = np.full(len(after.motions), -1, np.int64)
     for run in found.runs:
         rows[others[run.b : run.b + run.count]] = kept[run.a : run.a + run.count]
@@ -245,7 +263,8 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
 def _check_modes(source: Source, after: NcProgram, made: bytes) -> None:
     """Refuse a text that leaves units, plane, G90 or the like to what another job has left in force.
 
-    Where the tool stands elsewhere an arc that begins at a place that the program has not told fits no more; there the look ends.
+    Where the tool stands elsewhere an arc that begins at a place that the program has not told fits no more; there the
+    look ends.
 
     Raises:
         InputError: it does; the post's first blocks are to blame.
@@ -256,17 +275,28 @@ def _check_modes(source: Source, after: NcProgram, made: bytes) -> None:
     wrong = sorted(line for line, modes in here.items() if there.get(line, modes) != modes)
     if wrong or (here and not there):
         line = wrong[0] if wrong else min(here)
-        raise InputError(f"{source.name} cannot be written for {source.post.title}: line {line} of what is written hangs on modes that "
-                         "another job may have left in force; let the post's program.start say them, as G17 {units} G90 G94 G40.")
+        raise InputError(
+            f"{source.name} cannot be written for {source.post.title}: line {line} of what is written hangs on modes "
+            "that "
+            "another job may have left in force; let the post's program.start say them, as G17 {units} G90 G94 G40."
+        )
 
 
 def _modes_by_line(program: NcProgram) -> dict[int, tuple[object, ...]]:
-    told = [(each.units, each.plane, each.absolute, each.arc_absolute, each.feed_mode, each.work_offset) for each in program.states]
-    return {line: told[state] for line, state in zip(program.motions.line.tolist(), program.motions.state.tolist(), strict=True)}
+    told = [
+        (each.units, each.plane, each.absolute, each.arc_absolute, each.feed_mode, each.work_offset)
+        for each in program.states
+    ]
+    return {
+        line: told[state]
+        for line, state in zip(program.motions.line.tolist(), program.motions.state.tolist(), strict=True)
+    }
 
 
 def _moving(program: NcProgram) -> tuple[NcProgram, NDArray[np.int64]]:
-    """Return a program without the straight motions that go nowhere, which not every control makes, and the rows of the others."""
+    """Return a program without the straight motions that go nowhere, which not every control makes, and the rows of the
+    others.
+    """
     motions = program.motions
     kept = np.flatnonzero(np.any(motions.start != motions.end, axis=1) | (motions.kind > MotionKind.LINE))
     behind = np.searchsorted(kept, np.arange(len(motions) + 1)).tolist()
@@ -274,7 +304,9 @@ def _moving(program: NcProgram) -> tuple[NcProgram, NDArray[np.int64]]:
     splines = {behind[row]: spline for row, spline in motions.splines.items()}
     events = tuple(replace(event, before=behind[event.before]) for event in program.events)
     homeward = tuple(behind[row] for row in program.homeward if behind[row + 1] > behind[row])
-    return replace(program, motions=replace(motions, splines=splines, **columns), events=events, homeward=homeward), kept
+    return replace(
+        program, motions=replace(motions, splines=splines, **columns), events=events, homeward=homeward
+    ), kept
 
 
 def _same(item: Difference, before: NcProgram, after: NcProgram) -> bool:

@@ -74,7 +74,9 @@ class Sheet:
         self._blocks.block(text)
 
     def comment(self, text: str) -> None:
-        """Write a comment in as many lines as the control needs; what a program reads goes on so that it can be put together."""
+        """Write a comment in as many lines as the control needs; what a program reads goes on so that it can be put
+        together.
+        """
         if text.lower().startswith("hitofude"):
             self._blocks.note(text)
             return
@@ -157,7 +159,9 @@ class Sheet:
             return
         letter = next(letter for letter in "pxu" if block.has(letter))
         habits = HABITS[self.source.dialect]
-        seconds = block.values[letter] * (habits.dwell_unit_s if letter in block.whole else habits.dwell_unit_with_point_s)
+        seconds = block.values[letter] * (
+            habits.dwell_unit_s if letter in block.whole else habits.dwell_unit_with_point_s
+        )
         self.dwell(step, seconds, letter)
 
     def dwell(self, step: Step, seconds: float, letter: str = "p") -> None:

@@ -47,8 +47,8 @@ def _largest_distance(written_centre, written, centre, shape, begin, stop):
     """Return an upper bound of the distance between two arcs swept in step, the second over a stretch of it.
 
     The distance vector is sampled; between two samples it leaves their chord by at most h^2 / 8 times its second
-    derivative. That is at most sweep^2 times the distance itself, which goes to the other side of the inequality, and what
-    the difference of centres, of sweeps and of radii adds.
+    derivative. That is at most sweep^2 times the distance itself, which goes to the other side of the inequality, and
+    what the difference of centres, of sweeps and of radii adds.
     """
     size, largest = stop - begin, 0.0
     for k in range(SAMPLES + 1):
@@ -57,7 +57,9 @@ def _largest_distance(written_centre, written, centre, shape, begin, stop):
     sweep, turn, shift = shape[_SWEEP] * size, written[_SWEEP], abs(written_centre - centre)
     grows, meant_grows = written[_END_RADIUS] - written[_START_RADIUS], shape[_END_RADIUS] - shape[_START_RADIUS]
     spiral = 2 * (abs(turn * grows) + abs(shape[_SWEEP] * meant_grows))
-    bend = turn * turn * shift + abs(turn * turn - sweep * sweep) * max(shape[_START_RADIUS], shape[_END_RADIUS]) + spiral
+    bend = (
+        turn * turn * shift + abs(turn * turn - sweep * sweep) * max(shape[_START_RADIUS], shape[_END_RADIUS]) + spiral
+    )
     return (largest + bend / (8 * SAMPLES**2)) / (1 - turn * turn / (8 * SAMPLES**2))
 
 
@@ -95,7 +97,17 @@ def _one_arc(centre, shape, begin, stop, first, last, rules, written, offset):
     i, j = np.int64(np.rint(solved.real * finer)), np.int64(np.rint(solved.imag * finer))
     for k in range(len(NEIGHBOURS)):
         offset[0], offset[1] = i + NEIGHBOURS[k, 0], j + NEIGHBOURS[k, 1]
-        if _fits(centre, shape, begin, stop, start, end, start + complex(offset[0] / finer, offset[1] / finer), rules, written):
+        if _fits(
+            centre,
+            shape,
+            begin,
+            stop,
+            start,
+            end,
+            start + complex(offset[0] / finer, offset[1] / finer),
+            rules,
+            written,
+        ):
             return True
     return False
 
@@ -116,7 +128,10 @@ def _put(spans, places, row, begin, stop, start, end):
     places[row, 0], places[row, 1], places[row, 2], places[row, 3] = start[0], start[1], end[0], end[1]
 
 
-@kernel(f"int64(complex128, {_F}, {_F}, {_SPANS}, {_TABLE}, {_TABLE}, {_F}, int64, {_F}, {_WHOLE}, {_WHOLE}, {_WHOLE})", counts=False)
+@kernel(
+    f"int64(complex128, {_F}, {_F}, {_SPANS}, {_TABLE}, {_TABLE}, {_F}, int64, {_F}, {_WHOLE}, {_WHOLE}, {_WHOLE})",
+    counts=False,
+)
 def _stretch(centre, shape, rules, spans, places, pieces, fraction, count, written, start, end, point):
     """Write the blocks of the stretch that waits in row 0 behind those there are, as far as there is room.
 
@@ -127,7 +142,12 @@ def _stretch(centre, shape, rules, spans, places, pieces, fraction, count, writt
     while waiting:
         waiting -= 1
         begin, stop = spans[waiting, 0], spans[waiting, 1]
-        start[0], start[1], end[0], end[1] = places[waiting, 0], places[waiting, 1], places[waiting, 2], places[waiting, 3]
+        start[0], start[1], end[0], end[1] = (
+            places[waiting, 0],
+            places[waiting, 1],
+            places[waiting, 2],
+            places[waiting, 3],
+        )
         line = _flat(shape, begin, stop, rules)
         if line and start[0] == end[0] and start[1] == end[1]:
             continue
@@ -135,7 +155,12 @@ def _stretch(centre, shape, rules, spans, places, pieces, fraction, count, writt
             return -1
         point[0] = point[1] = 0
         if line or _one_arc(centre, shape, begin, stop, start, end, rules, written, point):
-            pieces[count, _X], pieces[count, _Y], pieces[count, _I], pieces[count, _J] = end[0], end[1], point[0], point[1]
+            pieces[count, _X], pieces[count, _Y], pieces[count, _I], pieces[count, _J] = (
+                end[0],
+                end[1],
+                point[0],
+                point[1],
+            )
             pieces[count, _ROUND], fraction[count] = not line, stop
             count += 1
             continue
@@ -157,8 +182,8 @@ def write_pieces(arcs, ends, rules, first, pieces, fraction, stops):
     Args:
         arcs: (n, 6) centre x and y, radius at the start and at the end, angle of the start, sweep; out units, radians.
         ends: (n, 4) counts of the last decimal of X and Y where each begins and ends.
-        rules: (8,) step of the last decimal; counts of X and of I in an out unit; tolerance, largest sweep, smallest and largest
-            radius, largest difference of two radii.
+        rules: (8,) step of the last decimal; counts of X and of I in an out unit; tolerance, largest sweep, smallest
+            and largest radius, largest difference of two radii.
         first: index of an arc; those before it are written.
         pieces: (m, 5) the answer: where each block ends, counts; I and J, counts; 1 for an arc, 0 for a line.
         fraction: (m,) the answer: how much of the arc is done there.
@@ -167,7 +192,10 @@ def write_pieces(arcs, ends, rules, first, pieces, fraction, stops):
     Returns:
         The first arc that is not written, n if there is none; -1 - its index where it has no end of halves.
     """
-    spans, places = np.empty((DEEPEST + 1, 2)), np.empty((DEEPEST + 1, 4), np.int64)  # stretches to come, the next one on top
+    spans, places = (
+        np.empty((DEEPEST + 1, 2)),
+        np.empty((DEEPEST + 1, 4), np.int64),
+    )  # stretches to come, the next one on top
     shape, written = np.empty(4), np.empty(4)
     at, to, point = np.empty(2, np.int64), np.empty(2, np.int64), np.empty(2, np.int64)
     start, end = np.empty(2, np.int64), np.empty(2, np.int64)

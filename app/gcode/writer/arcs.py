@@ -70,10 +70,18 @@ class ArcRules:
 
     def row(self) -> Floats:
         """Return (8,) what the compiled core is given."""
-        return np.array((
-            10.0**-self.decimals, 10.0**self.decimals, 10.0**self.centre_decimals, self.tolerance, self.largest_sweep,
-            self.smallest_radius, self.largest_radius, self.radius_mismatch,
-        ))  # fmt: skip
+        return np.array(
+            (
+                10.0**-self.decimals,
+                10.0**self.decimals,
+                10.0**self.centre_decimals,
+                self.tolerance,
+                self.largest_sweep,
+                self.smallest_radius,
+                self.largest_radius,
+                self.radius_mismatch,
+            )
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,9 +138,14 @@ def all_pieces(arcs: Floats, ends: Whole, rules: ArcRules) -> Pieces:
     while (first := write_pieces(arcs, ends, rules.row(), first, pieces, fraction, stops)) < len(arcs):
         if first < 0:
             x, y, radius = arcs[-1 - first, :3].tolist()
-            raise GeometryError(f"The arc round X{x:g} Y{y:g} of radius {radius:g} cannot be written within {rules.tolerance:g}; "
-                                "write more decimals, or make the drawing smaller.")  # fmt: skip
-        pieces, fraction = np.concatenate([pieces, np.empty_like(pieces)]), np.concatenate([fraction, np.empty_like(fraction)])
+            raise GeometryError(
+                f"The arc round X{x:g} Y{y:g} of radius {radius:g} cannot be written within {rules.tolerance:g}; "
+                "write more decimals, or make the drawing smaller."
+            )
+        pieces, fraction = (
+            np.concatenate([pieces, np.empty_like(pieces)]),
+            np.concatenate([fraction, np.empty_like(fraction)]),
+        )
     count = int(stops[-1]) if len(stops) else 0
     pieces = pieces[:count]
     return Pieces(pieces[:, :2], pieces[:, 2:4], pieces[:, 4] == 1, fraction[:count], stops)
@@ -149,4 +162,7 @@ def written_pieces(arc: MeantArc, start: Grid, end: Grid, rules: ArcRules) -> li
     row = (arc.centre.real, arc.centre.imag, arc.start_radius, arc.end_radius, arc.start_angle, arc.sweep)
     found = all_pieces(np.array([row]), np.array([(*start, *end)], np.int64), rules)
     columns = (found.end.tolist(), found.fraction.tolist(), found.centre.tolist(), found.round.tolist())
-    return [Piece((x, y), fraction, (i, j) if bent else None) for (x, y), fraction, (i, j), bent in zip(*columns, strict=True)]
+    return [
+        Piece((x, y), fraction, (i, j) if bent else None)
+        for (x, y), fraction, (i, j), bent in zip(*columns, strict=True)
+    ]

@@ -1,4 +1,6 @@
-"""Compiled core of `blocks`: the text of motions, one block after the other, each with the words that the control lacks."""
+"""Compiled core of `blocks`: the text of motions, one block after the other, each with the words that the control
+lacks.
+"""
 
 from __future__ import annotations
 
@@ -102,14 +104,14 @@ def write_blocks(rows, first, stop, order, motions, spans, form, state, out, lin
     """Write the blocks of motions; one that says no word but G and F is left out, and changes nothing.
 
     Args:
-        rows: (n, 7) kind of the motion (0 rapid, 1 line, 2 and 3 arcs); X, Y, Z where it ends, counts of the last decimal, or
-            UNKNOWN; I and J from its start, counts; F, counts, or NO_FEED.
+        rows: (n, 7) kind of the motion (0 rapid, 1 line, 2 and 3 arcs); X, Y, Z where it ends, counts of the last
+            decimal, or UNKNOWN; I and J from its start, counts; F, counts, or NO_FEED.
         first, stop: which of them.
         order: places in "XYZIJFNG" of the words in the order of writing.
-        motions: the texts of the four G words behind one another. spans: (4, 3) where each begins and ends in it, and what it is
-            known by: NO_MOTION for none.
-        form: (12,) decimals of X, Y, Z, I, F; whether zeros at the end are written, F always has a point, I and J are absolute, G is
-            modal; step of the N words, 0 = there are none, their first and their last one.
+        motions: the texts of the four G words behind one another. spans: (4, 3) where each begins and ends in it, and
+            what it is known by: NO_MOTION for none.
+        form: (12,) decimals of X, Y, Z, I, F; whether zeros at the end are written, F always has a point, I and J are
+            absolute, G is modal; step of the N words, 0 = there are none, their first and their last one.
         state: (6,) what is in force: X, Y, Z or UNKNOWN, the motion, F, the next N word. It is changed.
         out: (m,) the answer: the text, each block with a line feed behind it; long enough.
         lines: (stop - first,) the answer: how many blocks there are behind each motion.
@@ -118,10 +120,21 @@ def write_blocks(rows, first, stop, order, motions, spans, form, state, out, lin
         The length of the text.
     """
     at, count = 0, 0
-    value, said, centre, end = np.zeros(WORDS, np.int64), np.zeros(WORDS, np.int64), np.empty(2, np.int64), np.empty(3, np.int64)
+    value, said, centre, end = (
+        np.zeros(WORDS, np.int64),
+        np.zeros(WORDS, np.int64),
+        np.empty(2, np.int64),
+        np.empty(3, np.int64),
+    )
     for row in range(first, stop):
         kind, feed = rows[row, 0], rows[row, 6]
-        end[0], end[1], end[2], centre[0], centre[1] = rows[row, 1], rows[row, 2], rows[row, 3], rows[row, 4], rows[row, 5]
+        end[0], end[1], end[2], centre[0], centre[1] = (
+            rows[row, 1],
+            rows[row, 2],
+            rows[row, 3],
+            rows[row, 4],
+            rows[row, 5],
+        )
         _values(kind, end, centre, feed, state, form, value, said)
         if said[0] or said[1] or said[2] or said[_IJ]:
             said[_G] = spans[kind, 2] != state[_MOTION] or not form[_MODAL]

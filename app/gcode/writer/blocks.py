@@ -101,7 +101,8 @@ class Blocks:
         self.motions(np.array([(kind, *end, 0, 0, NO_FEED if kind is MoveKind.RAPID else feed)]))
 
     def motions(self, rows: Whole, first: int = 0, stop: int | None = None) -> Whole:
-        """Write the motions of some rows, one block each with the words that change; an arc's X, Y, I and J are always written.
+        """Write the motions of some rows, one block each with the words that change; an arc's X, Y, I and J are always
+        written.
 
         A motion that is none after rounding is left out.
 
@@ -192,11 +193,23 @@ class _Spelling:
         stops = np.cumsum([len(text) for text in texts])
         known = [texts.index(text) if text else NO_MOTION for text in texts]  # those that are spelled alike are alike
         self._spans = np.column_stack([stops - [len(text) for text in texts], stops, known])
-        self._form = np.array((
-            digits.X, digits.Y, digits.Z, digits.I, digits.F, words.trailing_zeros, words.feed_point,
-            post.arcs.centre is ArcCentre.ABSOLUTE, words.modal_motion, post.numbers.step if post.numbers.use else 0,
-            post.numbers.start, LAST_NUMBER,
-        ), np.int64)  # fmt: skip
+        self._form = np.array(
+            (
+                digits.X,
+                digits.Y,
+                digits.Z,
+                digits.I,
+                digits.F,
+                words.trailing_zeros,
+                words.feed_point,
+                post.arcs.centre is ArcCentre.ABSOLUTE,
+                words.modal_motion,
+                post.numbers.step if post.numbers.use else 0,
+                post.numbers.start,
+                LAST_NUMBER,
+            ),
+            np.int64,
+        )
         self._longest = WORDS * LONGEST_NUMBER + max(map(len, texts))
 
     def known_by(self, kind: MoveKind) -> int:
@@ -204,7 +217,9 @@ class _Spelling:
         return int(self._spans[kind, 2])
 
     def blocks(self, rows: Whole, span: tuple[int, int], state: Whole) -> tuple[list[str], Whole]:
-        """Return the blocks of some motions, and how many of them there are behind each motion; `state` is brought up to date."""
+        """Return the blocks of some motions, and how many of them there are behind each motion; `state` is brought up
+        to date.
+        """
         out, counts = np.empty((span[1] - span[0]) * self._longest, np.uint8), np.empty(span[1] - span[0], np.int64)
         length = write_blocks(rows, *span, self._order, self._motions, self._spans, self._form, state, out, counts)
         return out[:length].tobytes().decode("ascii").split("\n")[:-1], counts

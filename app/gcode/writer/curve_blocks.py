@@ -1,4 +1,6 @@
-"""Lines, arcs and splines of a fitted path as the blocks of a control, after the words that are in force in a program."""
+"""Lines, arcs and splines of a fitted path as the blocks of a control, after the words that are in force in a
+program.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,8 @@ class Spelling:
 
 
 def curve_blocks(path: Motions, spelling: Spelling) -> tuple[str, ...]:
-    """Return the blocks that drive along a path from its start, where the tool stands; G1 is in force behind them, unless it is said there.
+    """Return the blocks that drive along a path from its start, where the tool stands; G1 is in force behind them,
+    unless it is said there.
 
     Every end is rounded once to the post's digits; what a form cannot carry is the caller's to avoid: see `carries`.
 
@@ -114,13 +117,18 @@ class _Writer:
         self._feed, self._motion, self._at = "", motion, end
 
     def _arc(self, k: int) -> None:
-        """Write an arc or a helix: in its plane as the rounding of both ends allows, along the normal in step with it."""
+        """Write an arc or a helix: in its plane as the rounding of both ends allows, along the normal in step with
+        it.
+        """
         arcs, (u, v, w) = self._arcs, arc_axes(self._arcs, k)
         zero = complex(self._shift[u], self._shift[v])
         meant = MeantArc(
-            (complex(*arcs.centre[k]) - zero) / self._unit, arcs.start_radius[k] / self._unit, arcs.end_radius[k] / self._unit,
-            float(arcs.angle[k]), float(arcs.sweep[k]),
-        )  # fmt: skip
+            (complex(*arcs.centre[k]) - zero) / self._unit,
+            arcs.start_radius[k] / self._unit,
+            arcs.end_radius[k] / self._unit,
+            float(arcs.angle[k]),
+            float(arcs.sweep[k]),
+        )
         row = int(arcs.rows[k])
         end, start = self._rounded(self._path.end[row]), self._at
         kind = MotionKind(self._path.kind[row])
@@ -128,7 +136,11 @@ class _Writer:
             height = arcs.height[k] + arcs.rise[k] * piece.fraction
             to = [0, 0, 0]
             to[u], to[v] = piece.end
-            to[w] = end[w] if piece.fraction == 1.0 else counts(np.array([(height - self._shift[w]) / self._unit]), self._decimals(w))[0]
+            to[w] = (
+                end[w]
+                if piece.fraction == 1.0
+                else counts(np.array([(height - self._shift[w]) / self._unit]), self._decimals(w))[0]
+            )
             place: Position = (to[0], to[1], to[2])
             if piece.centre is None:
                 self._straight(place)
@@ -148,9 +160,14 @@ class _Writer:
     def _rules(self) -> ArcRules:
         arcs, digits = self._post.arcs, self._digits
         return ArcRules(
-            digits.X, digits.I, _STEPS * 10.0**-digits.X, math.radians(arcs.largest_sweep_deg), arcs.smallest_radius_mm / self._unit,
-            arcs.largest_radius_mm / self._unit, arcs.radius_mismatch_mm / self._unit,
-        )  # fmt: skip
+            digits.X,
+            digits.I,
+            _STEPS * 10.0**-digits.X,
+            math.radians(arcs.largest_sweep_deg),
+            arcs.smallest_radius_mm / self._unit,
+            arcs.largest_radius_mm / self._unit,
+            arcs.radius_mismatch_mm / self._unit,
+        )
 
     def _spline(self, row: int) -> None:
         from dataclasses import replace

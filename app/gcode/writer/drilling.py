@@ -70,7 +70,9 @@ def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, Hole]:
         return {}
     drilling = (moves.kind == MoveKind.LINE) & (moves.purpose == Purpose.DRILL)
     soon = np.append(drilling, (False, False))
-    begins = (moves.kind == MoveKind.RAPID) & (soon[1:-1] | soon[2:]) & (np.diff(moves.tool, prepend=moves.tool[:1]) == 0)
+    begins = (
+        (moves.kind == MoveKind.RAPID) & (soon[1:-1] | soon[2:]) & (np.diff(moves.tool, prepend=moves.tool[:1]) == 0)
+    )
     holes: dict[int, Hole] = {}
     stop = 1
     for i in np.flatnonzero(begins).tolist():
@@ -82,9 +84,9 @@ def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, Hole]:
 def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> Hole | None:
     """Return the hole that begins with move i, or None where the control has no cycle that moves like it.
 
-    A hole is a rapid over it, a rapid down to R, feeds down marked as drilling, and a rapid up to R or to the height before
-    it, which is where its row began too; with pecks, there are the rapids between that `DrillingWords` tells of. What is there already,
-    the place or R, needs no rapid.
+    A hole is a rapid over it, a rapid down to R, feeds down marked as drilling, and a rapid up to R or to the height
+    before it, which is where its row began too; with pecks, there are the rapids between that `DrillingWords` tells of.
+    What is there already, the place or R, needs no rapid.
 
     Args:
         moves: the program's.
@@ -103,7 +105,11 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> Hole | 
     level = {height: rules.words.to_initial, r: rules.words.to_r}.get(clear, "")
     one_go, peck = [(MoveKind.LINE, bottom), (MoveKind.RAPID, clear)], r - first
     out, up = (islice(_steps((r, peck, bottom), rules, by_r), len(done)) for by_r in (True, False))
-    ways = ((rules.words.drill, one_go, 0), (rules.words.peck, [*out, *one_go], peck), (rules.words.chip_break, [*up, *one_go], peck))
+    ways = (
+        (rules.words.drill, one_go, 0),
+        (rules.words.peck, [*out, *one_go], peck),
+        (rules.words.chip_break, [*up, *one_go], peck),
+    )
     for word, steps, q in ways:
         if word and level and _alike(steps, done):
             return Hole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], last + 2)
@@ -125,7 +131,9 @@ def _first_feed(moves: MoveLists, i: int, height: int) -> int | None:
 
 
 def _last_feed(moves: MoveLists, feed: int) -> int | None:
-    """Return the index of the last feed that drills the hole and has a move of the hole behind it; None where there is none."""
+    """Return the index of the last feed that drills the hole and has a move of the hole behind it; None where there is
+    none.
+    """
     last = None
     for k in range(feed, len(moves) - 1):
         if any(_belonging(moves, j) != _belonging(moves, feed) for j in (k, k + 1)):
@@ -164,4 +172,6 @@ def _steps(depths: tuple[int, int, int], rules: CycleRules, by_r: bool) -> Itera
 
 def _alike(steps: list[Step], done: list[Step]) -> bool:
     """Tell whether two sequences are the same but for the rounding of heights; where they end is that of both."""
-    return len(steps) == len(done) and all(a is b and abs(z - w) <= NEAR for (a, z), (b, w) in zip(steps, done, strict=True))
+    return len(steps) == len(done) and all(
+        a is b and abs(z - w) <= NEAR for (a, z), (b, w) in zip(steps, done, strict=True)
+    )

@@ -1,4 +1,6 @@
-"""The comments at the head of a program for the operator; `app.gcode.writer.header_notes` has those for `hitofude cut --against`."""
+"""The comments at the head of a program for the operator; `app.gcode.writer.header_notes` has those for `hitofude cut
+--against`.
+"""
 
 from __future__ import annotations
 
@@ -57,8 +59,13 @@ def tool_words(tool: Tool, units: Units) -> str:
 
 
 def operation_words(operation: Operation, job: Job) -> str:
-    """Return an operation in words: "Pocket T1: depth 2 mm, ...", the kind first, as `app.gcode.interpreter.notes_operation` reads it."""
-    words = (_parameter_words(placed, placed.of(operation), job.out_units) for placed in parameters_of(type(operation)).values())
+    """Return an operation in words: "Pocket T1: depth 2 mm, ...", the kind first, as
+    `app.gcode.interpreter.notes_operation` reads it.
+    """
+    words = (
+        _parameter_words(placed, placed.of(operation), job.out_units)
+        for placed in parameters_of(type(operation)).values()
+    )
     return f"{operation.WORD.capitalize()} T{operation.cut.tool}: {', '.join(filter(None, words))}"
 
 
@@ -100,19 +107,30 @@ def heading_lines(heading: Heading) -> Iterator[str]:
     yield f"Part {safe_name(job.part.name)}"
     yield f"Hitofude for {safe_name(heading.post.title)}, lengths in {units.name.lower()}"
     if heading.files > 1:
-        yield f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone, X and Y zero as in the others"
+        yield (
+            f"File {heading.file} of {heading.files}, with T{heading.program.moves.tool[0]} alone, X and Y zero as "
+            "in the others"
+        )
         yield "Set Z zero with this tool in the spindle"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
-    origin = ", ".join(f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True))
+    origin = ", ".join(
+        f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True)
+    )
     yield f"Work origin: {job.origin_xy.value}, {job.origin_z.value}"
     yield f"It is at {origin} of the drawing, whose Z 0 is the top of stock"
     yield from _copies_and_clamps(job)
     yield from (tool_words(tool, units) + f", {tool.spindle_speed:.0f} rpm" for tool in tools_of(heading))
-    yield from (operation_words(operation, job) + ("" if cuts else ", makes no moves") for operation, cuts in operations_of(heading))
+    yield from (
+        operation_words(operation, job) + ("" if cuts else ", makes no moves")
+        for operation, cuts in operations_of(heading)
+    )
     if heading.program.given_up_mm is None:
         yield f"Path within {_length(path_tolerance(heading), units)} of the exact offset of the drawing"
     else:
-        yield f"Path made from pixels, nowhere nearer to the walls than asked by more than {_length(path_tolerance(heading), units)}"
+        yield (
+            "Path made from pixels, nowhere nearer to the walls than asked by more than "
+            f"{_length(path_tolerance(heading), units)}"
+        )
         yield f"It is up to {_length(heading.program.given_up_mm, units)} farther from them"
     yield _blending_words(heading)
 
@@ -121,7 +139,10 @@ def _copies_and_clamps(job: Job) -> Iterator[str]:
     """Yield what an operator has to set up beside the stock."""
     copies, units = job.copies, job.out_units
     if len(copies.shifts) > 1:
-        yield f"{copies.columns} x {copies.rows} copies, {_length(copies.dx, units)} apart along X and {_length(copies.dy, units)} along Y"
+        yield (
+            f"{copies.columns} x {copies.rows} copies, {_length(copies.dx, units)} apart along X and "
+            f"{_length(copies.dy, units)} along Y"
+        )
     if job.keep_out_layers:
         names = " and ".join(map(safe_name, job.keep_out_layers))
         yield f"Clamps of layer {names}, up to {_length(job.keep_out_height, units)} above the stock"
@@ -140,7 +161,9 @@ def _blending_words(heading: Heading) -> str:
 
 
 def path_tolerance(heading: Heading) -> float:
-    """Return by how much the written path may be too near to the walls, mm: curves as arcs, the path's levels, its writing."""
+    """Return by how much the written path may be too near to the walls, mm: curves as arcs, the path's levels, its
+    writing.
+    """
     contours = (*(contour for region in heading.program.regions for contour in region.contours), *heading.program.lines)
     curves = max((contour.deviation for contour in contours), default=0.0)
     return curves + LEVEL + heading.writing_mm
@@ -166,4 +189,3 @@ def _length(value: float, units: Units) -> str:
 def unit_sign(units: Units) -> str:
     """Return the unit's sign."""
     return "in" if units is Units.INCH else "mm"
-

@@ -10,29 +10,29 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     skip_layer=NAME, skip_type=NAME                 one a layer, one a type of entities, of which nothing was read
     layout=NAME                                     of paper space that was read in place of model space
     to_zero=1                                       where the drawing was moved to zero
-    px_per_inch=N                                   units to the inch of a drawing without a real size, as said or assumed
-    overrule_units=1                                where drawing_units hold though the drawing names others
+    px_per_inch=N                                   units to the inch of a drawing without a real size, as said or
+    assumed overrule_units=1                                where drawing_units hold though the drawing names others
     join_tolerance_mm=T                             at which loose ends of the drawing were joined
-    copies=COLUMNS,ROWS,DX,DY                       where the part was cut more than once
-    keep_out=NAME                                   one a layer of clamps
-    keep_out_height_mm=H                            of clamps above the stock, where there are any
-    units=mm|in                                     of the program's words
-    origin_mm=X,Y,Z                                 the work origin; part = program + origin
-    stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
-    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last; ,CORNER,TIP,ANGLE
-                                                    behind it (radius of the corner, diameter of the tip, full angle in degrees)
-                                                    where it has one of them
+    copies=COLUMNS,ROWS,DX,DY                       where the part was cut more than once keep_out=NAME
+    one a layer of clamps keep_out_height_mm=H                            of clamps above the stock, where there are any
+    units=mm|in                                     of the program's words origin_mm=X,Y,Z
+    the work origin; part = program + origin stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
+    tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last;
+    ,CORNER,TIP,ANGLE
+                                                    behind it (radius of the corner, diameter of the tip, full angle in
+                                                    degrees) where it has one of them
     plunge_mm_min=NUMBER,RATE                       of programs over surfaces: how fast each tool is fed straight down
-    operation=KIND,KEY=VALUE,...                    one an operation, also one that makes no moves: see `app.gcode.operation_notes`
-    tab=X,Y,WIDTH,TOP,DIAMETER                      one a bridge of metal: its middle, and the diameter of the cutter that went over it
-    dog_bone=X0,Y0,X1,Y1,DIAMETER                   one a way of the cutter's centre into a corner
-    path_tolerance_mm=T                             proven: the written path is nowhere nearer to the walls than asked by more
-    allowance_mm=T                                  of paths made from pixels: so thick a skin may they leave along the walls
-    blend_mm=P                                      how far the control may leave the written path
+    operation=KIND,KEY=VALUE,...                    one an operation, also one that makes no moves: see
+    `app.gcode.operation_notes` tab=X,Y,WIDTH,TOP,DIAMETER                      one a bridge of metal: its middle, and
+    the diameter of the cutter that went over it dog_bone=X0,Y0,X1,Y1,DIAMETER                   one a way of the
+    cutter's centre into a corner path_tolerance_mm=T                             proven: the written path is nowhere
+    nearer to the walls than asked by more allowance_mm=T                                  of paths made from pixels: so
+    thick a skin may they leave along the walls blend_mm=P                                      how far the control may
+    leave the written path
 
-A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this is
-in capitals, so keys and values are read without regard to case. Where each tool has a file of its own, `tool` and `operation`
-tell of that file.
+A comment that begins with `hitofude+` goes on with the one before. For a control that knows capitals alone, all of this
+is in capitals, so keys and values are read without regard to case. Where each tool has a file of its own, `tool` and
+`operation` tell of that file.
 """
 
 from __future__ import annotations

@@ -1,7 +1,9 @@
-"""What LinuxCNC drives along where a program has G5.2: not the spline, but arcs that touch it, two a step of its parameter.
+"""What LinuxCNC drives along where a program has G5.2: not the spline, but arcs that touch it, two a step of its
+parameter.
 
 It takes four steps a control point, evenly over the knots' range, and joins the points there by two arcs that leave and
-arrive along the spline's own tangents and meet half way; where there is no such pair it goes straight. No tolerance is asked.
+arrive along the spline's own tangents and meet half way; where there is no such pair it goes straight. No tolerance is
+asked.
 Behaviour: LinuxCNC 2.9, as its interpreter's canonical commands show.
 """
 
@@ -44,7 +46,9 @@ def _steps(curve: Nurbs) -> tuple[Floats, Floats]:
     """Return the places (n, 3) that the control joins, and the directions (n, 2) there."""
     from scipy.interpolate import BSpline
 
-    homogeneous = BSpline(curve.knots, np.column_stack([curve.points * curve.weights[:, None], curve.weights]), curve.degree)
+    homogeneous = BSpline(
+        curve.knots, np.column_stack([curve.points * curve.weights[:, None], curve.weights]), curve.degree
+    )
     at = np.linspace(curve.knots[0], curve.knots[-1], STEPS * len(curve.points) + 1)
     value, slope = homogeneous(at), homogeneous.derivative()(at)
     points = value[:, :3] / value[:, 3:]
@@ -92,7 +96,14 @@ def _arc(start: Floats, end: Floats, leaving: Floats) -> FittedPath:
     centre[:2] += radius * np.array([-leaving[1], leaving[0]]) / size
     kind = MotionKind.ARC_CCW if radius > 0 else MotionKind.ARC_CW
     motion = Motions(
-        line.start, line.end, centre[None], np.array([kind], np.uint8), np.array([Plane.XY], np.uint8), np.ones(1, np.int32),
-        line.feed, line.line, line.state,
-    )  # fmt: skip
+        line.start,
+        line.end,
+        centre[None],
+        np.array([kind], np.uint8),
+        np.array([Plane.XY], np.uint8),
+        np.ones(1, np.int32),
+        line.feed,
+        line.line,
+        line.state,
+    )
     return FittedPath(motion, np.array([1]))

@@ -1,8 +1,8 @@
 """A rational B-spline in the words of a control that knows one.
 
-LinuxCNC (G5.2 ... G5.3) has no knots, works in one plane, and takes the largest L for all; so a curve is written as cubic
-Bézier pieces of four control points, which is the same curve. Fanuc (G6.2) has them, in the digits of an axis word; knots
-that these cannot hold give way to those of the Bézier pieces, 0, 1, 2 ..., which draw the same curve.
+LinuxCNC (G5.2 ... G5.3) has no knots, works in one plane, and takes the largest L for all; so a curve is written as
+cubic Bézier pieces of four control points, which is the same curve. Fanuc (G6.2) has them, in the digits of an axis
+word; knots that these cannot hold give way to those of the Bézier pieces, 0, 1, 2 ..., which draw the same curve.
 """
 
 from __future__ import annotations
@@ -30,7 +30,9 @@ MOST_KNOTS = 99999
 _UNITS = tuple(2.0**-k for k in range(13))
 """Knots that are multiples of one of them are written as they are."""
 _UNEVEN = 0.4
-"""Where a piece is cut whose turn is none at one of LinuxCNC's steps: not in the middle, where the turn may be none again."""
+"""Where a piece is cut whose turn is none at one of LinuxCNC's steps: not in the middle, where the turn may be none
+again.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +47,8 @@ class _Spelling:
 def nurbs_blocks(curve: Nurbs, post: Post, units: Units) -> tuple[str, ...] | None:
     """Return the blocks that drive along a curve from its start, where the tool stands, at the feed in force.
 
-    Every control point is rounded once, so the written curve is nowhere farther from the meant one than a point from its
-    rounded one; knots stay exact, weights to 1 in 10 million.
+    Every control point is rounded once, so the written curve is nowhere farther from the meant one than a point from
+    its rounded one; knots stay exact, weights to 1 in 10 million.
 
     Args:
         curve: mm, from the program's zero.
@@ -84,7 +86,9 @@ def _pieces(curve: Nurbs, post: Post, units: Units) -> list[str]:
 
 
 def _straight(piece: Floats, post: Post, units: Units) -> bool:
-    """Tell whether a cubic piece (4, 4) is no farther than a step of the last decimal from its chord, and runs along it."""
+    """Tell whether a cubic piece (4, 4) is no farther than a step of the last decimal from its chord, and runs along
+    it.
+    """
     z = _places(piece, post, units)
     way = z[-1] - z[0]
     if way == 0:
@@ -96,7 +100,9 @@ def _straight(piece: Floats, post: Post, units: Units) -> bool:
 def _that_turn(piece: Floats, post: Post, units: Units, depth: int = 3) -> list[Floats]:
     """Return a cubic piece in parts that LinuxCNC finds its arcs for: all their steps turn, or they are straight."""
     z = _places(piece, post, units)
-    written = Nurbs(np.column_stack([z.real, z.imag, 0 * z.real]), piece[:, 3] / piece[:, 3].max(), np.repeat([0.0, 1.0], 4), CUBIC)
+    written = Nurbs(
+        np.column_stack([z.real, z.imag, 0 * z.real]), piece[:, 3] / piece[:, 3].max(), np.repeat([0.0, 1.0], 4), CUBIC
+    )
     if depth == 0 or _straight(piece, post, units) or turns_all_along(written):
         return [piece]
     return [part for half in _cut(piece, _UNEVEN) for part in _that_turn(half, post, units, depth - 1)]
@@ -147,7 +153,9 @@ def _spelled(points: Floats, post: Post, units: Units) -> _Spelling:
     """Return points (n, 3), mm, as words."""
     digits, zeros = post.digits(units), post.words.trailing_zeros
     columns = zip("XYZ", points.T / units.value, (digits.X, digits.Y, digits.Z), strict=True)
-    return _Spelling(*([letter + numeral(n, decimals, zeros) for n in counts(axis, decimals)] for letter, axis, decimals in columns))
+    return _Spelling(
+        *([letter + numeral(n, decimals, zeros) for n in counts(axis, decimals)] for letter, axis, decimals in columns)
+    )
 
 
 def _homogeneous(curve: Nurbs) -> Floats:
@@ -172,7 +180,9 @@ def _cubics(pieces: Floats) -> Floats:
 
 
 def _whole(knots: Floats, decimals: int) -> NDArray[np.int64] | None:
-    """Return the knots, in steps of the last decimal, that draw the same curve where there are such; None where there are not."""
+    """Return the knots, in steps of the last decimal, that draw the same curve where there are such; None where there
+    are not.
+    """
     moved = knots - knots[0]
     steps = np.diff(moved)
     for unit in (np.min(steps[steps > 0]), *_UNITS):

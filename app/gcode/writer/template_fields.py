@@ -51,6 +51,11 @@ def tool_fields(tool: Tool, post: Post, next_tool: int) -> Fields:
     coolant, dwell = post.coolant, post.spindle.dwell_s
     on = {Coolant.NONE: "", Coolant.FLOOD: coolant.flood, Coolant.MIST: coolant.mist}[coolant.use]
     return {
-        "tool": tool.number, "speed": round(tool.spindle_speed), "dwell_s": f"{dwell:g}", "dwell_ms": round(dwell * 1000),
-        "coolant_on": on, "coolant_off": coolant.off if on else "", "preselect": f"T{next_tool}" if next_tool != tool.number else "",
-    }  # fmt: skip
+        "tool": tool.number,
+        "speed": round(tool.spindle_speed),
+        "dwell_s": f"{dwell:g}",
+        "dwell_ms": round(dwell * 1000),
+        "coolant_on": on,
+        "coolant_off": coolant.off if on else "",
+        "preselect": f"T{next_tool}" if next_tool != tool.number else "",
+    }

@@ -63,9 +63,13 @@ class WorkMoves:
     def lists(self) -> MoveLists:
         """The columns as lists."""
         return MoveLists(
-            [MoveKind(kind) for kind in self.kind.tolist()], self.purpose.tolist(), self.tool.tolist(), self.operation.tolist(),
-            [(x, y, z) for x, y, z in self.end.tolist()], self.feed.tolist(),
-        )  # fmt: skip
+            [MoveKind(kind) for kind in self.kind.tolist()],
+            self.purpose.tolist(),
+            self.tool.tolist(),
+            self.operation.tolist(),
+            [(x, y, z) for x, y, z in self.end.tolist()],
+            self.feed.tolist(),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +77,8 @@ class MotionRows:
     """Moves as the motions that the control is told of.
 
     Attributes:
-        rows: (m, 7) see `write_blocks`. A move's last row goes straight to its end: what the pieces of an arc lack of it.
+        rows: (m, 7) see `write_blocks`. A move's last row goes straight to its end: what the pieces of an arc lack of
+            it.
         stops: (n,) how many rows the moves up to each one have, itself counted.
     """
 
@@ -92,19 +97,31 @@ def work_moves(moves: Moves, origin: tuple[float, float, float], units: Units, d
     columns = [whole(column, decimals) for column, decimals in zip(end.T, (digits.X, digits.Y, digits.Z), strict=True)]
     rows = np.flatnonzero(moves.kind >= MoveKind.ARC_CW)
     return WorkMoves(
-        moves.kind, moves.purpose, moves.tool, moves.operation, np.column_stack(columns), end[:, 2].copy(),
-        np.maximum(1, whole(moves.feed / units.value, digits.F)), rows, _meant_arcs(moves, rows, origin, units),
-    )  # fmt: skip
+        moves.kind,
+        moves.purpose,
+        moves.tool,
+        moves.operation,
+        np.column_stack(columns),
+        end[:, 2].copy(),
+        np.maximum(1, whole(moves.feed / units.value, digits.F)),
+        rows,
+        _meant_arcs(moves, rows, origin, units),
+    )
 
 
 def _meant_arcs(moves: Moves, rows: NDArray[np.intp], origin: tuple[float, float, float], units: Units) -> Floats:
     """Return the arcs as the tool path has them; one that ends exactly where it starts is a full turn."""
     centre = moves.centre[rows]
     first, last = moves.start[rows, :2] - centre, moves.end[rows, :2] - centre
-    return np.column_stack([
-        (centre - np.array(origin[:2])) / units.value, np.hypot(*first.T) / units.value, np.hypot(*last.T) / units.value,
-        np.arctan2(first[:, 1], first[:, 0]), moves.sweeps()[rows],
-    ])  # fmt: skip
+    return np.column_stack(
+        [
+            (centre - np.array(origin[:2])) / units.value,
+            np.hypot(*first.T) / units.value,
+            np.hypot(*last.T) / units.value,
+            np.arctan2(first[:, 1], first[:, 0]),
+            moves.sweeps()[rows],
+        ]
+    )
 
 
 def motion_rows(moves: WorkMoves, span: tuple[int, int], rules: ArcRules, z_scale: float) -> MotionRows:
@@ -136,8 +153,13 @@ def motion_rows(moves: WorkMoves, span: tuple[int, int], rules: ArcRules, z_scal
     inner[stops - 1] = False
     of, at = np.repeat(arcs, many), pieces.fraction
     z = np.rint((moves.z[of - 1] + (moves.z[of] - moves.z[of - 1]) * at) * z_scale)
-    rows[inner] = np.column_stack([
-        np.where(pieces.round, moves.kind[of], MoveKind.LINE), pieces.end, np.where(at == 1.0, moves.end[of, 2], z.astype(np.int64)),
-        pieces.centre, moves.feed[of],
-    ])  # fmt: skip
+    rows[inner] = np.column_stack(
+        [
+            np.where(pieces.round, moves.kind[of], MoveKind.LINE),
+            pieces.end,
+            np.where(at == 1.0, moves.end[of, 2], z.astype(np.int64)),
+            pieces.centre,
+            moves.feed[of],
+        ]
+    )
     return MotionRows(rows, stops)

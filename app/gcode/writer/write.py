@@ -63,7 +63,9 @@ class NcFile:
     first: int = 0
 
     def named(self, chosen: Path) -> Path:
-        """Return the file's own path for the path that the user chose: "part.nc", or "part_1_T3.nc" where there are several."""
+        """Return the file's own path for the path that the user chose: "part.nc", or "part_1_T3.nc" where there are
+        several.
+        """
         return chosen.with_name(f"{chosen.stem}{self.suffix}{chosen.suffix}") if self.suffix else chosen
 
 
@@ -83,7 +85,9 @@ class Remarks:
     before: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
 
 
-def write_moves(moves: Moves, job: Job, post: Post, remarks: Remarks, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
+def write_moves(
+    moves: Moves, job: Job, post: Post, remarks: Remarks, progress: Progress = NO_PROGRESS
+) -> tuple[NcFile, ...]:
     """Return any moves as the files that the control needs, see `write_files`; each has all the remarks of its moves.
 
     Args:
@@ -91,7 +95,8 @@ def write_moves(moves: Moves, job: Job, post: Post, remarks: Remarks, progress: 
         job: whose tools, units and name are used.
 
     Raises:
-        ParameterError: the control cannot promise an exact path, a tool is not in the job, or out units are neither mm nor inch.
+        ParameterError: the control cannot promise an exact path, a tool is not in the job, or out units are neither mm
+            nor inch.
         Cancelled: the job was asked to stop.
     """
     _check_words(job, post)
@@ -117,8 +122,8 @@ def _by_file(moves: Moves, post: Post) -> Iterator[tuple[int, int, int, str]]:
 def write_files(program: Program, job: Job, post: Post, progress: Progress = NO_PROGRESS) -> tuple[NcFile, ...]:
     """Return the program as the files that the control needs: one, or one a tool where it changes no tools.
 
-    Files come in the order of cutting, a new one at every change of tool. Each is complete by itself, begins and ends at
-    safe Z, and has the same work origin; together they hold every move once.
+    Files come in the order of cutting, a new one at every change of tool. Each is complete by itself, begins and ends
+    at safe Z, and has the same work origin; together they hold every move once.
 
     Args and errors: as `write_program`.
     """
@@ -153,7 +158,9 @@ def write_program(program: Program, job: Job, post: Post, progress: Progress = N
     """
     files = write_files(program, job, post, progress)
     if len(files) > 1:
-        raise ParameterError(f"{post.title} changes no tools, so this program is {len(files)} files, not one; export it to a folder.")
+        raise ParameterError(
+            f"{post.title} changes no tools, so this program is {len(files)} files, not one; export it to a folder."
+        )
     return files[0].nc
 
 
@@ -166,7 +173,9 @@ def _check(program: Program, job: Job, post: Post) -> None:
 def _check_words(job: Job, post: Post) -> None:
     """Refuse units and paths that the control has no words for."""
     if job.out_units not in (Units.MM, Units.INCH):
-        raise ParameterError(f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two.")
+        raise ParameterError(
+            f"NC programs are in mm or inch, not in {job.out_units.name.lower()}; choose one of the two."
+        )
     if job.exact_path and not post.blending.exact:
         raise ParameterError(f"{post.title} has no word for an exact path; switch exact path off.")
 
@@ -177,13 +186,16 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
     sheet = Blocks(post, job.out_units)
     heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
-    remarks = Remarks(tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job))
+    remarks = Remarks(
+        tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job)
+    )
     lines = _Writer(job, post, sheet, moves).write(remarks, progress)
     return NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
 
 
 def blend_mm(job: Job, post: Post) -> float:
-    """Return how far the control may leave the written path, mm: 0 for an exact path, else what the blending block says.
+    """Return how far the control may leave the written path, mm: 0 for an exact path, else what the blending block
+    says.
 
     Where no block says it, it is what the post takes the control's own setting as.
     """
@@ -216,10 +228,14 @@ class _Writer:
         gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
         self.holes: dict[int, Hole] = holes_of(moves, CycleRules(post.drilling, round(self.z_scale), *gaps))
         self.arc_rules = ArcRules(
-            digits.X, digits.I, math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2),  # Z is rounded too
+            digits.X,
+            digits.I,
+            math.sqrt((writing_tolerance(job, post) / unit) ** 2 - (0.5 / self.z_scale) ** 2),  # Z is rounded too
             math.radians(post.arcs.largest_sweep_deg),
-            post.arcs.smallest_radius_mm / unit, post.arcs.largest_radius_mm / unit, post.arcs.radius_mismatch_mm / unit,
-        )  # fmt: skip
+            post.arcs.smallest_radius_mm / unit,
+            post.arcs.largest_radius_mm / unit,
+            post.arcs.radius_mismatch_mm / unit,
+        )
 
     def write(self, remarks: Remarks, progress: Progress) -> NDArray[np.int32]:
         """Write everything; return the line of each move."""

@@ -69,19 +69,28 @@ def lines_and_arcs(curve: Ellipse | Spline, tolerance: float = tolerances.CURVE)
         if (worst := float(bounds.max())) <= tolerance:
             return LinesAndArcs(_joined(spans, curve, closed), worst)
         spans = _finer(pieces, spans, bounds, tolerance)
-    raise GeometryError(f"the curve that begins at ({curve.start[0]:.3f}, {curve.start[1]:.3f}) cannot be followed by arcs "
-                        f"within {tolerance:g} mm; draw it again with fewer control points.")
+    raise GeometryError(
+        f"the curve that begins at ({curve.start[0]:.3f}, {curve.start[1]:.3f}) cannot be followed by arcs "
+        f"within {tolerance:g} mm; draw it again with fewer control points."
+    )
 
 
 def _check(curve: Ellipse | Spline) -> None:
-    values = ((*curve.centre, *curve.major, curve.ratio, curve.start_parameter, curve.end_parameter) if isinstance(curve, Ellipse)
-              else (*(v for point in curve.control_points for v in point), *curve.knots, *curve.weights))
+    values = (
+        (*curve.centre, *curve.major, curve.ratio, curve.start_parameter, curve.end_parameter)
+        if isinstance(curve, Ellipse)
+        else (*(v for point in curve.control_points for v in point), *curve.knots, *curve.weights)
+    )
     if not all(map(math.isfinite, values)):
-        raise GeometryError(f"the {type(curve).__name__.lower()} has a coordinate that is not a number; delete it or draw it again.")
+        raise GeometryError(
+            f"the {type(curve).__name__.lower()} has a coordinate that is not a number; delete it or draw it again."
+        )
 
 
 def _as_circle(curve: Ellipse | Spline, pieces: Pieces, closed: bool, tolerance: float) -> LinesAndArcs | None:
-    """Return one circle or arc for a curve that is one; a closed one may differ by the tolerance, as it has no ends to keep."""
+    """Return one circle or arc for a curve that is one; a closed one may differ by the tolerance, as it has no ends to
+    keep.
+    """
     places = np.linspace(0.0, len(pieces), 8 * len(pieces) + 1)
     points, _ = pieces.at(places)
     centre = _middle_of(points[0], points[len(points) // 3], points[2 * len(points) // 3])
@@ -106,7 +115,9 @@ def _as_circle(curve: Ellipse | Spline, pieces: Pieces, closed: bool, tolerance:
     if closed and bound <= tolerance:
         return LinesAndArcs((Circle(at, radius, sweep > 0),), bound)
     if not closed and bound <= tolerances.WELD:
-        return LinesAndArcs((Arc(curve.start, curve.end, _levelled(curve.start, curve.end, at), sweep > 0),), bound + tolerances.WELD)
+        return LinesAndArcs(
+            (Arc(curve.start, curve.end, _levelled(curve.start, curve.end, at), sweep > 0),), bound + tolerances.WELD
+        )
     return None
 
 
@@ -123,7 +134,9 @@ def _middle_of(a: Floats, b: Floats, c: Floats) -> Floats | None:
 def _levelled(start: Point, end: Point, centre: Point) -> Point:
     """Return the point nearest to centre that is equally far from start and end."""
     dx, dy = end[0] - start[0], end[1] - start[1]
-    along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (dx * dx + dy * dy)
+    along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (
+        dx * dx + dy * dy
+    )
     return centre[0] - along * dx, centre[1] - along * dy
 
 
@@ -135,14 +148,18 @@ def _finer(pieces: Pieces, spans: Floats, bounds: Floats, tolerance: float) -> F
     done = 0
     for k in np.flatnonzero(coarse).tolist():
         first, last = spans[k, [kernels.FIRST, kernels.LAST]].tolist()
-        halves = (_covered(pieces, first, float(middle[k]), 0.5 * tolerance), _covered(pieces, float(middle[k]), last, 0.5 * tolerance))
+        halves = (
+            _covered(pieces, first, float(middle[k]), 0.5 * tolerance),
+            _covered(pieces, float(middle[k]), last, 0.5 * tolerance),
+        )
         parts += [spans[done:k], *halves]
         done = k + 1
     return np.concatenate([*parts, spans[done:]])
 
 
 def _span_of(pieces: Pieces, first: float, last: float, target: float) -> Floats:
-    """Return the spans (k, COLUMNS) between two corners: one line, where all control points lie on it, within a tenth of WELD, and
+    """Return the spans (k, COLUMNS) between two corners: one line, where all control points lie on it, within a tenth
+    of WELD, and
     none turns back; else what covers them.
     """
     polygon = pieces.polygon[round(first) : round(last)].reshape(-1, 2)
@@ -172,7 +189,9 @@ def _covered(pieces: Pieces, first: float, last: float, target: float) -> Floats
         parts.append(rows[:made])
         count += made
         if count > _MOST:
-            raise GeometryError(f"the curve needs more than {_MOST} arcs at a tolerance this fine; check its size, or draw it again.")
+            raise GeometryError(
+                f"the curve needs more than {_MOST} arcs at a tolerance this fine; check its size, or draw it again."
+            )
     return np.concatenate(parts)
 
 

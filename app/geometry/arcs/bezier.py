@@ -1,4 +1,6 @@
-"""Ellipses and splines as rational Bézier pieces: points, tangents, and bounds on distance that hold between samples."""
+"""Ellipses and splines as rational Bézier pieces: points, tangents, and bounds on distance that hold between
+samples.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +68,9 @@ class Pieces:
         return [0.0, *(np.flatnonzero(np.abs(turns) > _CORNER) + 1.0).tolist(), float(len(self))]
 
     def _directions(self, polygons: Floats) -> Floats:
-        """Return (n, 2) unit vectors towards the first of polygons (n, k, 2) from what follows it; (0, 0) where nothing does."""
+        """Return (n, 2) unit vectors towards the first of polygons (n, k, 2) from what follows it; (0, 0) where nothing
+        does.
+        """
         chords = polygons[:, :1] - polygons[:, 1:]
         lengths = np.hypot(chords[..., 0], chords[..., 1])
         rows, first = np.arange(len(chords)), np.argmax(lengths > self.still, axis=1)
@@ -97,7 +101,9 @@ class Pieces:
         z = self.control[..., :2] - w[..., None] * on[:, None]
         towards = np.einsum("nkd,nd->nk", z, on - centre)
         table = products(self.degree)
-        gap = np.einsum("ni,nj,ijk->nk", z[..., 0], z[..., 0], table) + np.einsum("ni,nj,ijk->nk", z[..., 1], z[..., 1], table)
+        gap = np.einsum("ni,nj,ijk->nk", z[..., 0], z[..., 0], table) + np.einsum(
+            "ni,nj,ijk->nk", z[..., 1], z[..., 1], table
+        )
         gap += 2 * np.einsum("ni,nj,ijk->nk", w, towards, table)
         gap /= (w.min(axis=1) ** 2)[:, None]
         radius = np.hypot(*(on - centre).T)[:, None]
@@ -116,7 +122,9 @@ def products(degree: int) -> Floats:
 
 
 def pieces_of(curve: Ellipse | Spline) -> Pieces:
-    """Return the same curve, exactly, as Bézier pieces in its direction of travel; pieces that stand still are left out."""
+    """Return the same curve, exactly, as Bézier pieces in its direction of travel; pieces that stand still are left
+    out.
+    """
     pieces = _of_ellipse(curve) if isinstance(curve, Ellipse) else _of_spline(curve)
     extent = np.ptp(pieces.polygon, axis=1).max(axis=1)
     return Pieces(pieces.control[extent > _STILL])
@@ -134,7 +142,11 @@ def _of_ellipse(curve: Ellipse) -> Pieces:
     stretch = np.array([1.0, 1.0 / math.cos(half), 1.0])
     major = np.array(curve.major)
     minor = np.array((-curve.major[1], curve.major[0])) * curve.ratio
-    points = np.array(curve.centre) + (np.cos(angles) * stretch)[..., None] * major + (np.sin(angles) * stretch)[..., None] * minor
+    points = (
+        np.array(curve.centre)
+        + (np.cos(angles) * stretch)[..., None] * major
+        + (np.sin(angles) * stretch)[..., None] * minor
+    )
     weights = np.broadcast_to(np.array([1.0, math.cos(half), 1.0]), angles.shape)[..., None]
     return Pieces(np.concatenate([points * weights, weights], axis=2))
 

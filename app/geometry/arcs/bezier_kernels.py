@@ -1,4 +1,5 @@
-"""Compiled: places, tangents and bounds of plane curves of rational Bézier pieces, see `app.geometry.arcs.bezier.Pieces`.
+"""Compiled: places, tangents and bounds of plane curves of rational Bézier pieces, see
+`app.geometry.arcs.bezier.Pieces`.
 
 A curve is its control points (n, p + 1, 3), homogeneous: w x, w y, w; its parameter u runs from 0 to n.
 """
@@ -69,7 +70,9 @@ def direction(control, u, forward, still, work, found):  # type: ignore[no-untyp
 
 @kernel(f"void({_CONTROL}, float64, float64, {_PIECE}, {_PIECE})", counts=False)
 def cut(control, first, last, work, piece):  # type: ignore[no-untyped-def]
-    """Write the stretch between two parameters of one piece: control point j is the blossom of its ends, taken p - j and j times."""
+    """Write the stretch between two parameters of one piece: control point j is the blossom of its ends, taken p - j
+    and j times.
+    """
     k, degree = min(max(int((first + last) / 2), 0), len(control) - 1), control.shape[1] - 1
     for j in range(degree + 1):
         for i in range(degree + 1):
@@ -86,7 +89,9 @@ def cut(control, first, last, work, piece):  # type: ignore[no-untyped-def]
 
 @kernel(f"float64({_PIECE}, float64, float64, float64, float64)", counts=False)
 def off_line(piece, ax, ay, bx, by):  # type: ignore[no-untyped-def]
-    """Return a bound of how far a piece is from the line from a to b, mm: that of its control points, each way by itself."""
+    """Return a bound of how far a piece is from the line from a to b, mm: that of its control points, each way by
+    itself.
+    """
     dx, dy = bx - ax, by - ay
     length = math.hypot(dx, dy)
     aside, beyond, still = 0.0, 0.0, 0.0
@@ -103,8 +108,9 @@ def off_line(piece, ax, ay, bx, by):  # type: ignore[no-untyped-def]
 def off_circle(piece, x, y, cx, cy, products):  # type: ignore[no-untyped-def]
     """Return a bound of how far a piece is from the circle round a centre c through a place, mm.
 
-    The squared distance from the centre is a polynomial over the squared weight; its Bernstein coefficients enclose it, so nothing
-    between samples can escape. What it is more than the squared radius is reckoned from the place on the circle, where it is small.
+    The squared distance from the centre is a polynomial over the squared weight; its Bernstein coefficients enclose it,
+    so nothing between samples can escape. What it is more than the squared radius is reckoned from the place on the
+    circle, where it is small.
 
     Args:
         products: (p + 1, p + 1, 2 p + 1) the table that multiplies two polynomials in Bernstein form.

@@ -14,7 +14,8 @@ _STRAIGHT = tolerances.WELD / 2
 
 @kernel(f"Tuple((boolean, float64, float64))({_POINT}, {_POINT}, {_POINT}, {_POINT})")
 def meeting(start, leaving, end, arriving):
-    """Return whether there is a biarc, and where its arcs meet: in the middle between the tips of two tangents of one length.
+    """Return whether there is a biarc, and where its arcs meet: in the middle between the tips of two tangents of one
+    length.
 
     Args:
         start, end: points.
@@ -31,7 +32,11 @@ def meeting(start, leaving, end, arriving):
     if root <= 0.0 or chord2 == 0.0:
         return False, 0.0, 0.0
     reach = chord2 / root
-    return True, (start[0] + end[0] + reach * (leaving[0] - arriving[0])) / 2, (start[1] + end[1] + reach * (leaving[1] - arriving[1])) / 2
+    return (
+        True,
+        (start[0] + end[0] + reach * (leaving[0] - arriving[0])) / 2,
+        (start[1] + end[1] + reach * (leaving[1] - arriving[1])) / 2,
+    )
 
 
 @kernel(f"Tuple((int64, float64, float64, float64))({_POINT}, {_POINT}, {_POINT})")

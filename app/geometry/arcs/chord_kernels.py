@@ -24,11 +24,18 @@ def chords(control, tolerance, finest):  # type: ignore[no-untyped-def]
     """
     found, count = np.empty((256, 2)), 0
     work, at = np.empty((control.shape[1], 3)), np.empty(4)
-    ends, level = np.empty((finest + 2, 3)), np.empty(finest + 2, np.int64)  # u, x, y of where stretches end that wait, the next on top
+    ends, level = (
+        np.empty((finest + 2, 3)),
+        np.empty(finest + 2, np.int64),
+    )  # u, x, y of where stretches end that wait, the next on top
     last = control.shape[1] - 1
     for k in range(len(control)):
         u, x, y = float(k), control[k, 0, 0] / control[k, 0, 2], control[k, 0, 1] / control[k, 0, 2]
-        ends[0, 0], ends[0, 1], ends[0, 2] = k + 1.0, control[k, last, 0] / control[k, last, 2], control[k, last, 1] / control[k, last, 2]
+        ends[0, 0], ends[0, 1], ends[0, 2] = (
+            k + 1.0,
+            control[k, last, 0] / control[k, last, 2],
+            control[k, last, 1] / control[k, last, 2],
+        )
         level[0], top, depth = 0, 1, 0
         while top > 0:
             to_u, to_x, to_y, depth = ends[top - 1, 0], ends[top - 1, 1], ends[top - 1, 2], level[top - 1]
@@ -47,6 +54,9 @@ def chords(control, tolerance, finest):  # type: ignore[no-untyped-def]
             u, x, y = to_u, to_x, to_y
             top -= 1
     if len(control):
-        found[count, 0], found[count, 1] = control[-1, last, 0] / control[-1, last, 2], control[-1, last, 1] / control[-1, last, 2]
+        found[count, 0], found[count, 1] = (
+            control[-1, last, 0] / control[-1, last, 2],
+            control[-1, last, 1] / control[-1, last, 2],
+        )
         count += 1
     return found, count

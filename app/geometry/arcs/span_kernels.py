@@ -1,7 +1,8 @@
-"""Compiled: spans of a plane curve, each replaced by a line or by two arcs that meet without a bend, and how far these are off.
+"""Compiled: spans of a plane curve, each replaced by a line or by two arcs that meet without a bend, and how far these
+are off.
 
-A row tells a span: its two parameters, where what replaces it begins, meets and ends, centre and turn (+1 counter-clockwise, -1
-clockwise, 0 a line) of both parts, and how many of them there are.
+A row tells a span: its two parameters, where what replaces it begins, meets and ends, centre and turn (+1
+counter-clockwise, -1 clockwise, 0 a line) of both parts, and how many of them there are.
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ def _apart(x, y, ax, ay, bx, by, cx, cy, turn):  # type: ignore[no-untyped-def]
 
 @kernel(f"boolean({_FOUND}, float64, float64, float64, float64)", counts=False)
 def _put_biarc(row, out_x, out_y, in_x, in_y):  # type: ignore[no-untyped-def]
-    """Write the line or the two arcs between a row's ends that leave and arrive in unit directions; tell whether there are any."""
+    """Write the line or the two arcs between a row's ends that leave and arrive in unit directions; tell whether there
+    are any.
+    """
     start, end = (row[X0], row[Y0]), (row[X2], row[Y2])
     exists, x, y = meeting(start, (out_x, out_y), end, (in_x, in_y))
     if not exists:
@@ -71,7 +74,14 @@ def _trial(control, first, last, still, work, places, row):  # type: ignore[no-u
         place(control, first + k * ((last - first) / count) if k < count else last, work, found)
         places[k, 0], places[k, 1] = found[0], found[1]
         length += math.hypot(places[k, 0] - places[k - 1, 0], places[k, 1] - places[k - 1, 1]) if k > 0 else 0.0
-    row[FIRST], row[LAST], row[X0], row[Y0], row[X2], row[Y2] = first, last, places[0, 0], places[0, 1], places[count, 0], places[count, 1]
+    row[FIRST], row[LAST], row[X0], row[Y0], row[X2], row[Y2] = (
+        first,
+        last,
+        places[0, 0],
+        places[0, 1],
+        places[count, 0],
+        places[count, 1],
+    )
     row[TURN], row[PARTS] = 0.0, 1.0
     if math.hypot(row[X2] - row[X0], row[Y2] - row[Y0]) > _TURNS_BACK * length:
         out_x, out_y = direction(control, first, True, still, work, found)
@@ -84,8 +94,10 @@ def _trial(control, first, last, still, work, places, row):  # type: ignore[no-u
         if row[PARTS] == 1.0:
             off = _apart(x, y, row[X0], row[Y0], row[X2], row[Y2], 0.0, 0.0, 0.0)
         else:
-            off = min(_apart(x, y, row[X0], row[Y0], row[X1], row[Y1], row[CX], row[CY], row[TURN]),
-                      _apart(x, y, row[X1], row[Y1], row[X2], row[Y2], row[DX], row[DY], row[DTURN]))  # fmt: skip
+            off = min(
+                _apart(x, y, row[X0], row[Y0], row[X1], row[Y1], row[CX], row[CY], row[TURN]),
+                _apart(x, y, row[X1], row[Y1], row[X2], row[Y2], row[DX], row[DY], row[DTURN]),
+            )
         worst = max(worst, off)
     return worst
 
@@ -119,7 +131,8 @@ def _longest(control, first, last, step, target, still, work, places, trial, row
 
 @kernel(f"int64({_CONTROL}, {_FOUND}, float64, float64, float64, {_PIECE})")
 def cover(control, state, last, target, still, rows):  # type: ignore[no-untyped-def]
-    """Cover a curve with spans, each about the longest within a target, until they end or the rows are full; return how many there are.
+    """Cover a curve with spans, each about the longest within a target, until they end or the rows are full; return how
+    many there are.
 
     Args:
         state: (2,) the parameter that they begin at, and a step to try; both out: where to go on.

@@ -56,8 +56,14 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     found, branches = paths(pieces, nodes)
     contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
     odd = [place for place, ends in branches if ends % 2]
-    findings += [*overlap_findings(overlaps, contours, join_tolerance), *repeat_findings(doubles), *gap_findings(gaps),
-                 *branch_findings(branches), *open_findings(contours, join_tolerance), *crossings(contours, odd)]
+    findings += [
+        *overlap_findings(overlaps, contours, join_tolerance),
+        *repeat_findings(doubles),
+        *gap_findings(gaps),
+        *branch_findings(branches),
+        *open_findings(contours, join_tolerance),
+        *crossings(contours, odd),
+    ]
     return Chaining(tuple(contours), tuple(findings))
 
 
@@ -85,8 +91,13 @@ def _without(pieces: list[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) -> 
 
 def _contour(pieces: Sequence[Piece], steps: Sequence[Step], closed: bool) -> Contour:
     members = [pieces[k] if forward else pieces[k].reversed() for k, forward in steps]
-    return Contour(tuple(p for piece in members for p in piece.primitives), closed, pieces[min(steps)[0]].layer,
-                   tuple(piece.entity for piece in members), max(piece.deviation for piece in members))
+    return Contour(
+        tuple(p for piece in members for p in piece.primitives),
+        closed,
+        pieces[min(steps)[0]].layer,
+        tuple(piece.entity for piece in members),
+        max(piece.deviation for piece in members),
+    )
 
 
 def _once(contours: list[Contour], join_tolerance: float) -> tuple[list[Contour], list[tuple[Contour, Contour]]]:

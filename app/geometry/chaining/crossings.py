@@ -45,7 +45,8 @@ def crossings(contours: Sequence[Contour], branches: Sequence[Point] = ()) -> li
 
     Args:
         contours: closed and open ones.
-        branches: points of which it has been said that too many ends meet there; what only touches there is passed over.
+        branches: points of which it has been said that too many ends meet there; what only touches there is passed
+            over.
     """
     table = _table(contours)
     i, j = near_pairs(table.rows, tolerances.WELD)
@@ -107,8 +108,8 @@ def _table(contours: Sequence[Contour]) -> _Table:
 def contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:
     """Return the points (m, 2) where rows i and j meet, with their rows; a pair may meet twice.
 
-    A point counts where it lies within WELD of both rows, ends included. Curves that miss one another by less touch at one point.
-    Rows that run along one another, and so meet nowhere in particular, have none: their ends say it.
+    A point counts where it lies within WELD of both rows, ends included. Curves that miss one another by less touch at
+    one point. Rows that run along one another, and so meet nowhere in particular, have none: their ends say it.
     """
     line_i, line_j = rows[i, TURN] == 0, rows[j, TURN] == 0
     found: list[tuple[Floats, Indices, Indices]] = []
@@ -146,7 +147,9 @@ def _line_meets_arc(line: Rows, arc: Rows) -> list[Floats]:
 
 
 def _arcs_meet(a: Rows, b: Rows) -> list[Floats]:
-    """Return where whole circles meet, NaN where they are of one centre; those that miss one another: where a comes nearest."""
+    """Return where whole circles meet, NaN where they are of one centre; those that miss one another: where a comes
+    nearest.
+    """
     between = b[:, CX:R] - a[:, CX:R]
     gap, radius, other = np.hypot(*between.T), a[:, R], b[:, R]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -180,7 +183,9 @@ def _crosses(table: _Table, points: Floats, i: Indices, j: Indices) -> NDArray[n
     a_in, a_out = _ways(table, points, i)
     b_in, b_out = _ways(table, points, j)
     sides = _within(a_out, a_in, b_out) != _within(a_out, a_in, b_in)
-    slant = np.min([np.abs(_cross(p, q)) for p in (a_in, a_out) for q in (b_in, b_out)], axis=0) if len(i) else np.zeros(0)
+    slant = (
+        np.min([np.abs(_cross(p, q)) for p in (a_in, a_out) for q in (b_in, b_out)], axis=0) if len(i) else np.zeros(0)
+    )
     bend = np.maximum(_curvature(table.rows[i]) + _curvature(table.rows[j]), 1e-9)
     result: NDArray[np.bool_] = sides & (slant > 1e-6) & (slant**2 / (2 * bend) > tolerances.CURVE)
     return result
@@ -193,20 +198,29 @@ def _ways(table: _Table, points: Floats, i: Indices) -> tuple[Floats, Floats]:
     at_start = np.hypot(*(points - rows[:, :2]).T) <= 2 * tolerances.WELD
     at_end = np.hypot(*(points - rows[:, X1 : X1 + 2]).T) <= 2 * tolerances.WELD
     before, after = table.before[i], table.after[i]
-    backward = np.where(at_start[:, None], np.where((before >= 0)[:, None], -_tangent(table.rows[before], points), np.nan), backward)
-    forward = np.where(at_end[:, None], np.where((after >= 0)[:, None], _tangent(table.rows[after], points), np.nan), forward)
+    backward = np.where(
+        at_start[:, None], np.where((before >= 0)[:, None], -_tangent(table.rows[before], points), np.nan), backward
+    )
+    forward = np.where(
+        at_end[:, None], np.where((after >= 0)[:, None], _tangent(table.rows[after], points), np.nan), forward
+    )
     return backward, forward
 
 
 def _tangent(rows: Rows, points: Floats) -> Floats:
     arm = points - rows[:, CX:R]
-    along = np.where((rows[:, TURN] == 0)[:, None], rows[:, 2:4] - rows[:, :2], np.stack([-arm[:, 1], arm[:, 0]], axis=1) * rows[:, [TURN]])
+    along = np.where(
+        (rows[:, TURN] == 0)[:, None],
+        rows[:, 2:4] - rows[:, :2],
+        np.stack([-arm[:, 1], arm[:, 0]], axis=1) * rows[:, [TURN]],
+    )
     result: Floats = along / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
     return result
 
 
 def _within(first: Floats, last: Floats, way: Floats) -> NDArray[np.bool_]:
     """Return whether directions lie in the sector that opens counter-clockwise from first to last."""
+
     def turn(v: Floats) -> Floats:
         angle: Floats = np.arctan2(_cross(first, v), (first * v).sum(axis=1)) % (2 * np.pi)
         return angle

@@ -33,7 +33,9 @@ def size_of(contour: Contour) -> str:
 
 
 def named(contour: Contour) -> str:
-    """Return what a contour is called: by its layer, its size and its lower left corner, for these are what a CAD program shows."""
+    """Return what a contour is called: by its layer, its size and its lower left corner, for these are what a CAD
+    program shows.
+    """
     return f"The contour on layer {contour.layer}, {size_of(contour)} from {at(_corners(contour)[0])},"
 
 
@@ -53,7 +55,15 @@ def limited(findings: Sequence[Finding], what: str) -> list[Finding]:
     if not rest:
         return list(findings)
     ids = tuple(dict.fromkeys(k for finding in rest for k in finding.entity_ids))
-    more = Finding(rest[0].kind, f"{len(rest)} more {what}.", rest[0].x, rest[0].y, any(f.counts for f in rest), ids, float(len(rest)))
+    more = Finding(
+        rest[0].kind,
+        f"{len(rest)} more {what}.",
+        rest[0].x,
+        rest[0].y,
+        any(f.counts for f in rest),
+        ids,
+        float(len(rest)),
+    )
     return [*findings[:LIMIT], more]
 
 
@@ -116,8 +126,17 @@ def repeat_findings(doubles: Sequence[tuple[Contour, Contour]]) -> list[Finding]
     for _, double in doubles:
         x, y = double.primitives[0].start
         length = sum(length_of(p) for p in double.primitives)
-        found.append(Finding(FindingKind.OVERLAP, f"The contour at {at((x, y))}, {length:.3f} mm long, is drawn twice; one is left out.",
-                             x, y, False, double.entity_ids, length))
+        found.append(
+            Finding(
+                FindingKind.OVERLAP,
+                f"The contour at {at((x, y))}, {length:.3f} mm long, is drawn twice; one is left out.",
+                x,
+                y,
+                False,
+                double.entity_ids,
+                length,
+            )
+        )
     return limited(found, "contours that are drawn twice")
 
 
@@ -127,11 +146,22 @@ def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
         return []
     widest, place = max(gaps)
     count = "1 gap was" if len(gaps) == 1 else f"{len(gaps)} gaps were"
-    return [Finding(FindingKind.GAP_CLOSED, f"{count} closed; the widest, {widest:.4f} mm, is at {at(place)}.", *place, False, (), widest)]
+    return [
+        Finding(
+            FindingKind.GAP_CLOSED,
+            f"{count} closed; the widest, {widest:.4f} mm, is at {at(place)}.",
+            *place,
+            False,
+            (),
+            widest,
+        )
+    ]
 
 
 def branch_findings(branches: Sequence[tuple[Point, int]]) -> list[Finding]:
-    """Return a finding for each point where an odd number of ends meet; where an even number does, outlines only touch."""
+    """Return a finding for each point where an odd number of ends meet; where an even number does, outlines only
+    touch.
+    """
     found = []
     for place, ends in branches:
         if ends % 2:

@@ -71,7 +71,11 @@ def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Node
         place, found = all_within(ends[points], ends[left], reach)
         for k, a in enumerate(left.tolist()):
             near = [(math.dist(ends[a], ends[b]), int(b)) for b in points[found[place == k]]]
-            allowed = [b for gap, b in sorted(near) if becomes[single[b]] != becomes[single[a]] and _may_meet(pieces, a, b, gap)]
+            allowed = [
+                b
+                for gap, b in sorted(near)
+                if becomes[single[b]] != becomes[single[a]] and _may_meet(pieces, a, b, gap)
+            ]
             if allowed:
                 becomes[single[a]] = becomes[single[allowed[0]]]
     nodes[nodes >= 0] = becomes[nodes[nodes >= 0]]
@@ -88,7 +92,10 @@ def _may_meet(pieces: Sequence[Piece], a: int, b: int, gap: float) -> bool:
     if a // 2 != b // 2:
         return True
     piece = pieces[a // 2]
-    return not (len(piece.primitives) == 1 and isinstance(piece.primitives[0], Line)) and sum(map(length_of, piece.primitives)) > 3 * gap
+    return (
+        not (len(piece.primitives) == 1 and isinstance(piece.primitives[0], Line))
+        and sum(map(length_of, piece.primitives)) > 3 * gap
+    )
 
 
 def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece], Nodes, list[tuple[float, Point]]]:
@@ -113,8 +120,10 @@ def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece]
         gap = max(math.dist(p, q) for p in points for q in points)
         if gap > tolerances.CURVE:
             gaps.append((gap, target[node]))
-    moved = [piece if a < 0 else with_ends(piece, target[a], target[b])
-             for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)]
+    moved = [
+        piece if a < 0 else with_ends(piece, target[a], target[b])
+        for piece, (a, b) in zip(pieces, nodes.tolist(), strict=True)
+    ]
     kept = [k for k, piece in enumerate(moved) if piece.primitives]
     return [moved[k] for k in kept], nodes[kept] if len(nodes) else nodes, gaps
 

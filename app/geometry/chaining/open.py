@@ -1,4 +1,6 @@
-"""Sentences about open contours: which end nearly meets which, what joins them, and whole layers of lines in one line."""
+"""Sentences about open contours: which end nearly meets which, what joins them, and whole layers of lines in one
+line.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ from .findings import at, limited, named, rounded_up, size_of
 from .pieces import length_of
 
 _SHORT, _SHORT_BETWEEN = 0.1, 0.02
-"""A gap of less than this share of a contour's length was not meant: between its own ends, and to another's, as lines side by side have."""
+"""A gap of less than this share of a contour's length was not meant: between its own ends, and to another's, as lines
+side by side have.
+"""
 _MANY = 4
 """So many contours of a layer that no end comes near are lines that bound nothing, and one line names them."""
 
@@ -48,8 +52,11 @@ def open_findings(contours: Sequence[Contour], join_tolerance: float = 0.0) -> l
         if not ends:
             alone[contour.layer].append(contour)
     bounding = {contour.layer for contour in contours if contour.closed}
-    found = [_nearly_closed(contour, ends) if ends else _unfinished(contour, bounding) for contour, ends in zip(loose, near, strict=True)
-             if ends or len(alone[contour.layer]) < _MANY]  # fmt: skip
+    found = [
+        _nearly_closed(contour, ends) if ends else _unfinished(contour, bounding)
+        for contour, ends in zip(loose, near, strict=True)
+        if ends or len(alone[contour.layer]) < _MANY
+    ]
     lines = [_bounding_nothing(alone[layer], bounding) for layer in alone if len(alone[layer]) >= _MANY]
     return [*limited(found, "open contours"), *lines]
 
@@ -73,8 +80,12 @@ def _joinable(contour: Contour, ends: list[_End], join_tolerance: float) -> list
     """Return the ends that a greater tolerance would join."""
     length = sum(length_of(primitive) for primitive in contour.primitives)
     least = max(join_tolerance, tolerances.WELD)
-    return [end for end in ends if least < end.gap < length * (_SHORT if end.own else _SHORT_BETWEEN)
-            and float(rounded_up(end.gap)) <= LARGEST_JOIN]
+    return [
+        end
+        for end in ends
+        if least < end.gap < length * (_SHORT if end.own else _SHORT_BETWEEN)
+        and float(rounded_up(end.gap)) <= LARGEST_JOIN
+    ]
 
 
 def _nearly_closed(contour: Contour, ends: list[_End]) -> Finding:
@@ -83,7 +94,10 @@ def _nearly_closed(contour: Contour, ends: list[_End]) -> Finding:
         start, end = contour.primitives[0].start, contour.primitives[-1].end
         where = f"is open by {widest.gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}"
     else:
-        where = f"is open: its loose end at {at(widest.place)} is {widest.gap:.3g} mm from that of another at {at(widest.other)}"
+        where = (
+            f"is open: its loose end at {at(widest.place)} is {widest.gap:.3g} mm from that of another at "
+            f"{at(widest.other)}"
+        )
     text = f"{named(contour)} {where}. Join with tolerance {rounded_up(widest.gap)} or edit the ends."
     return Finding(FindingKind.OPEN_CONTOUR, text, *widest.place, True, contour.entity_ids, widest.gap)
 
@@ -91,19 +105,28 @@ def _nearly_closed(contour: Contour, ends: list[_End]) -> Finding:
 def _unfinished(contour: Contour, bounding: set[str]) -> Finding:
     start, end = contour.primitives[0].start, contour.primitives[-1].end
     gap = math.dist(start, end)
-    text = (f"{named(contour)} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. "
-            f"Complete it, or {_leaving('it', contour.layer, bounding)}.")
-    return Finding(FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap, layer=_spare(contour.layer, bounding))
+    text = (
+        f"{named(contour)} is open by {gap:.3g} mm: its loose ends are at {at(start)} and {at(end)}. "
+        f"Complete it, or {_leaving('it', contour.layer, bounding)}."
+    )
+    return Finding(
+        FindingKind.OPEN_CONTOUR, text, *start, True, contour.entity_ids, gap, layer=_spare(contour.layer, bounding)
+    )
 
 
 def _bounding_nothing(lines: Sequence[Contour], bounding: set[str]) -> Finding:
     """Return one finding on the lines of a layer that bound nothing, such as centre and section lines."""
     longest = max(lines, key=lambda contour: sum(length_of(primitive) for primitive in contour.primitives))
     start, end = longest.primitives[0].start, longest.primitives[-1].end
-    text = (f"Layer {longest.layer} has {len(lines)} lines that bound nothing, the longest {size_of(longest)} at {at(start)}. "
-            f"Complete them, or {_leaving('them', longest.layer, bounding)}.")
+    text = (
+        f"Layer {longest.layer} has {len(lines)} lines that bound nothing, the longest {size_of(longest)} at "
+        f"{at(start)}. "
+        f"Complete them, or {_leaving('them', longest.layer, bounding)}."
+    )
     ids = tuple(dict.fromkeys(number for contour in lines for number in contour.entity_ids))
-    return Finding(FindingKind.OPEN_CONTOUR, text, *start, True, ids, math.dist(start, end), layer=_spare(longest.layer, bounding))
+    return Finding(
+        FindingKind.OPEN_CONTOUR, text, *start, True, ids, math.dist(start, end), layer=_spare(longest.layer, bounding)
+    )
 
 
 def _spare(layer: str, bounding: set[str]) -> str:

@@ -89,11 +89,16 @@ def same(a: Piece, b: Piece, reach: float) -> bool:
     """Return whether two circles, or two pieces whose ends are known to pair up, keep within `reach` of one another."""
     if a.is_circle or b.is_circle:
         p, q = a.primitives[0], b.primitives[0]
-        return (isinstance(p, Circle) and isinstance(q, Circle)
-                and math.dist(p.centre, q.centre) + abs(p.radius - q.radius) <= reach)
+        return (
+            isinstance(p, Circle)
+            and isinstance(q, Circle)
+            and math.dist(p.centre, q.centre) + abs(p.radius - q.radius) <= reach
+        )
     mine, others = _marks(a), _marks(b)
     return min(max(map(math.dist, mine, others)), max(map(math.dist, mine, others[::-1]))) <= reach and (
-        len(a.primitives) + len(b.primitives) == 2 or _run_together(rows_of([a])[0], rows_of([b])[0], reach + tolerances.CURVE))
+        len(a.primitives) + len(b.primitives) == 2
+        or _run_together(rows_of([a])[0], rows_of([b])[0], reach + tolerances.CURVE)
+    )
 
 
 def _marks(piece: Piece) -> list[Point]:
@@ -125,8 +130,11 @@ def shared_stretches(pieces: Sequence[Piece], reach: float) -> list[Overlap]:
             first, second = sorted((int(owner[a[k]]), int(owner[b[k]])))
             length = float((high[k] - low[k]) * row_lengths(rows[a[k] : a[k] + 1])[0])
             known = found.get((first, second))
-            found[first, second] = (Overlap(first, second, length, (float(start[0]), float(start[1])), (float(end[0]), float(end[1])))
-                                    if known is None else Overlap(first, second, known.length + length, known.start, known.end))
+            found[first, second] = (
+                Overlap(first, second, length, (float(start[0]), float(start[1])), (float(end[0]), float(end[1])))
+                if known is None
+                else Overlap(first, second, known.length + length, known.start, known.end)
+            )
     return [found[key] for key in sorted(found)]
 
 
@@ -168,7 +176,9 @@ def _quarters(rows: Rows) -> tuple[Rows, NDArray[np.int64]]:
 
 
 def _line_share(a: Rows, b: Rows, reach: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the range of fractions of lines a that lines b cover; empty (high <= low) where they do not run together."""
+    """Return the range of fractions of lines a that lines b cover; empty (high <= low) where they do not run
+    together.
+    """
     along = a[:, X1 : X1 + 2] - a[:, :2]
     length = np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-300)
     unit = along / length[:, None]

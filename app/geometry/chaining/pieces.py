@@ -1,4 +1,6 @@
-"""What contours are chained from: one drawn curve as lines and arcs, and ends that are moved so that neighbours meet."""
+"""What contours are chained from: one drawn curve as lines and arcs, and ends that are moved so that neighbours
+meet.
+"""
 
 from __future__ import annotations
 
@@ -82,14 +84,25 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]
         try:
             primitives, deviation = _primitives(entity)
         except GeometryError as error:
-            findings.append(Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {error}", entity_ids=(entity.id,)))
+            findings.append(
+                Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} is left out: {error}", entity_ids=(entity.id,))
+            )
             continue
         if primitives:
             pieces.append(Piece(primitives, entity.id, entity.layer, deviation))
         else:
             x, y = entity.curve.start
-            findings.append(Finding(FindingKind.TINY_ENTITY, f"Entity {entity.id} at ({x:.3f}, {y:.3f}) has no length; it is left out.",
-                                    x, y, False, (entity.id,), 0.0))
+            findings.append(
+                Finding(
+                    FindingKind.TINY_ENTITY,
+                    f"Entity {entity.id} at ({x:.3f}, {y:.3f}) has no length; it is left out.",
+                    x,
+                    y,
+                    False,
+                    (entity.id,),
+                    0.0,
+                )
+            )
     return pieces, findings
 
 
@@ -173,7 +186,10 @@ def _moved(primitive: Primitive, start: Point, end: Point) -> tuple[list[Primiti
     if isinstance(primitive, Line):
         return ([Line(start, end)] if start != end else []), gap
     if isinstance(primitive, Arc) and start != end:
-        arc, off = min(((made, off_circle(made, primitive)) for made in _refitted(primitive, start, end)), key=lambda choice: choice[1])
+        arc, off = min(
+            ((made, off_circle(made, primitive)) for made in _refitted(primitive, start, end)),
+            key=lambda choice: choice[1],
+        )
         if off <= max(_AMPLIFIED * gap, _ROUNDING):
             return [arc], max(off, gap)
     bridges: list[Primitive] = [primitive]
@@ -205,5 +221,7 @@ def off_circle(arc: Arc, old: Arc) -> float:
 def equally_far(start: Point, end: Point, centre: Point) -> Point:
     """Return the point nearest to centre that is equally far from start and end, which differ."""
     dx, dy = end[0] - start[0], end[1] - start[1]
-    along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (dx * dx + dy * dy)
+    along = ((centre[0] - (start[0] + end[0]) / 2) * dx + (centre[1] - (start[1] + end[1]) / 2) * dy) / (
+        dx * dx + dy * dy
+    )
     return centre[0] - along * dx, centre[1] - along * dy

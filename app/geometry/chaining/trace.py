@@ -34,7 +34,9 @@ def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step],
             partner[a], partner[b] = b, a
     found = [([(k, True)], True) for k, piece in enumerate(pieces) if piece.is_circle]
     found += _walks(len(pieces), partner, {k for k, piece in enumerate(pieces) if piece.is_circle})
-    places = [(pieces[ends[0] // 2].start if ends[0] % 2 == 0 else pieces[ends[0] // 2].end, len(ends)) for ends in crowded]
+    places = [
+        (pieces[ends[0] // 2].start if ends[0] % 2 == 0 else pieces[ends[0] // 2].end, len(ends)) for ends in crowded
+    ]
     return sorted(found, key=lambda path: min(path[0])), places
 
 
@@ -105,7 +107,9 @@ def tangent(primitive: Primitive, at_start: bool) -> Point:
 
 
 def _bridges(at: dict[int, list[int]]) -> set[int]:
-    """Return the pieces that lie on no loop: Tarjan (1974), "A note on finding the bridges of a graph", without recursion."""
+    """Return the pieces that lie on no loop: Tarjan (1974), "A note on finding the bridges of a graph", without
+    recursion.
+    """
     node_of = {end: node for node, ends in at.items() for end in ends}
     order: dict[int, int] = {}
     low: dict[int, int] = {}

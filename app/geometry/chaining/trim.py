@@ -17,7 +17,9 @@ from .pieces import Piece, equally_far, off_circle
 Nodes = NDArray[np.int64]
 
 
-def trimmed(pieces: Sequence[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[Piece], Nodes, list[Overlap]]:
+def trimmed(
+    pieces: Sequence[Piece], nodes: Nodes, overlaps: Sequence[Overlap]
+) -> tuple[list[Piece], Nodes, list[Overlap]]:
     """Return pieces and nodes with arcs that overlap at loose ends cut to meet there, and the overlaps with that noted.
 
     The shape stays as it was drawn, so that no tolerance is asked: each of both ends lies on the other arc, within
@@ -36,7 +38,9 @@ def trimmed(pieces: Sequence[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) 
 
 
 def _cut(pieces: list[Piece], nodes: Nodes, pair: tuple[int, int], kept: NDArray[np.bool_]) -> bool:
-    """Let the second arc begin where the first one ends, both seen counter-clockwise, in place; False if they do not overlap so."""
+    """Let the second arc begin where the first one ends, both seen counter-clockwise, in place; False if they do not
+    overlap so.
+    """
     one, other = (pieces[k].primitives[0] for k in pair)
     if any(len(pieces[k].primitives) > 1 for k in pair) or not isinstance(one, Arc) or not isinstance(other, Arc):
         return False
@@ -52,9 +56,14 @@ def _cut(pieces: list[Piece], nodes: Nodes, pair: tuple[int, int], kept: NDArray
     rest = other.end if other.ccw else other.start
     centre = equally_far(place, rest, other.centre)
     short = Arc(place, rest, centre, True) if other.ccw else Arc(rest, place, centre, False)
-    if math.dist(centre, other.centre) > tolerances.CURVE + other.radius * 1e-9 or off_circle(short, other) > 2 * tolerances.CURVE:
+    if (
+        math.dist(centre, other.centre) > tolerances.CURVE + other.radius * 1e-9
+        or off_circle(short, other) > 2 * tolerances.CURVE
+    ):
         return False
-    pieces[pair[1]] = replace(pieces[pair[1]], primitives=(short,), deviation=pieces[pair[1]].deviation + off_circle(short, other))
+    pieces[pair[1]] = replace(
+        pieces[pair[1]], primitives=(short,), deviation=pieces[pair[1]].deviation + off_circle(short, other)
+    )
     nodes[pair[1], start_side] = last
     return True
 

@@ -61,7 +61,9 @@ def _candidates(ends: NDArray[np.float64], nodes: Nodes, reach: float) -> list[t
     whole = ends.reshape(-1, 4)
     found = set()
     for turned in (whole[loose], whole[loose][:, [2, 3, 0, 1]]):
-        place, other = all_within(whole[able], turned, 2 * reach)  # of four numbers, none of which differs by more than reach
+        place, other = all_within(
+            whole[able], turned, 2 * reach
+        )  # of four numbers, none of which differs by more than reach
         near = np.abs(turned[place] - whole[able[other]]).max(axis=1, initial=0.0) <= reach
         couples = zip(loose[place[near]].tolist(), able[other[near]].tolist(), strict=True)
         found |= {(min(j, k), max(j, k)) for j, k in couples if j != k}
@@ -89,27 +91,42 @@ def _copies(pieces: Sequence[Piece], nodes: Nodes, pairs: list[tuple[int, int]],
     paired = {k for pair in pairs for k in pair}
     group = _groups(nodes)
     concerned = {int(group[k]) for k in paired}
-    own = {int(group[k]) for k, piece in enumerate(pieces) if k not in paired and int(group[k]) in concerned
-           and nodes[k, 0] >= 0 and sum(map(length_of, piece.primitives)) > _LONG * reach}
+    own = {
+        int(group[k])
+        for k, piece in enumerate(pieces)
+        if k not in paired
+        and int(group[k]) in concerned
+        and nodes[k, 0] >= 0
+        and sum(map(length_of, piece.primitives)) > _LONG * reach
+    }
     return [(j, k) for j, k in pairs if int(group[j]) not in own or int(group[k]) not in own]
 
 
 def _met(pieces: Sequence[Piece], nodes: Nodes, pair: tuple[int, int], reach: float) -> list[tuple[int, int]]:
-    """Return the two pairs of nodes (lower first) that become one when two pieces are the same curve; none if they are short."""
+    """Return the two pairs of nodes (lower first) that become one when two pieces are the same curve; none if they are
+    short.
+    """
     j, k = pair
     a, b = pieces[j], pieces[k]
     if min(sum(map(length_of, p.primitives)) for p in (a, b)) <= _LONG * reach:
         return []
-    choices = [(max(math.dist(a.start, b.start), math.dist(a.end, b.end)), 2 * k, 2 * k + 1),
-               (max(math.dist(a.start, b.end), math.dist(a.end, b.start)), 2 * k + 1, 2 * k)]
+    choices = [
+        (max(math.dist(a.start, b.start), math.dist(a.end, b.end)), 2 * k, 2 * k + 1),
+        (max(math.dist(a.start, b.end), math.dist(a.end, b.start)), 2 * k + 1, 2 * k),
+    ]
     apart, *other = min(choices)
     couples = [(int(nodes[2 * j + side]), int(nodes[end])) for side, end in enumerate(other)]
     return [(min(c), max(c)) for c in couples] if apart <= reach else []
 
 
 def _thin(pieces: Sequence[Piece], nodes: Nodes, reach: float) -> set[tuple[int, int]]:
-    """Return the pairs of nodes (lower first) that mark the end of a thin feature: a short cap, or the tip of a spike."""
-    caps = {(int(min(nodes[2 * k : 2 * k + 2])), int(max(nodes[2 * k : 2 * k + 2]))) for k, piece in enumerate(pieces)
-            if sum(map(length_of, piece.primitives)) <= _LONG * reach}
+    """Return the pairs of nodes (lower first) that mark the end of a thin feature: a short cap, or the tip of a
+    spike.
+    """
+    caps = {
+        (int(min(nodes[2 * k : 2 * k + 2])), int(max(nodes[2 * k : 2 * k + 2])))
+        for k, piece in enumerate(pieces)
+        if sum(map(length_of, piece.primitives)) <= _LONG * reach
+    }
     tips = np.flatnonzero(np.bincount(nodes[nodes >= 0], minlength=1) == 2).tolist()
     return caps | {(tip, tip) for tip in tips}

@@ -1,4 +1,6 @@
-"""Compiled inner loops: how near two rows come to each other, in closed form, and whether paths keep their distance from a drawing."""
+"""Compiled inner loops: how near two rows come to each other, in closed form, and whether paths keep their distance
+from a drawing.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,9 @@ def _two_arcs(a, i, b, j, best):
     ux, uy = dx / d, dy / d
     for p in (-r, r):
         for q in (-s, s):
-            if in_sector(a, i, a[i, 4] + p * ux, a[i, 5] + p * uy) and in_sector(b, j, b[j, 4] + q * ux, b[j, 5] + q * uy):
+            if in_sector(a, i, a[i, 4] + p * ux, a[i, 5] + p * uy) and in_sector(
+                b, j, b[j, 4] + q * ux, b[j, 5] + q * uy
+            ):
                 best = min(best, abs(d + q - p))
     if abs(r - s) < d < r + s:
         along = (d * d + r * r - s * s) / (2 * d)
@@ -83,7 +87,9 @@ def probe_row(rows, i, probe):
         probe[4], probe[5], probe[6], probe[7], probe[8] = 0.0, 0.0, chord / 2, 0.0, chord / 2
         return True
     ax, ay, bx, by = rows[i, 0] - rows[i, 4], rows[i, 1] - rows[i, 5], rows[i, 2] - rows[i, 4], rows[i, 3] - rows[i, 5]
-    nx, ny = (turn * uy, -turn * ux) if chord > r else (ax + bx, ay + by)  # whichever is longer, so tells the direction better
+    nx, ny = (
+        (turn * uy, -turn * ux) if chord > r else (ax + bx, ay + by)
+    )  # whichever is longer, so tells the direction better
     size = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / size, ny / size
     sine = min(chord / (2 * r), 1.0)

@@ -5,9 +5,9 @@ the frames of steps 142-148). Every ring comes from the drawing itself, never fr
 
 Method: each line and arc is moved to its left by the level, each vertex at which the boundary turns right becomes an
 arc; the parts of these to which any primitive comes nearer than the level are cut away in closed form; what remains is
-stitched into rings. Then every move is proven, along its whole length and in other closed forms, to keep its distance from
-the whole drawing. A level that does not close or measures wrong is tried again a fraction of a micrometre further in, and
-falls back to a fine polyline at last.
+stitched into rings. Then every move is proven, along its whole length and in other closed forms, to keep its distance
+from the whole drawing. A level that does not close or measures wrong is tried again a fraction of a micrometre further
+in, and falls back to a fine polyline at last.
 """
 
 from __future__ import annotations
@@ -51,7 +51,9 @@ _BAND = 10_000
 """Pieces that are cut in less than a fifth of a second."""
 
 _EXACT = 8e-7
-"""How far from its level a path of lines and arcs may measure, mm; more, up to the path's own tolerance, if nothing else closes."""
+"""How far from its level a path of lines and arcs may measure, mm; more, up to the path's own tolerance, if nothing
+else closes.
+"""
 
 _NUDGES = (0.0, 1e-7, 3.3e-7, 7.1e-7, -1.3e-7)
 _ATTEMPTS = tuple((nudge, limit) for limit in (_EXACT, tolerances.LEVEL / 2) for nudge in _NUDGES)
@@ -84,8 +86,9 @@ class Level:
     rings: tuple[Ring, ...]
 
 
-def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Progress = NO_PROGRESS, *,
-                  frame: bool = False) -> tuple[Level, ...]:
+def offset_levels(
+    primitives: Primitives, levels: Sequence[float], progress: Progress = NO_PROGRESS, *, frame: bool = False
+) -> tuple[Level, ...]:
     """Return the rings at each of some distances from a drawing.
 
     Args:
@@ -113,8 +116,10 @@ def offset_levels(primitives: Primitives, levels: Sequence[float], progress: Pro
             break
         progress.step(k / len(levels), f"Offset {distance:.3f} mm")
         part = progress.part(k / len(levels), (k + 1) / len(levels))
-        result.append(Level(distance, engine.frame(distance, part) if frame and k == 0 else engine.rings(distance, part)))
-    return *result, *(Level(distance, ()) for distance in levels[len(result):])
+        result.append(
+            Level(distance, engine.frame(distance, part) if frame and k == 0 else engine.rings(distance, part))
+        )
+    return *result, *(Level(distance, ()) for distance in levels[len(result) :])
 
 
 class _Engine:
@@ -132,7 +137,7 @@ class _Engine:
         self._slack = 2e-13 * max(float(np.abs(rows[:, :4]).max()), 100.0)
         self._angles = np.empty((2 * len(rows), 2))
         offset_kernels.element_angles(rows, primitives.previous, self._angles)
-        elements = np.concatenate([np.arange(len(rows)), len(rows) + np.flatnonzero(self._angles[len(rows):, 1] < 0)])
+        elements = np.concatenate([np.arange(len(rows)), len(rows) + np.flatnonzero(self._angles[len(rows) :, 1] < 0)])
         self._active = np.zeros((len(elements), 3))
         self._active[:, 0], self._active[:, 2] = elements, 1.0
         self._levels = [0.0]
@@ -145,7 +150,9 @@ class _Engine:
         return len(self._active) == 0
 
     def frame(self, distance: float, progress: Progress) -> tuple[Ring, ...]:
-        """Return the rings at the first distance; for regions that the tool passes only just, those at FIT or NOMINAL less."""
+        """Return the rings at the first distance; for regions that the tool passes only just, those at FIT or NOMINAL
+        less.
+        """
         loose = _by_region(self.rings(distance - tolerances.NOMINAL, progress, keep_ridges=True))
         tight = _by_region(self.rings(distance - tolerances.FIT, progress, keep_ridges=True))
         true = _by_region(self.rings(distance, progress))
@@ -186,15 +193,20 @@ class _Engine:
             return self._blockers
         safe = max(2 * self._levels[-1] - distance - 1e-6, 0.0)
         known = self._levels[bisect.bisect_right(self._levels, safe) - 1]
-        left: tuple[Indices, Rows, Rows] = offset_trim_kernels.blockers(self._rows, self._field.boxes, *self._blockers, self._live, known)
+        left: tuple[Indices, Rows, Rows] = offset_trim_kernels.blockers(
+            self._rows, self._field.boxes, *self._blockers, self._live, known
+        )
         return left
 
     def _trim(self, distance: float, progress: Progress) -> Rows:
-        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two cores."""
+        """Return the pieces (m, 3) of elements to which nothing is nearer than the distance; many are cut on two
+        cores.
+        """
 
         def trimmed(active: Rows) -> Rows:
-            pieces: Rows = offset_trim_kernels.trim(self._rows, self._field.boxes, *self._blockers, self._angles, active,
-                                                    distance, self._slack)
+            pieces: Rows = offset_trim_kernels.trim(
+                self._rows, self._field.boxes, *self._blockers, self._angles, active, distance, self._slack
+            )
             return pieces
 
         if len(self._active) < _WORTH_TWO_CORES:
@@ -206,25 +218,38 @@ class _Engine:
         return np.concatenate(parts)
 
     def _stitch(self, pieces: Rows, distance: float, limit: float) -> list[Ring] | None:
-        """Return closed rings made of all pieces, or None when one has no continuation, measures wrong or lies outside."""
+        """Return closed rings made of all pieces, or None when one has no continuation, measures wrong or lies
+        outside.
+        """
         apart = max(2e-5, 8 * math.sqrt(self._slack * distance))
-        closed, joined, owners, table = ring_kernels.close(self._rows, *self._tree[:2], self._angles, pieces, distance, apart,
-                                                           tolerances.RIDGE)
+        closed, joined, owners, table = ring_kernels.close(
+            self._rows, *self._tree[:2], self._angles, pieces, distance, apart, tolerances.RIDGE
+        )
         if not closed or not self._measure_right(joined, owners, distance, limit):
             return None
         ring_kernels.shift(joined, self._shift[0], self._shift[1])
         still = np.concatenate([[0], np.cumsum((joined[:, :2] == joined[:, 2:4]).all(axis=1))])
         first, stop, owner = table[:, [0, 1, 4]].T.astype(np.int64)
-        each = zip(first.tolist(), stop.tolist(), (still[stop] > still[first]).tolist(), self._primitives.region[owner].tolist(),
-                   *table[:, 2:4].T.tolist(), strict=True)  # fmt: skip
-        return [Ring(_lasting(joined[a:b]) if some else joined[a:b], region, area, length) for a, b, some, region, area, length in each]
+        each = zip(
+            first.tolist(),
+            stop.tolist(),
+            (still[stop] > still[first]).tolist(),
+            self._primitives.region[owner].tolist(),
+            *table[:, 2:4].T.tolist(),
+            strict=True,
+        )
+        return [
+            Ring(_lasting(joined[a:b]) if some else joined[a:b], region, area, length)
+            for a, b, some, region, area, length in each
+        ]
 
     def _measure_right(self, joined: Rows, owners: Indices, distance: float, limit: float) -> bool:
         """Return whether all of a level keeps its distance from the whole drawing within a limit, mm."""
 
         def right(part: slice) -> bool:
-            good: bool = offset_clearance_kernels.measures_right(joined[part], owners[part], self._rows, self._field.boxes, *self._tree,
-                                                                 distance, limit)
+            good: bool = offset_clearance_kernels.measures_right(
+                joined[part], owners[part], self._rows, self._field.boxes, *self._tree, distance, limit
+            )
             return good
 
         if len(joined) < _WORTH_TWO_CORES:
@@ -244,7 +269,9 @@ class _Engine:
 
 
 def _lasting(rows: Rows) -> Rows:
-    """Return a ring's rows without those that rounding leaves no length where the drawing lies: of an arc it would make a full turn."""
+    """Return a ring's rows without those that rounding leaves no length where the drawing lies: of an arc it would make
+    a full turn.
+    """
     still = (rows[:, :2] == rows[:, 2:4]).all(axis=1)
     return rows[~still] if 0 < np.count_nonzero(still) < len(rows) else rows
 

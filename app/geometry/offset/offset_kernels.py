@@ -19,7 +19,9 @@ SHORTEST = 1e-7  # mm; pieces below this are bridged by the stitching tolerance
 
 @kernel("float64(float64[:, ::1], int64, int64)", counts=False)
 def _vertex_turn(rows, k, i):
-    """Return the turn from the end of row k to the start of row i, radians, in [-2 pi, pi]; a half turn to either side."""
+    """Return the turn from the end of row k to the start of row i, radians, in [-2 pi, pi]; a half turn to either
+    side.
+    """
     ux, uy = rows[k, 2] - rows[k, 0], rows[k, 3] - rows[k, 1]
     if rows[k, 7] != 0.0:
         ux, uy = -rows[k, 7] * (rows[k, 3] - rows[k, 5]), rows[k, 7] * (rows[k, 2] - rows[k, 4])
@@ -193,9 +195,14 @@ def push(blocked, count, u0, u1):
     return blocked, count + 1
 
 
-@kernel("Tuple((float64[:, ::1], int64))(float64[:, ::1], int64, float64[::1], float64[:, ::1], int64, float64[::1], float64[::1])")
+@kernel(
+    "Tuple((float64[:, ::1], int64))(float64[:, ::1], int64, float64[::1], float64[:, ::1], int64, float64[::1], "
+    "float64[::1])"
+)
 def block(blocked, blocks, shape, rows, j, span, cuts):
-    """Add the parts of an element's piece to which row j comes nearer than the level. span: u0, u1, level, level - slack."""
+    """Add the parts of an element's piece to which row j comes nearer than the level. span: u0, u1, level, level -
+    slack.
+    """
     m = cut(shape, rows, j, span[2], span[0], span[1], cuts)
     for k in range(m - 1):
         x, y = place(shape, (cuts[k] + cuts[k + 1]) / 2)

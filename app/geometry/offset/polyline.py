@@ -15,7 +15,9 @@ _CHORD = 1e-4
 _SMALL = 1e-6  # mm; step of the numeric slope
 
 
-def polyline_loops(field: DistanceField, rows: Rows, primitives: Primitives, distance: float) -> list[tuple[NDArray[np.float64], int]]:
+def polyline_loops(
+    field: DistanceField, rows: Rows, primitives: Primitives, distance: float
+) -> list[tuple[NDArray[np.float64], int]]:
     """Return (points (m, 2), region number) of the rings at a distance, found by buffering polygons with shapely.
 
     Every point is then moved along the line from its nearest point on the drawing until it measures `distance`; a
@@ -39,7 +41,7 @@ def _area(rows: Rows, primitives: Primitives, number: int) -> shapely.Geometry:
     starts = np.flatnonzero((primitives.region == number) & (primitives.previous >= np.arange(len(rows))))
     for first in starts:
         last = int(primitives.previous[first])
-        area = area.symmetric_difference(shapely.make_valid(shapely.Polygon(sample(rows[first:last + 1], _CHORD))))
+        area = area.symmetric_difference(shapely.make_valid(shapely.Polygon(sample(rows[first : last + 1], _CHORD))))
     return area
 
 

@@ -53,7 +53,8 @@ def _nearest_start(rows, i, taken, radius, last, before, mask):
 
 @kernel("boolean(float64[:, ::1], float64, int64[::1])")
 def follow(rows, tolerance, following):
-    """Write for each row the row that starts nearest to its end, each used once; return False when one has none within tolerance.
+    """Write for each row the row that starts nearest to its end, each used once; return False when one has none within
+    tolerance.
 
     Nearest pairs are matched first: ever wider circles.
     """
@@ -79,7 +80,8 @@ def follow(rows, tolerance, following):
 
 @kernel("int64(float64[:, ::1], int64[::1], float64[:, ::1], int64[::1], int64[::1])")
 def assemble(rows, following, out, order, starts):
-    """Write the rows ring after ring, each beginning exactly where the one before ends; return how many rings there are.
+    """Write the rows ring after ring, each beginning exactly where the one before ends; return how many rings there
+    are.
 
     Args:
         following: (m,) row that comes after each row; a permutation.
@@ -128,7 +130,11 @@ def measure(rows, first, stop):
         sweep = _sweep(rows, i)
         area += ((rows[i, 0] - x) * (rows[i, 3] - y) - (rows[i, 2] - x) * (rows[i, 1] - y)) / 2
         area += rows[i, 6] * rows[i, 6] * (sweep - math.sin(sweep)) / 2
-        length += math.hypot(rows[i, 2] - rows[i, 0], rows[i, 3] - rows[i, 1]) if rows[i, 7] == 0.0 else rows[i, 6] * abs(sweep)
+        length += (
+            math.hypot(rows[i, 2] - rows[i, 0], rows[i, 3] - rows[i, 1])
+            if rows[i, 7] == 0.0
+            else rows[i, 6] * abs(sweep)
+        )
     return area, length
 
 
@@ -136,9 +142,13 @@ _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
 _SIZES = "float64, float64, float64"
 
 
-@kernel(f"Tuple((boolean, float64[:, ::1], int64[::1], float64[:, ::1]))({_TREE}, float64[:, ::1], float64[:, ::1], {_SIZES})")
+@kernel(
+    f"Tuple((boolean, float64[:, ::1], int64[::1], float64[:, ::1]))({_TREE}, float64[:, ::1], float64[:, ::1], "
+    f"{_SIZES})"
+)
 def close(drawing, order, nodes, angles, pieces, level, apart, ridge):
-    """Join all pieces at a level into closed rings; return (whether that can be done, rows, their owners, a table of rings).
+    """Join all pieces at a level into closed rings; return (whether that can be done, rows, their owners, a table of
+    rings).
 
     Rings outside the drawing are left out when they are as good as a line or a point; other ones make it fail.
 
@@ -168,7 +178,13 @@ def close(drawing, order, nodes, angles, pieces, level, apart, ridge):
             if length < 4 * ridge or 0.0 <= area < length * ridge:
                 continue
             return False, joined, origin, table
-        table[kept, 0], table[kept, 1], table[kept, 2], table[kept, 3], table[kept, 4] = first, stop, area, length, origin[first]
+        table[kept, 0], table[kept, 1], table[kept, 2], table[kept, 3], table[kept, 4] = (
+            first,
+            stop,
+            area,
+            length,
+            origin[first],
+        )
         kept += 1
     return True, joined, origin, table[:kept]
 

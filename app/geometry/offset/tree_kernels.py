@@ -1,8 +1,8 @@
 """Compiled inner loops of the exact offset: a tree whose leaves are runs of rows.
 
-As the tree of `kernels`, but up to four rows to a leaf that follow one another where they can (-1 where there are fewer),
-the leaves in Morton order. A leaf has a capsule as well, a line and a radius, which fits a slanting run of rows much
-closer than its box.
+As the tree of `kernels`, but up to four rows to a leaf that follow one another where they can (-1 where there are
+fewer), the leaves in Morton order. A leaf has a capsule as well, a line and a radius, which fits a slanting run of rows
+much closer than its box.
 """
 
 from __future__ import annotations
@@ -17,7 +17,9 @@ from ..kernels import INF, LEAF, spread
 
 @kernel("void(float64[:, ::1], int64[::1], int64, float64[:, ::1])", counts=False)
 def _capsule(rows, order, leaf, capsules):
-    """Write the thick line x0, y0, x1, y1, radius that holds the rows of a leaf: from where the first starts to where the last ends."""
+    """Write the thick line x0, y0, x1, y1, radius that holds the rows of a leaf: from where the first starts to where
+    the last ends.
+    """
     first = leaf * LEAF
     last = first
     while last + 1 < first + LEAF and order[last + 1] >= 0:
@@ -66,7 +68,9 @@ def tree_over(rows, boxes, order):
 
 @kernel("int64(float64[:, ::1], int64[::1])", counts=False)
 def _runs(rows, starts):
-    """Write where runs of at most LEAF rows begin that follow one another, and the end of the last; return how many there are."""
+    """Write where runs of at most LEAF rows begin that follow one another, and the end of the last; return how many
+    there are.
+    """
     count = size = 0
     for i in range(len(rows)):
         joined = i > 0 and abs(rows[i, 0] - rows[i - 1, 2]) < 1e-6 and abs(rows[i, 1] - rows[i - 1, 3]) < 1e-6

@@ -51,7 +51,9 @@ def probe_piece(shape, u0, u1, probe):
 
 @kernel("boolean(float64, float64, float64[::1])", counts=False)
 def _clear(dx, dy, probe):
-    """Return whether a convex thing whose point nearest to the piece's middle lies at (dx, dy) from it stays as far as the level."""
+    """Return whether a convex thing whose point nearest to the piece's middle lies at (dx, dy) from it stays as far as
+    the level.
+    """
     d2, level = dx * dx + dy * dy, probe[9]
     if d2 >= (level + probe[8]) * (level + probe[8]):
         return True
@@ -96,7 +98,9 @@ def misses_capsule(capsules, leaf, probe):
 
 @kernel("boolean(float64[:, ::1], float64[:, ::1], int64, float64[::1])", counts=False)
 def misses_row(rows, boxes, j, probe):
-    """Return whether row j is at least as far from all of a piece as the level, as far as its nearest point tells, or its box."""
+    """Return whether row j is at least as far from all of a piece as the level, as far as its nearest point tells, or
+    its box.
+    """
     if rows[j, 7] != 0.0:
         return misses(boxes, j, probe)
     dx, dy = _to_line(rows, j, probe[0], probe[1])
@@ -105,7 +109,9 @@ def misses_row(rows, boxes, j, probe):
 
 @kernel("int64(float64[:, ::1], int64, float64[::1])", counts=False)
 def _blocks_middle(rows, j, probe):
-    """Return -1 - 2 j when row j comes nearer than the level all along a piece, -2 - 2 j when at its middle at least, else 0."""
+    """Return -1 - 2 j when row j comes nearer than the level all along a piece, -2 - 2 j when at its middle at least,
+    else 0.
+    """
     d = point_distance(rows, j, probe[0], probe[1])
     if d >= probe[9]:
         return 0
@@ -116,8 +122,9 @@ def _blocks_middle(rows, j, probe):
 def candidates(rows, boxes, order, nodes, capsules, own, probe, near, stack, first_guess):
     """Write the rows that may come nearer to a piece than the level; return how many.
 
-    As soon as one row j is found that does so at the piece's middle, -1 - 2 j or -2 - 2 j is returned, see `_blocks_middle`.
-    The row that blocked the last piece is a good first guess (-1: none), as neighbours come one after the other.
+    As soon as one row j is found that does so at the piece's middle, -1 - 2 j or -2 - 2 j is returned, see
+    `_blocks_middle`. The row that blocked the last piece is a good first guess (-1: none), as neighbours come one after
+    the other.
     """
     leaves, count = (len(nodes) + 1) // 2, 0
     if first_guess >= 0 and first_guess != own:
@@ -132,8 +139,12 @@ def candidates(rows, boxes, order, nodes, capsules, own, probe, near, stack, fir
             continue
         if k < leaves - 1:
             x, y = 2 * probe[0], 2 * probe[1]
-            left = abs(nodes[2 * k + 1, 0] + nodes[2 * k + 1, 2] - x) + abs(nodes[2 * k + 1, 1] + nodes[2 * k + 1, 3] - y)
-            right = abs(nodes[2 * k + 2, 0] + nodes[2 * k + 2, 2] - x) + abs(nodes[2 * k + 2, 1] + nodes[2 * k + 2, 3] - y)
+            left = abs(nodes[2 * k + 1, 0] + nodes[2 * k + 1, 2] - x) + abs(
+                nodes[2 * k + 1, 1] + nodes[2 * k + 1, 3] - y
+            )
+            right = abs(nodes[2 * k + 2, 0] + nodes[2 * k + 2, 2] - x) + abs(
+                nodes[2 * k + 2, 1] + nodes[2 * k + 2, 3] - y
+            )
             nearer = 1 if left < right else 2
             stack[top], stack[top + 1] = 2 * k + 3 - nearer, 2 * k + nearer
             top += 2
@@ -157,13 +168,17 @@ def candidates(rows, boxes, order, nodes, capsules, own, probe, near, stack, fir
 
 @kernel("int64(float64[::1], float64[:, ::1], int64, float64[::1], float64[::1], float64[:, ::1], int64)", counts=False)
 def _split_off(shape, rows, j, span, cuts, spans, top):
-    """Push what lies before and after the part about the piece's middle to which row j comes nearer; set the span to that part."""
+    """Push what lies before and after the part about the piece's middle to which row j comes nearer; set the span to
+    that part.
+    """
     middle = (span[0] + span[1]) / 2
     m = cut(shape, rows, j, span[2], span[0], span[1], cuts)
     k = 0
     while k < m - 2 and cuts[k + 1] <= middle:
         k += 1
-    before = cuts[k] - span[0] < span[1] - cuts[k + 1]  # the shorter one comes next, so there is never more than half left of each
+    before = (
+        cuts[k] - span[0] < span[1] - cuts[k + 1]
+    )  # the shorter one comes next, so there is never more than half left of each
     for c in range(2):
         a, b = (span[0], cuts[k]) if before == (c == 1) else (cuts[k + 1], span[1])
         if b > a:
@@ -175,7 +190,9 @@ def _split_off(shape, rows, j, span, cuts, spans, top):
 
 @kernel("Tuple((float64[:, ::1], int64))(float64[:, ::1], int64, int64, float64[::1], float64[:, ::1], int64)")
 def _keep_rest(blocked, blocks, e, limits, pieces, count):
-    """Append what is left of an element's piece after taking the blocked parts out. limits: u0, u1, shortest fraction."""
+    """Append what is left of an element's piece after taking the blocked parts out. limits: u0, u1, shortest
+    fraction.
+    """
     at = limits[0]
     for k in range(blocks + 1):
         begin, end = (blocked[k, 0], blocked[k, 1]) if k < blocks else (limits[1], limits[1])
@@ -239,12 +256,12 @@ def blockers(rows, boxes, order, nodes, capsules, live, level):
     left, count = np.empty(len(order), np.int64), 0
     for first in range(0, len(order), LEAF):
         at = count
-        for j in order[first:first + LEAF]:
+        for j in order[first : first + LEAF]:
             if j >= 0 and live[j] >= level:
                 left[at] = j
                 at += 1
         if at > count:
-            left[at:count + LEAF] = -1
+            left[at : count + LEAF] = -1
             count += LEAF
     if 4 * count > 3 * len(order):
         return order, nodes, capsules

@@ -39,7 +39,9 @@ def loops_in_pairs(edges: Edges, turn: Turn, kept: Flags) -> list[list[int]]:
 
 
 def _next_clockwise(turn: Turn, kept: Flags) -> Indices:
-    """Return for each end which kept one goes on from where it leads: the next clockwise from the way back; -1 where none does."""
+    """Return for each end which kept one goes on from where it leads: the next clockwise from the way back; -1 where
+    none does.
+    """
     place = np.arange(len(turn.ends))
     there = kept[turn.ends]
     first, stop = turn.first[turn.ends], turn.stop[turn.ends]

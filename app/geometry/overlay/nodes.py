@@ -1,8 +1,9 @@
 """Rows cut where they meet: every point where two meet is a node, and every row that passes a node goes through it.
 
-One length decides, WELD: points nearer to one another are one node, a row nearer to a node passes it, pieces between the same
-nodes that keep nearer are one edge. What moves through that is looked at again, until nothing new meets (iterated snap
-rounding). No side is asked here, so nothing can be lost: every row stays a way from the node of its start to that of its end.
+One length decides, WELD: points nearer to one another are one node, a row nearer to a node passes it, pieces between
+the same nodes that keep nearer are one edge. What moves through that is looked at again, until nothing new meets
+(iterated snap rounding). No side is asked here, so nothing can be lost: every row stays a way from the node of its
+start to that of its end.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 REACH = tolerances.WELD
-"""mm; the one length below which things are the same. Area moves by less than half of it times the length of what is moved."""
+"""mm; the one length below which things are the same. Area moves by less than half of it times the length of what is
+moved.
+"""
 
 _FLAT = REACH / 100
 """mm; an arc that rises less over its chord is a line: its ends may move by REACH and never make a full turn of it."""
@@ -103,7 +106,8 @@ def _cut(rows: Rows, contour: Indices, moved: Flags) -> Pieces:
 def _nodes(points: Floats) -> tuple[Indices, Floats]:
     """Return (number of the node (n,) of each point, places (k, 2)); a node lies on the first of its points.
 
-    Points that hang together from one to the next over more than REACH have several nodes, each more than REACH from the others.
+    Points that hang together from one to the next over more than REACH have several nodes, each more than REACH from
+    the others.
     """
     number = groups(len(points), pairs_within(points, REACH))
     first = np.unique(number, return_index=True)[1]
@@ -131,7 +135,8 @@ def _leaders(points: Floats) -> list[int]:
 
 
 def _crossed(rows: Rows, places: Floats, node: Indices, pairs: tuple[Indices, Indices]) -> Indices:
-    """Return (row, node) (m, 2) of rows on which contacts lie exactly: they cross there, so both have to go through its node.
+    """Return (row, node) (m, 2) of rows on which contacts lie exactly: they cross there, so both have to go through its
+    node.
 
     The node may be REACH away from the contact, and a hair more than that from the rows.
     """
@@ -173,7 +178,9 @@ def _fractions(rows: Rows, points: Floats) -> Floats:
 
 
 def _between(rows: Rows, start: Floats, end: Floats) -> Rows:
-    """Return parts of rows between other ends; arcs that are as good as straight become lines, the others keep their turn."""
+    """Return parts of rows between other ends; arcs that are as good as straight become lines, the others keep their
+    turn.
+    """
     made = rows.copy()
     made[:, :2], made[:, 2:4] = start, end
     same = (made[:, :4] == rows[:, :4]).all(axis=1)
@@ -186,7 +193,9 @@ def _between(rows: Rows, start: Floats, end: Floats) -> Rows:
     made[new, CX:R] = centre[new]
     made[new, R] = np.hypot(*(start - centre).T)[new]
     straight = arc & (square < 8 * rows[:, R] * _FLAT)
-    straight |= new & (np.abs(sweeps(made)) > np.abs(sweeps(rows)) + 1e-3)  # turned round: as small as its ends have moved
+    straight |= new & (
+        np.abs(sweeps(made)) > np.abs(sweeps(rows)) + 1e-3
+    )  # turned round: as small as its ends have moved
     made[straight, CX:] = 0.0
     return made
 

@@ -1,8 +1,9 @@
 """Contours that cross become contours that only touch, with the same area by the even-odd rule.
 
-The boundary of an even-odd area is the sum, modulo two, of all edges: whether an edge stays follows from how often it is
-there, and no look at its sides can lose it. Sides say which of the edges that meet at a node go on from one another, which
-edge that two areas share stays as a wall, and what outlines hold. At the end an independent witness measures the same area.
+The boundary of an even-odd area is the sum, modulo two, of all edges: whether an edge stays follows from how often it
+is there, and no look at its sides can lose it. Sides say which of the edges that meet at a node go on from one another,
+which edge that two areas share stays as a wall, and what outlines hold. At the end an independent witness measures the
+same area.
 """
 
 from __future__ import annotations
@@ -53,8 +54,8 @@ def without_crossings(contours: Sequence[Contour]) -> Overlaid:
         contours: closed.
 
     Returns:
-        Closed contours; those that meet neither themselves nor others are as they were. They name all entities of those they
-        were made of. Slivers thinner than WELD are left out.
+        Closed contours; those that meet neither themselves nor others are as they were. They name all entities of those
+        they were made of. Slivers thinner than WELD are left out.
     """
     pieces = pieces_of(*_together([contour_rows(contour) for contour in contours]))
     meet = _meeting(pieces, len(contours))
@@ -112,7 +113,8 @@ def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -
 
 
 def differing(drawn: Witnessed, made: float, contours: Sequence[Contour], spare: float = 0.0) -> list[Finding]:
-    """Return the finding that an area is not what was drawn, if it is not: then something is wrong that nobody has noticed.
+    """Return the finding that an area is not what was drawn, if it is not: then something is wrong that nobody has
+    noticed.
 
     Args:
         drawn: the witness of what was drawn.
@@ -127,8 +129,11 @@ def differing(drawn: Witnessed, made: float, contours: Sequence[Contour], spare:
     places = ", ".join(at(contour.primitives[0].start) for contour in contours[:_NAMED])
     more = f" and {len(contours) - _NAMED} more" if len(contours) > _NAMED else ""
     who = f"contour that begins at {places}" if len(contours) == 1 else f"contours that begin at {places}{more}"
-    text = (f"The area of the {who} came out {abs(missing):.4f} mm2 too {'small' if missing > 0 else 'large'}; do not use this program, "
-            "move one of the curves by 1 um and compute again.")  # fmt: skip
+    text = (
+        f"The area of the {who} came out {abs(missing):.4f} mm2 too {'small' if missing > 0 else 'large'}; do not use "
+        "this program, "
+        "move one of the curves by 1 um and compute again."
+    )
     ids = tuple(dict.fromkeys(number for contour in contours for number in contour.entity_ids))
     return [Finding(FindingKind.AREA, text, x, y, entity_ids=ids, amount=abs(missing))]
 
@@ -158,7 +163,9 @@ def _part(pieces: Pieces, chosen: Flags) -> Pieces:
 
 
 def _meeting(pieces: Pieces, count: int) -> Flags:
-    """Return which contours (count,) come to a node where they, or others, have been; ways forth and back do not count."""
+    """Return which contours (count,) come to a node where they, or others, have been; ways forth and back do not
+    count.
+    """
     meet = np.zeros(count, np.bool_)
     if not len(pieces.rows):
         return meet

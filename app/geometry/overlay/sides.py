@@ -1,8 +1,8 @@
 """What lies on either side of every edge: counted from face to face, never probed.
 
-Across an edge the count changes by what runs along it: even and odd change places where an odd number of contours does; the
-number of outlines that hold the place changes with their direction. One face of each connected net is its outer one, which
-is that with a negative area; what is counted there comes from the nets round it.
+Across an edge the count changes by what runs along it: even and odd change places where an odd number of contours does;
+the number of outlines that hold the place changes with their direction. One face of each connected net is its outer
+one, which is that with a negative area; what is counted there comes from the nets round it.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """The order of edges round each node, counter-clockwise.
 
-An edge has two ends, 2 k where it starts and 2 k + 1 where it ends; each leaves its node. Ends whose directions differ are
-ordered by those. Where they hardly differ, as at a touch, it counts on which side one lies of the other at half the length of
-the shorter one: they do not cross between their nodes, so any place in between tells, and half is farthest from both.
+An edge has two ends, 2 k where it starts and 2 k + 1 where it ends; each leaves its node. Ends whose directions differ
+are ordered by those. Where they hardly differ, as at a touch, it counts on which side one lies of the other at half the
+length of the shorter one: they do not cross between their nodes, so any place in between tells, and half is farthest
+from both.
 """
 
 from __future__ import annotations

@@ -40,12 +40,15 @@ class Bone:
     end: tuple[float, float]
 
 
-def bones(found: Iterable[Gap], sheet: Sheet, distance: float, progress: Progress) -> tuple[tuple[Bone, ...], list[tuple[float, float]]]:
-    """Return the ways into all inner corners, and the corners where the cutter would cut into a third wall, which are left as they are.
+def bones(
+    found: Iterable[Gap], sheet: Sheet, distance: float, progress: Progress
+) -> tuple[tuple[Bone, ...], list[tuple[float, float]]]:
+    """Return the ways into all inner corners, and the corners where the cutter would cut into a third wall, which are
+    left as they are.
 
-    The centre goes from where the path turns straight towards the corner, or the middle of the arc in it, until it is as far from that
-    as from the walls along the path: there the cutter's rim touches the corner, or leaves the stock to leave. Only the two walls of the
-    corner may be nearer. Corners that a clamp makes have none.
+    The centre goes from where the path turns straight towards the corner, or the middle of the arc in it, until it is
+    as far from that as from the walls along the path: there the cutter's rim touches the corner, or leaves the stock to
+    leave. Only the two walls of the corner may be nearer. Corners that a clamp makes have none.
 
     Args:
         distance: of the cutter's centre from the walls, mm.
@@ -105,7 +108,11 @@ class _Walls:
         low, high = np.minimum(way[:2], way[2:4]) - distance, np.maximum(way[:2], way[2:4]) + distance
         near = np.flatnonzero((self.around[:, :2] <= high).all(axis=1) & (self.around[:, 2:] >= low).all(axis=1))
         reach = 2 * distance + float(lengths(way[None])[0])
-        own = [*gap.walls, *self._onward(gap.walls[0], self.previous, reach), *self._onward(gap.walls[-1], self.following, reach)]
+        own = [
+            *gap.walls,
+            *self._onward(gap.walls[0], self.previous, reach),
+            *self._onward(gap.walls[-1], self.following, reach),
+        ]
         others = np.setdiff1d(near, own)
         if not len(others):
             return True
@@ -160,5 +167,8 @@ def about_refused(refused: Sequence[tuple[float, float]]) -> list[Finding]:
     if not refused:
         return []
     x, y = refused[0]
-    text = f"{len(refused)} corners have no dog-bone, because it would cut into another wall; the first is at ({x:.3f}, {y:.3f})."
+    text = (
+        f"{len(refused)} corners have no dog-bone, because it would cut into another wall; the first is at ({x:.3f}, "
+        f"{y:.3f})."
+    )
     return [Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(len(refused)))]

@@ -1,4 +1,6 @@
-"""Where a cutter does not fit along the walls that it should follow: gaps, slots and necks that are too narrow, and clamps."""
+"""Where a cutter does not fit along the walls that it should follow: gaps, slots and necks that are too narrow, and
+clamps.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,8 @@ class Narrow:
 
 
 def narrow_places(found: Sequence[Gap], sheet: Sheet, distance: float) -> list[Narrow]:
-    """Return the places where a cutter whose centre keeps `distance` mm from the walls does not fit in; inner corners are none.
+    """Return the places where a cutter whose centre keeps `distance` mm from the walls does not fit in; inner corners
+    are none.
 
     Walls that face each other are one place.
     """
@@ -80,7 +83,9 @@ def _is_shallow(gap: Gap, distance: float) -> bool:
 
 
 def _free_discs(found: Sequence[Gap], field: DistanceField, most: float) -> list[tuple[float, float, float]]:
-    """Return for each gap (x, y, radius) of a disc that touches its wall in its middle half: the largest, of necks the smallest."""
+    """Return for each gap (x, y, radius) of a disc that touches its wall in its middle half: the largest, of necks the
+    smallest.
+    """
     if not found:
         return []
     paths = [Path(gap.rows, False) for gap in found]
@@ -93,8 +98,12 @@ def _free_discs(found: Sequence[Gap], field: DistanceField, most: float) -> list
         fits = field.nearest(points + aside * radius[:, None])[0] >= radius - 1e-6
         low, high = np.where(fits, radius, low), np.where(fits, high, radius)
     size = low.reshape(len(found), -1) - 1e-6 * np.abs(_PARTS - 0.5)  # of as large ones the one in the middle
-    open_ended = np.array([[gap.corner is None] for gap in found])  # a neck is as wide as it is at its narrowest; corners are no part of it
-    size = np.where(open_ended & (size > _CORNER * most), -size - 2e-6 * np.abs(_PARTS - 0.5), np.where(open_ended, -np.inf, size))
+    open_ended = np.array(
+        [[gap.corner is None] for gap in found]
+    )  # a neck is as wide as it is at its narrowest; corners are no part of it
+    size = np.where(
+        open_ended & (size > _CORNER * most), -size - 2e-6 * np.abs(_PARTS - 0.5), np.where(open_ended, -np.inf, size)
+    )
     best = np.argmax(size, axis=1)
     chosen = np.arange(len(found)) * len(_PARTS) + best
     centres = points[chosen] + aside[chosen] * low[chosen, None]
@@ -129,18 +138,36 @@ def about_narrow(places: Sequence[Narrow], tool: Tool, distance: float, counts: 
     own = [place for place in places if not place.clamped]
     findings = []
     for place in own[:_TELL]:
-        text = (f"Region {place.gap.region} has a {'neck' if place.gap.corner is None else 'slot'} at ({place.x:.3f}, {place.y:.3f}), "
-                f"about {place.width:.3f} mm wide; {need}. {place.gap.length:.2f} mm of wall are not reached.")
+        text = (
+            f"Region {place.gap.region} has a {'neck' if place.gap.corner is None else 'slot'} at ({place.x:.3f}, "
+            f"{place.y:.3f}), "
+            f"about {place.width:.3f} mm wide; {need}. {place.gap.length:.2f} mm of wall are not reached."
+        )
         findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, place.x, place.y, counts, amount=place.width))
     if len(own) > _TELL:
-        more = "1 more place along the walls is" if len(own) == _TELL + 1 else f"{len(own) - _TELL} more places along the walls are"
-        findings.append(Finding(FindingKind.NECK_TOO_NARROW, f"{more} too narrow; {need}.",
-                                own[_TELL].x, own[_TELL].y, counts, amount=float(len(own) - _TELL)))
+        more = (
+            "1 more place along the walls is"
+            if len(own) == _TELL + 1
+            else f"{len(own) - _TELL} more places along the walls are"
+        )
+        findings.append(
+            Finding(
+                FindingKind.NECK_TOO_NARROW,
+                f"{more} too narrow; {need}.",
+                own[_TELL].x,
+                own[_TELL].y,
+                counts,
+                amount=float(len(own) - _TELL),
+            )
+        )
     return findings
 
 
-def about_clamps(places: Sequence[Narrow], walls: Sequence[Contour], clamps: Sequence[Region], tool: Tool) -> list[Finding]:
-    """Return a finding for each clamp that keeps a cutter off walls: those that it lies over, and those beside it that are not reached.
+def about_clamps(
+    places: Sequence[Narrow], walls: Sequence[Contour], clamps: Sequence[Region], tool: Tool
+) -> list[Finding]:
+    """Return a finding for each clamp that keeps a cutter off walls: those that it lies over, and those beside it that
+    are not reached.
 
     Args:
         walls: contours as they are drawn.
@@ -154,9 +181,17 @@ def about_clamps(places: Sequence[Narrow], walls: Sequence[Contour], clamps: Seq
             k = int(np.argmin([shapely.distance(shape, shapely.Point(place.x, place.y)) for shape in shapes]))
             length, at = lost[k]
             lost[k] = length + place.gap.length, at or (place.x, place.y)
-    return [Finding(FindingKind.LEFT_OUT, f"A keep-out area at ({at[0]:.3f}, {at[1]:.3f}) keeps T{tool.number} {tool.label} off about "
-                    f"{length:.2f} mm of the walls; move the clamp and cut the rest.", *at, amount=length)
-            for length, at in lost if at is not None and length > _DEPTH]  # fmt: skip
+    return [
+        Finding(
+            FindingKind.LEFT_OUT,
+            f"A keep-out area at ({at[0]:.3f}, {at[1]:.3f}) keeps T{tool.number} {tool.label} off about "
+            f"{length:.2f} mm of the walls; move the clamp and cut the rest.",
+            *at,
+            amount=length,
+        )
+        for length, at in lost
+        if at is not None and length > _DEPTH
+    ]
 
 
 def _under(shape: shapely.Geometry, walls: Sequence[Contour]) -> tuple[float, tuple[float, float] | None]:
@@ -166,7 +201,9 @@ def _under(shape: shapely.Geometry, walls: Sequence[Contour]) -> tuple[float, tu
     parts = [part for part in shapely.intersection(np.array(lines, dtype=object), shape) if shapely.length(part) > 0]
     if not parts:
         return 0.0, None
-    place = shapely.line_interpolate_point(shapely.get_parts(shapely.line_merge(max(parts, key=shapely.length)))[0], 0.5, normalized=True)
+    place = shapely.line_interpolate_point(
+        shapely.get_parts(shapely.line_merge(max(parts, key=shapely.length)))[0], 0.5, normalized=True
+    )
     return float(sum(shapely.length(part) for part in parts)), (float(place.x), float(place.y))
 
 

@@ -1,8 +1,9 @@
 """What of the walls a cutter's rim does not touch: inner corners, and places that are too narrow for it.
 
-A cutter that follows a ring touches the wall at the foot of each of its places: as far to the right of travel as the ring is from the
-walls. What of the walls no foot covers is a gap. Where the ring turns at one place from before a gap to behind it, and the wall between
-turns no more than the ring does, the gap is an inner corner; every other one is a place where the cutter does not fit in.
+A cutter that follows a ring touches the wall at the foot of each of its places: as far to the right of travel as the
+ring is from the walls. What of the walls no foot covers is a gap. Where the ring turns at one place from before a gap
+to behind it, and the wall between turns no more than the ring does, the gap is an inner corner; every other one is a
+place where the cutter does not fit in.
 """
 
 from __future__ import annotations
@@ -31,10 +32,14 @@ _SAME = 2e-3
 """mm between a foot and the end of the gap that it stands at."""
 
 _EXCESS = 0.6
-"""Radians by which the walls of a corner may turn more than the ring does that touches both: they may be round towards the cutter."""
+"""Radians by which the walls of a corner may turn more than the ring does that touches both: they may be round towards
+the cutter.
+"""
 
 _BOTTOM = 2.1
-"""Radians; walls that turn more than this in more than one place face each other: what lies between is the bottom of a slot."""
+"""Radians; walls that turn more than this in more than one place face each other: what lies between is the bottom of a
+slot.
+"""
 
 _BESIDE = 0.35
 """Radians by which the walls beside a sharp corner may turn."""
@@ -49,8 +54,10 @@ class Gap:
         walls: indices of these rows among the sheet's.
         region: number of its region.
         bare: True when it begins or ends at a clamp or the frame.
-        corner: (x, y) where the centre of the cutter turns that touches the wall before and behind it; None where there is none.
-        excess: by how much more the wall turns left than the ring does there, radians; inf where there is no such place.
+        corner: (x, y) where the centre of the cutter turns that touches the wall before and behind it; None where there
+            is none.
+        excess: by how much more the wall turns left than the ring does there, radians; inf where there is no such
+            place.
         turn: of the ring there, radians, in [0, pi].
     """
 
@@ -79,7 +86,9 @@ class Gap:
 
     @cached_property
     def left(self) -> Floats:
-        """(k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns are left out."""
+        """(k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns are
+        left out.
+        """
         bent = np.where(self.rows[:, TURN] > 0, sweeps(self.rows), 0.0)
         return np.concatenate([np.maximum(_turns(self.rows[:-1], self.rows[1:]), 0.0), bent])
 
@@ -116,7 +125,9 @@ def _covered(level: Level, sheet: Sheet) -> tuple[Indices, Floats, Floats]:
 
 
 def _touched(points: Floats, region: Indices, sheet: Sheet) -> Indices:
-    """Return the wall row (n,) that each point lies on: where walls of two regions lie on each other, that of its own region."""
+    """Return the wall row (n,) that each point lies on: where walls of two regions lie on each other, that of its own
+    region.
+    """
     row: Indices = sheet.distances.nearest(points)[1].copy()
     owner = sheet.primitives.region
     for each in np.unique(region[owner[row] != region]).tolist():
@@ -128,7 +139,9 @@ def _touched(points: Floats, region: Indices, sheet: Sheet) -> Indices:
     return row
 
 
-def _uncovered(spans: tuple[Indices, Floats, Floats], sheet: Sheet, known: set[int]) -> dict[int, list[tuple[float, float]]]:
+def _uncovered(
+    spans: tuple[Indices, Floats, Floats], sheet: Sheet, known: set[int]
+) -> dict[int, list[tuple[float, float]]]:
     """Return for each row of the walls of some regions the parts of it that no span covers."""
     row, low, high = spans
     size = lengths(sheet.distances.rows)
@@ -188,7 +201,10 @@ def _gap(chain: Sequence[tuple[int, float, float]], sheet: Sheet) -> Gap:
     walls = np.array([row for row, _, _ in chain])
     low, high = np.array([part[1] for part in chain]), np.array([part[2] for part in chain])
     rows = sheet.distances.rows[walls].copy()
-    rows[:, :2], rows[:, 2:4] = points_at(rows, low), np.where((high == 1.0)[:, None], rows[:, 2:4], points_at(rows, high))
+    rows[:, :2], rows[:, 2:4] = (
+        points_at(rows, low),
+        np.where((high == 1.0)[:, None], rows[:, 2:4], points_at(rows, high)),
+    )
     before, last = int(sheet.primitives.previous[walls[0]]), int(walls[-1])
     after = np.flatnonzero(sheet.primitives.previous == last)
     bare = bool((low[0] == 0.0 and sheet.bare[before]) or (high[-1] == 1.0 and sheet.bare[after].any()))
@@ -216,14 +232,18 @@ def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:
 
 
 def _joints(rings: Outlines, distance: float) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return (foot before, foot behind, place, left turn in radians) of each joint of some rings, at the end of each row."""
+    """Return (foot before, foot behind, place, left turn in radians) of each joint of some rings, at the end of each
+    row.
+    """
     rows = rings.rows
     after = rows[rings.following]
     return feet(rows, 1.0, distance), feet(after, 0.0, distance), rows[:, 2:4], np.maximum(_turns(rows, after), 0.0)
 
 
 def _turns(before: Rows, behind: Rows) -> Floats:
-    """Return by how much (n,) a path turns left from the end of each row to the beginning of the one behind it, radians."""
+    """Return by how much (n,) a path turns left from the end of each row to the beginning of the one behind it,
+    radians.
+    """
     ahead, onward = headings_at(before, np.ones(len(before))), headings_at(behind, np.zeros(len(behind)))
     turn: Floats = np.arctan2(ahead[:, 0] * onward[:, 1] - ahead[:, 1] * onward[:, 0], (ahead * onward).sum(axis=1))
     return turn

@@ -1,4 +1,6 @@
-"""Contour paths: the contour tool follows every wall at its radius (step 120, A to A'), inside or outside, or its centre the lines."""
+"""Contour paths: the contour tool follows every wall at its radius (step 120, A to A'), inside or outside, or its
+centre the lines.
+"""
 
 from __future__ import annotations
 
@@ -56,8 +58,12 @@ class _Work:
 
     @property
     def is_thick(self) -> bool:
-        """True when the metal left for finishing is too wide to be cut at the full depth in one pass, where there are several."""
-        return passes_of(self.setting, self.index) > 1 and self.operation.finish_width > _THIN * self.tool.diameter * (1 + 1e-9)
+        """True when the metal left for finishing is too wide to be cut at the full depth in one pass, where there are
+        several.
+        """
+        return passes_of(self.setting, self.index) > 1 and self.operation.finish_width > _THIN * self.tool.diameter * (
+            1 + 1e-9
+        )
 
     def around(self, distance: float) -> Around:
         """Return what leads of paths at a distance from the walls go by."""
@@ -76,10 +82,12 @@ class _Made:
 
 
 def contour(setting: Setting, index: int, progress: Progress) -> None:
-    """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds; or follow the lines.
+    """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds; or follow the
+    lines.
 
-    Every path gets its beginning, its leads, its tabs and its dog-bones here. What lies inside other contours is cut before them. A
-    finish pass follows what was roughed at the finish width; spring passes run the last path again, at the floor.
+    Every path gets its beginning, its leads, its tabs and its dog-bones here. What lies inside other contours is cut
+    before them. A finish pass follows what was roughed at the finish width; spring passes run the last path again, at
+    the floor.
     """
     operation = setting.job.operations[index]
     assert isinstance(operation, ContourOperation)
@@ -99,7 +107,9 @@ def contour(setting: Setting, index: int, progress: Progress) -> None:
         finish = _finish(work, paths, _bones(work, found, levels[0], progress))
         if len(levels) > 1:
             ways = _bones(work, gaps(levels[1], sheet), levels[1], progress) if operation.dog_bones else ()
-            rough = _rough(work, wall_paths(levels[1], sheet, operation.cut.direction), levels[1].distance, finish, ways)
+            rough = _rough(
+                work, wall_paths(levels[1], sheet, operation.cut.direction), levels[1].distance, finish, ways
+            )
             setting.findings.extend(_about_thick(work))
     setting.findings.extend(about_overlaps(finish.runs, work.around(work.wall)))
     progress.step(0.7, "Contours")
@@ -111,21 +121,29 @@ def _about_thick(work: _Work) -> list[Finding]:
     if work.operation.finish_each_pass or not work.is_thick:
         return []
     width, tool = work.operation.finish_width, work.tool
-    text = (f"The finish pass of T{tool.number} {tool.label} takes {width:g} mm, more than {100 * _THIN:g} % of the cutter's diameter; "
-            "too much for the full depth at once, so it is cut at every depth.")
+    text = (
+        f"The finish pass of T{tool.number} {tool.label} takes {width:g} mm, more than {100 * _THIN:g} % of the "
+        "cutter's diameter; "
+        "too much for the full depth at once, so it is cut at every depth."
+    )
     return [Finding(FindingKind.ENGAGEMENT, text, counts=False, amount=width)]
 
 
 def _levels(work: _Work, progress: Progress) -> tuple[Level, ...]:
     width = work.operation.finish_width
-    levels = (work.sheet.frame(work.wall, progress),) if not width else offset_levels(
-        work.sheet.primitives, [work.wall, work.wall + width], progress, frame=True)  # fmt: skip
+    levels = (
+        (work.sheet.frame(work.wall, progress),)
+        if not width
+        else offset_levels(work.sheet.primitives, [work.wall, work.wall + width], progress, frame=True)
+    )
     work.setting.note(levels)
     return levels
 
 
 def _looked_at(work: _Work, level: Level, progress: Progress) -> list[Gap]:
-    """Return what of the walls the cutter does not touch; say where it does not fit, and whether the bitmap agrees (step 130)."""
+    """Return what of the walls the cutter does not touch; say where it does not fit, and whether the bitmap agrees
+    (step 130).
+    """
     setting, sheet = work.setting, work.sheet
     progress.step(0.5, "Fill")
     setting.on_bitmap = check_on_bitmap(sheet.distances, level, setting.observer)
@@ -135,11 +153,14 @@ def _looked_at(work: _Work, level: Level, progress: Progress) -> list[Gap]:
     return found
 
 
-def about_walls(sheets: Sheets, operation: ContourOperation, sheet: Sheet, level: Level) -> tuple[list[Gap], list[Finding]]:
-    """Return what of the walls an operation's cutter does not touch, and what there is to say of it: regions, necks and slots, clamps.
+def about_walls(
+    sheets: Sheets, operation: ContourOperation, sheet: Sheet, level: Level
+) -> tuple[list[Gap], list[Finding]]:
+    """Return what of the walls an operation's cutter does not touch, and what there is to say of it: regions, necks and
+    slots, clamps.
 
-    What is too narrow for one operation counts only where no other one follows the same walls with a finer tool. Necks and slots inside
-    count for nothing: what is out of reach there is measured on the floor.
+    What is too narrow for one operation counts only where no other one follows the same walls with a finer tool. Necks
+    and slots inside count for nothing: what is out of reach there is measured on the floor.
 
     Args:
         level: the rings of its centre.
@@ -150,8 +171,11 @@ def about_walls(sheets: Sheets, operation: ContourOperation, sheet: Sheet, level
     least, layers = finest(job, operation), operation.cut.layers
     counts = operation.side is Side.OUTSIDE and least >= 2 * level.distance - 1e-9
     walls: list[Contour] = [each for each in drawn.closed if not layers or each.layer in layers]
-    told = [*too_small(sheet.regions, level, tool, least), *about_narrow(places, tool, level.distance, counts),
-            *about_clamps(places, walls, drawn.clamps, tool)]  # fmt: skip
+    told = [
+        *too_small(sheet.regions, level, tool, least),
+        *about_narrow(places, tool, level.distance, counts),
+        *about_clamps(places, walls, drawn.clamps, tool),
+    ]
     return found, told
 
 
@@ -178,7 +202,9 @@ def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
     if wanted.wanted:
         setting.findings.extend(about_far(paths, shape, setting.job.copies.shifts))
         setting.findings.extend(about_tabs(made, tabs, shape, work.operation))
-        setting.tabs.extend(tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape))
+        setting.tabs.extend(
+            tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)
+        )
     extras = Extras(shape.half, shape.top, ways)
     return _Made(made, tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)), tabs)
 
@@ -195,7 +221,9 @@ def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, w
     shape = TabShape.of(work.operation, work.tool)
     width = work.operation.finish_width
     tabs: list[list[float]] = [[] for _ in paths]
-    middles = [run.path.points(np.array(places)) for run, places in zip(finish.runs, finish.tabs, strict=True) if places]
+    middles = [
+        run.path.points(np.array(places)) for run, places in zip(finish.runs, finish.tabs, strict=True) if places
+    ]
     if middles and paths:
         points = np.concatenate(middles)
         near = [path.nearest(points) for path in paths]
@@ -205,11 +233,17 @@ def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, w
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, tabs, strict=True)]
     made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
     extras = Extras(shape.half, shape.top, ways)
-    return _Made(made, tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)), tuple(map(tuple, tabs)))
+    return _Made(
+        made,
+        tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)),
+        tuple(map(tuple, tabs)),
+    )
 
 
 def _beginnings(paths: Sequence[Path], finish: _Made, most: float) -> list[list[float]]:
-    """Return for each path that is roughed where finish paths begin beside it, so that the leads of both lie over one another."""
+    """Return for each path that is roughed where finish paths begin beside it, so that the leads of both lie over one
+    another.
+    """
     wished: list[list[float]] = [[] for _ in paths]
     if paths and finish.runs:
         points = np.concatenate([run.path.points(np.array([run.start])) for run in finish.runs])
@@ -222,9 +256,9 @@ def _beginnings(paths: Sequence[Path], finish: _Made, most: float) -> list[list[
 def _together(work: _Work, finish: _Made, rough: _Made | None) -> list[Stroke]:
     """Return all strokes in groups: what is roughed, its finish path, and that once more for each spring pass.
 
-    Paths that lie in others have a lower rank, so that a part is cut out last. A finish path that does not run beside what was roughed,
-    such as in a neck that only it fits into, is cut at every depth, and so nowhere through full metal in one pass; so is every finish path
-    that takes off more than thin metal.
+    Paths that lie in others have a lower rank, so that a part is cut out last. A finish path that does not run beside
+    what was roughed, such as in a neck that only it fits into, is cut at every depth, and so nowhere through full metal
+    in one pass; so is every finish path that takes off more than thin metal.
     """
     operation = work.operation
     top = max((run.path.rank for run in finish.runs), default=0) if operation.side is not Side.INSIDE else 0
@@ -263,7 +297,8 @@ def _beside(finish: Sequence[Run], rough: Sequence[Run], width: float) -> list[b
 
 
 def contour_strokes(rings: Sequence[Ring], direction: Direction) -> tuple[Stroke, ...]:
-    """Return one closed stroke a ring that is no exact level, such as those of pixels; it has no leads, tabs or dog-bones.
+    """Return one closed stroke a ring that is no exact level, such as those of pixels; it has no leads, tabs or
+    dog-bones.
 
     The wall is on the right of a ring's own direction, so climb milling keeps it. Each starts in the middle of its
     longest line, away from corners.

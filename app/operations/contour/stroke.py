@@ -52,8 +52,12 @@ def stroke_of(run: Run, tabs: Sequence[float], extras: Extras) -> Stroke:
     if over.any():
         free = [np.full(len(way), -np.inf) for way in (run.way_in, run.way_out)]
         least_z = np.concatenate([free[0], np.where(over, extras.top, -np.inf), free[1]])
-    return Stroke(np.concatenate([run.way_in, rows, run.way_out]), np.concatenate([ends[0], purpose, ends[1]]).astype(np.uint8),
-                  path.region, least_z)
+    return Stroke(
+        np.concatenate([run.way_in, rows, run.way_out]),
+        np.concatenate([ends[0], purpose, ends[1]]).astype(np.uint8),
+        path.region,
+        least_z,
+    )
 
 
 def _breaks(path: Path, spans: Sequence[tuple[float, float]]) -> np.ndarray:

@@ -20,16 +20,20 @@ from ...toolpath.ordering.tour import in_short_order
 from ...toolpath.setting import Setting
 
 _PECK_GAP = 0.254
-"""mm above where the last peck ended that the drill goes down to at rapid rate: 0.01 inch, as LinuxCNC's own cycle has it."""
+"""mm above where the last peck ended that the drill goes down to at rapid rate: 0.01 inch, as LinuxCNC's own cycle has
+it.
+"""
 
 _NAMED = 6
 """Diameters that a finding names."""
 
 
 def drill(setting: Setting, index: int, progress: Progress) -> None:
-    """Drill every circle that the operation's drill is for: rapids over it and down to the retract height, then at plunge rate.
+    """Drill every circle that the operation's drill is for: rapids over it and down to the retract height, then at
+    plunge rate.
 
-    Each peck goes so far below the one before, the first one below the retract height, and the drill then comes out to that height.
+    Each peck goes so far below the one before, the first one below the retract height, and the drill then comes out to
+    that height.
 
     Raises:
         ParameterError: it is deeper than the stock.
@@ -40,8 +44,10 @@ def drill(setting: Setting, index: int, progress: Progress) -> None:
     assert isinstance(operation, DrillOperation)
     progress.step(0.0, "Looking for circles")
     if operation.cut.depth > job.stock.thickness + 1e-9:
-        raise ParameterError(f"Depth is {operation.cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; "
-                             "reduce the depth, or let the drill go through below it.")
+        raise ParameterError(
+            f"Depth is {operation.cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; "
+            "reduce the depth, or let the drill go through below it."
+        )
     holes, tool = holes_of(job, setting.sheets.drawn, operation), job.tool(operation.cut.tool)
     setting.findings.extend(about_holes(holes, job, operation))
     strokes = [_as_stroke(hole) for hole in holes.drilled]
@@ -54,11 +60,15 @@ def drill(setting: Setting, index: int, progress: Progress) -> None:
 
 def _as_stroke(hole: Hole) -> Stroke:
     """Return a hole as a stroke without a length, for the tour."""
-    return Stroke(np.array([[hole.x, hole.y, hole.x, hole.y, 0.0, 0.0, 0.0, 0.0]]), np.array([Purpose.DRILL], np.uint8), 0)
+    return Stroke(
+        np.array([[hole.x, hole.y, hole.x, hole.y, 0.0, 0.0, 0.0, 0.0]]), np.array([Purpose.DRILL], np.uint8), 0
+    )
 
 
 def _stops(operation: DrillOperation, job: Job) -> Iterator[float]:
-    """Yield the heights at which pecks end, mm, the bottom last; added up as a control adds them up, so that cycles can say them."""
+    """Yield the heights at which pecks end, mm, the bottom last; added up as a control adds them up, so that cycles can
+    say them.
+    """
     bottom = -tip_depth(job, operation)
     if operation.peck is not None:
         height = job.retract_z - operation.peck
@@ -88,18 +98,33 @@ def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[F
     who = f"T{tool.number} {tool.label}"
     if not holes.drilled:
         others = f" Circles there are of {_diameters(holes.others)}." if holes.others else ""
-        yield Finding(FindingKind.LEFT_OUT, f"{who} has nothing to drill: the drawing has no circle that it is for.{others} "
-                      "Choose another drill, the diameters or the layers.")
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{who} has nothing to drill: the drawing has no circle that it is for.{others} "
+            "Choose another drill, the diameters or the layers.",
+        )
     elif holes.others:
         left = f"of other diameters {_counted(holes.others)} {'is' if len(holes.others) == 1 else 'are'} left out"
-        yield Finding(FindingKind.LEFT_OUT, f"{who} drills {_counted(holes.drilled)}; {left}: {_diameters(holes.others)}.",
-                      counts=False, amount=float(len(holes.others)))
-    for kept, why in ((holes.narrow, f"narrower than the drill by more than {ALIKE:g} mm"),
-                      (holes.held, "under a clamp or too near to one")):
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{who} drills {_counted(holes.drilled)}; {left}: {_diameters(holes.others)}.",
+            counts=False,
+            amount=float(len(holes.others)),
+        )
+    for kept, why in (
+        (holes.narrow, f"narrower than the drill by more than {ALIKE:g} mm"),
+        (holes.held, "under a clamp or too near to one"),
+    ):
         if kept:
             first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
             where = f"the circle at {first} is" if len(kept) == 1 else f"{len(kept)} circles, the first at {first}, are"
-            yield Finding(FindingKind.LEFT_OUT, f"{who}: {where} {why} and not drilled.", kept[0].x, kept[0].y, amount=float(len(kept)))
+            yield Finding(
+                FindingKind.LEFT_OUT,
+                f"{who}: {where} {why} and not drilled.",
+                kept[0].x,
+                kept[0].y,
+                amount=float(len(kept)),
+            )
     if holes.drilled:
         yield from _widths(holes.drilled, tool)
         yield _tip(tool, job, operation)
@@ -109,18 +134,28 @@ def _widths(drilled: Sequence[Hole], tool: Tool) -> Iterator[Finding]:
     """Yield that holes come out as wide as the drill, which is not as wide as they are drawn."""
     wrong = [hole for hole in drilled if abs(hole.diameter - tool.diameter) > 1e-3]
     if wrong:
-        yield Finding(FindingKind.TOLERANCE, f"Holes come out {tool.diameter:g} mm wide, as T{tool.number} is; drawn are "
-                      f"{_diameters(wrong)}.", counts=False, amount=max(abs(hole.diameter - tool.diameter) for hole in wrong))
+        yield Finding(
+            FindingKind.TOLERANCE,
+            f"Holes come out {tool.diameter:g} mm wide, as T{tool.number} is; drawn are {_diameters(wrong)}.",
+            counts=False,
+            amount=max(abs(hole.diameter - tool.diameter) for hole in wrong),
+        )
 
 
 def _tip(tool: Tool, job: Job, operation: DrillOperation) -> Finding:
     """Return how deep the drill's point and its full width go."""
     deep, tip = tip_depth(job, operation), tip_length(tool)
     if tip:
-        text = f"T{tool.number} drills to the depth with its full width; its point goes {tip:.3f} mm deeper, to {deep:.3f} mm."
+        text = (
+            f"T{tool.number} drills to the depth with its full width; its point goes {tip:.3f} mm deeper, to "
+            f"{deep:.3f} mm."
+        )
     elif tool.kind is ToolKind.DRILL:
-        text = (f"T{tool.number} tells no tip angle, so its point goes to {deep:.3f} mm, and its full width less deep; give the angle, or "
-                "let it go through.")
+        text = (
+            f"T{tool.number} tells no tip angle, so its point goes to {deep:.3f} mm, and its full width less deep; "
+            "give the angle, or "
+            "let it go through."
+        )
     else:
         text = f"T{tool.number} goes straight down to {deep:.3f} mm."
     return Finding(FindingKind.ASSUMED, text, counts=False, amount=deep)

@@ -23,11 +23,14 @@ _TELL = 50
 """Places that are told one by one; the rest is counted."""
 
 
-def line_paths(sheet: Sheet, tool: Tool, direction: Direction, progress: Progress) -> tuple[tuple[Path, ...], list[Finding]]:
+def line_paths(
+    sheet: Sheet, tool: Tool, direction: Direction, progress: Progress
+) -> tuple[tuple[Path, ...], list[Finding]]:
     """Return the paths on a sheet's lines, and what of them clamps cut off.
 
-    Climb milling keeps what a closed contour encloses on the right, or, where an odd number of others lie round it, on the left, as if
-    the drawing were the outline of a part with its holes. Open lines go as they are drawn, or the other way for conventional milling.
+    Climb milling keeps what a closed contour encloses on the right, or, where an odd number of others lie round it, on
+    the left, as if the drawing were the outline of a part with its holes. Open lines go as they are drawn, or the other
+    way for conventional milling.
     """
     loops = [contour for contour in sheet.lines if contour.closed]
     rank = dict(zip(map(id, loops), ranks([contour_rows(contour) for contour in loops]), strict=True))
@@ -41,7 +44,9 @@ def line_paths(sheet: Sheet, tool: Tool, direction: Direction, progress: Progres
         clockwise = direction is Direction.CLIMB if depth % 2 == 0 else direction is not Direction.CLIMB
         wrong = (area > 0) == clockwise if contour.closed else direction is not Direction.CLIMB
         parts = -abs(area) if depth % 2 == 0 else abs(area)
-        whole = Path(reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, parts, k + 1 if contour.closed else 0)
+        whole = Path(
+            reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, parts, k + 1 if contour.closed else 0
+        )
         kept, lost = _beside_clamps(whole, sheet, tool.radius)
         paths.extend(kept)
         cut_off.extend(lost)
@@ -86,10 +91,11 @@ def _between(path: Path, spans: list[tuple[float, float]]) -> list[tuple[float, 
 
 
 def clear_parts(rows: Rows, field: DistanceField, radius: float) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what a sheet is bounded by.
+    """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what a sheet is bounded
+    by.
 
-    Distance changes by no more than the way gone, so one distance, from the middle of a part, can decide it all; what it does not decide
-    is divided. The smallest parts count as clear when both their ends and their middle are.
+    Distance changes by no more than the way gone, so one distance, from the middle of a part, can decide it all; what
+    it does not decide is divided. The smallest parts count as clear when both their ends and their middle are.
     """
     size = lengths(rows)
     row, low, high = np.arange(len(rows)), np.zeros(len(rows)), np.ones(len(rows))
@@ -106,18 +112,37 @@ def clear_parts(rows: Rows, field: DistanceField, radius: float) -> tuple[NDArra
         open_still = ~clear & ~small & (half > reach)
         found.append((row[clear], low[clear], high[clear]))
         again, a, b = row[open_still], low[open_still], high[open_still]
-        row, low, high = np.concatenate([again, again]), np.concatenate([a, (a + b) / 2]), np.concatenate([(a + b) / 2, b])
+        row, low, high = (
+            np.concatenate([again, again]),
+            np.concatenate([a, (a + b) / 2]),
+            np.concatenate([(a + b) / 2, b]),
+        )
     rows_found, lows, highs = (np.concatenate([each[k] for each in found]) for k in range(3))
     order = np.lexsort((lows, rows_found))
     return rows_found[order], lows[order], highs[order]
 
 
 def _told(cut_off: list[tuple[float, float, float]], tool: Tool) -> list[Finding]:
-    findings = [Finding(FindingKind.LEFT_OUT, f"A keep-out area cuts {length:.3f} mm of a line off from T{tool.number} {tool.label} at "
-                        f"({x:.3f}, {y:.3f}); move the clamp and cut the rest.", x, y, amount=length)
-                for x, y, length in cut_off[:_TELL]]  # fmt: skip
+    findings = [
+        Finding(
+            FindingKind.LEFT_OUT,
+            f"A keep-out area cuts {length:.3f} mm of a line off from T{tool.number} {tool.label} at "
+            f"({x:.3f}, {y:.3f}); move the clamp and cut the rest.",
+            x,
+            y,
+            amount=length,
+        )
+        for x, y, length in cut_off[:_TELL]
+    ]
     more = cut_off[_TELL:]
     if more:
-        findings.append(Finding(FindingKind.LEFT_OUT, f"Keep-out areas cut {len(more)} more places of lines off, "
-                                f"{sum(each[2] for each in more):.3f} mm in all.", *more[0][:2], amount=sum(each[2] for each in more)))
+        findings.append(
+            Finding(
+                FindingKind.LEFT_OUT,
+                f"Keep-out areas cut {len(more)} more places of lines off, "
+                f"{sum(each[2] for each in more):.3f} mm in all.",
+                *more[0][:2],
+                amount=sum(each[2] for each in more),
+            )
+        )
     return findings

@@ -1,4 +1,6 @@
-"""The paths of cutters over surfaces as one program's moves: passes there and back or one way, joined over the surface or in the air."""
+"""The paths of cutters over surfaces as one program's moves: passes there and back or one way, joined over the surface
+or in the air.
+"""
 
 from __future__ import annotations
 
@@ -66,10 +68,16 @@ def surface_moves(families: Sequence[Milling], clearance: float, approach: float
     count = len(rows)
     kind = np.array([row.kind for row in rows], np.uint8)
     moves = Moves(
-        np.array([row.end for row in rows]).reshape(-1, 3), np.full((count, 2), np.nan), kind,
-        np.array([row.purpose for row in rows], np.uint8), np.array([row.operation for row in rows], np.int16),
-        np.array([row.tool for row in rows], np.int16), np.zeros(count, np.int32), np.array([row.feed for row in rows]),
-        np.zeros(count, np.int32))  # fmt: skip
+        np.array([row.end for row in rows]).reshape(-1, 3),
+        np.full((count, 2), np.nan),
+        kind,
+        np.array([row.purpose for row in rows], np.uint8),
+        np.array([row.operation for row in rows], np.int16),
+        np.array([row.tool for row in rows], np.int16),
+        np.zeros(count, np.int32),
+        np.array([row.feed for row in rows]),
+        np.zeros(count, np.int32),
+    )
     return SurfaceMoves(moves, np.array([row.surface for row in rows], np.int64))
 
 
@@ -94,7 +102,13 @@ def _milled(family: Milling, number: int, clearance: float, approach: float) -> 
         return _Row((x, y, z), MoveKind.RAPID, Purpose.RAPID, number, tool.number, 0.0)
 
     def line(point: Sequence[float], purpose: Purpose, surface: int = NO_SURFACE, steep: bool = False) -> _Row:
-        feed = tool.plunge_rate if purpose is Purpose.PLUNGE else min(tool.feed_rate, tool.plunge_rate) if steep else tool.feed_rate
+        feed = (
+            tool.plunge_rate
+            if purpose is Purpose.PLUNGE
+            else min(tool.feed_rate, tool.plunge_rate)
+            if steep
+            else tool.feed_rate
+        )
         x, y, z = point
         return _Row((x, y, z), MoveKind.LINE, purpose, number, tool.number, feed, surface)
 
@@ -103,7 +117,9 @@ def _milled(family: Milling, number: int, clearance: float, approach: float) -> 
         way = _link(family, at, run.points[0])
         if way is not None:
             down = plunging(way).tolist()
-            yield from (line(point, Purpose.LINK, steep=steep) for point, steep in zip(way[1:].tolist(), down, strict=True))
+            yield from (
+                line(point, Purpose.LINK, steep=steep) for point, steep in zip(way[1:].tolist(), down, strict=True)
+            )
         else:
             if at is not None:
                 yield rapid(at, clearance)
@@ -120,7 +136,9 @@ def _milled(family: Milling, number: int, clearance: float, approach: float) -> 
 
 
 def plunging(points: Floats) -> NDArray[np.bool_]:
-    """Return which of the ways (n - 1,) from point to point (n, 3) go down more steeply than PLUNGE_ANGLE, together by LEAST_PLUNGE."""
+    """Return which of the ways (n - 1,) from point to point (n, 3) go down more steeply than PLUNGE_ANGLE, together by
+    LEAST_PLUNGE.
+    """
     way = np.diff(points, axis=0)
     steep = -way[:, 2] > math.tan(PLUNGE_ANGLE) * np.hypot(way[:, 0], way[:, 1])
     group = np.cumsum(np.diff(steep, prepend=False))

@@ -47,7 +47,9 @@ def pocket(setting: Setting, index: int, progress: Progress) -> None:
         return
     wall = wall_distance(setting.job, operation)
     outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
-    stepovers = (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(sheet.primitives.rows))
+    stepovers = (
+        (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(sheet.primitives.rows))
+    )
     manner = Manner(operation.cut.direction, operation.outside_in)
     chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
     setting.note((*chosen.levels, *chosen.filling.halves))
@@ -96,18 +98,24 @@ class Cleared:
 
 
 def candidates(radius: float, rows: int) -> tuple[float, ...]:
-    """Return the stepovers that are looked at for the shortest path, mm; one alone where a drawing has very many rows."""
+    """Return the stepovers that are looked at for the shortest path, mm; one alone where a drawing has very many
+    rows.
+    """
     return tuple(share * radius for share in (_SHARES if rows <= MOST_COMPARED else _SHARES[:1]))
 
 
 def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress: Progress = NO_PROGRESS) -> Cleared:
-    """Return the shortest of the ways to clear an area, each with another stepover, that keep to the share of links if one does.
+    """Return the shortest of the ways to clear an area, each with another stepover, that keep to the share of links if
+    one does.
 
     Raises:
         Cancelled: by progress.
     """
-    plans = [(spaced, between(spaced, stepover, wanted.radius)) for stepover in stepovers
-             if (spaced := pocket_distances(wanted.outermost, stepover, sheet.distances))]
+    plans = [
+        (spaced, between(spaced, stepover, wanted.radius))
+        for stepover in stepovers
+        if (spaced := pocket_distances(wanted.outermost, stepover, sheet.distances))
+    ]
     each = sorted({distance for plan in plans for part in plan for distance in part})
     found = dict(zip(each, offset_levels(sheet.primitives, each, progress.part(0, 0.5), frame=True), strict=True))
     best, too_far = Cleared(), math.inf
@@ -119,7 +127,11 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
         rings = sum(ring.length for level in levels for ring in level.rings)
         if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
             continue
-        filling = fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius) if halves else NOTHING
+        filling = (
+            fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius)
+            if halves
+            else NOTHING
+        )
         strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
         length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
         made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
@@ -133,21 +145,30 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
 def wall_distance(job: Job, operation: PocketOperation) -> float:
     """Return how far A' lies inside the walls, mm: the contour tool's radius and the stock it leaves (step 120).
 
-    Without a contour operation that goes inside the walls of the same layers, as deep, the pocket goes up to the walls itself.
+    Without a contour operation that goes inside the walls of the same layers, as deep, the pocket goes up to the walls
+    itself.
     """
     return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
 
 
 def _followers(job: Job, operation: PocketOperation) -> list[Cut]:
     """Return the contour operations inside the walls of the same layers, as deep."""
-    cuts = (each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE)
+    cuts = (
+        each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE
+    )
     return [cut for cut in cuts if cut.layers == operation.cut.layers and cut.floor >= operation.cut.floor]
 
 
 def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool:
-    """Tell whether a region with so large a disc, mm, is cleared by a path along its walls alone, so that no pocket tool is missing."""
-    return any(cut.stock_to_leave - _ABOUT <= disc / 2 - job.tool(cut.tool).radius <= cut.stock_to_leave + job.tool(cut.tool).radius
-               for cut in _followers(job, operation))  # fmt: skip
+    """Tell whether a region with so large a disc, mm, is cleared by a path along its walls alone, so that no pocket
+    tool is missing.
+    """
+    return any(
+        cut.stock_to_leave - _ABOUT
+        <= disc / 2 - job.tool(cut.tool).radius
+        <= cut.stock_to_leave + job.tool(cut.tool).radius
+        for cut in _followers(job, operation)
+    )
 
 
 def stepover_of(operation: PocketOperation, tool: Tool) -> float:
@@ -161,8 +182,10 @@ def stepover_of(operation: PocketOperation, tool: Tool) -> float:
     if operation.stepover is None:
         return tool.radius
     if operation.stepover > tool.diameter:
-        raise ParameterError(f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
-                             "use that or less.")
+        raise ParameterError(
+            f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
+            "use that or less."
+        )
     return operation.stepover
 
 
@@ -182,4 +205,4 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
 def without_empty(levels: tuple[Level, ...]) -> tuple[Level, ...]:
     """Return the levels up to the last one that has rings."""
     last = max((k for k, level in enumerate(levels) if level.rings), default=-1)
-    return levels[:last + 1]
+    return levels[: last + 1]

@@ -28,7 +28,9 @@ _DEPTH = 1e-6
 """mm by which a move may miss the floor and still count as on it."""
 
 _FAR = 15.0
-"""Tool diameters; ways to the next run as long as this are gone rather than that the tool lifts, however slow the feed."""
+"""Tool diameters; ways to the next run as long as this are gone rather than that the tool lifts, however slow the
+feed.
+"""
 
 _RAPID = 5000.0
 """mm/min; of a slow machine."""
@@ -46,9 +48,10 @@ _CHOSEN = 2
 def rest(setting: Setting, index: int, progress: Progress) -> None:
     """Clear what is left within reach of the operation's tool.
 
-    What counts as cut are all moves so far that are as deep as the operation's floor, and the contours that operations later
-    in the list will follow as deep. What the operations before left at the floor they left at every depth, so the same paths
-    are cut at all depths. A run with metal on one side is cut in the direction asked for; only slots go either way.
+    What counts as cut are all moves so far that are as deep as the operation's floor, and the contours that operations
+    later in the list will follow as deep. What the operations before left at the floor they left at every depth, so the
+    same paths are cut at all depths. A run with metal on one side is cut in the direction asked for; only slots go
+    either way.
 
     Raises:
         ParameterError: the stepover is larger than the tool, or the operation is deeper than the stock.
@@ -90,27 +93,44 @@ def clears_within(operation: RestOperation, tool: Tool) -> float:
     if operation.stepover is None:
         return tool.radius
     if operation.stepover > tool.diameter:
-        raise ParameterError(f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
-                             "use at most the diameter.")
+        raise ParameterError(
+            f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
+            "use at most the diameter."
+        )
     return operation.stepover / 2
 
 
 def paths_before(setting: Setting, floor: float) -> list[tuple[Rows, float]]:
-    """Return (rows, radius of the level ground it leaves, mm) of each tool's moves so far that lie as deep as a floor, mm, or deeper."""
+    """Return (rows, radius of the level ground it leaves, mm) of each tool's moves so far that lie as deep as a floor,
+    mm, or deeper.
+    """
     moves = setting.builder.moves()
     deep = (np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH) & (moves.kind != MoveKind.RAPID)
     deep &= moves.purpose != Purpose.DRILL  # a drill's point leaves no level ground
     rows = move_rows(moves)
     tools = {int(number): setting.job.tool(int(number)) for number in np.unique(moves.tool[deep])}
-    return [(rows[deep & (moves.tool == number)], flat_radius(tool)) for number, tool in tools.items() if flat_radius(tool) > 0]
+    return [
+        (rows[deep & (moves.tool == number)], flat_radius(tool))
+        for number, tool in tools.items()
+        if flat_radius(tool) > 0
+    ]
 
 
 def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Rows, float]]:
-    """Return (rows, radius, mm) of the wall paths that operations later in the list will follow in the same area, as deep."""
+    """Return (rows, radius, mm) of the wall paths that operations later in the list will follow in the same area, as
+    deep.
+    """
     job = setting.job
     own = job.operations[index].cut
-    followers = [each.cut for each in job.operations[index + 1:] if each.FOLLOWS_WALLS and each.wall_side is Side.INSIDE
-                 and each.cut.enabled and each.cut.layers == own.layers and each.cut.floor >= own.floor]
+    followers = [
+        each.cut
+        for each in job.operations[index + 1 :]
+        if each.FOLLOWS_WALLS
+        and each.wall_side is Side.INSIDE
+        and each.cut.enabled
+        and each.cut.layers == own.layers
+        and each.cut.floor >= own.floor
+    ]
     return [_wall_path(cut, job.tool(cut.tool), sheet) for cut in followers if flat_radius(job.tool(cut.tool)) > 0]
 
 
@@ -124,8 +144,8 @@ def _wall_path(cut: Cut, tool: Tool, sheet: Sheet) -> tuple[Rows, float]:
 class Clearing:
     """Finds runs that clear what paths have left.
 
-    Rings no farther apart than the radius leave nothing, so all of them near what is left clear it. They are offered closer
-    together, and as few and short pieces of them are chosen as do.
+    Rings no farther apart than the radius leave nothing, so all of them near what is left clear it. They are offered
+    closer together, and as few and short pieces of them are chosen as do.
 
     Attributes:
         reach: of the cutter.
@@ -170,8 +190,14 @@ class Clearing:
             if not len(centres) or not cutting.any():
                 break
             progress.step(done / (_CHOSEN + 1), "Choosing runs")
-            cells = Cells.of(centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner)
-            found += runs(chunks, cutting, cells, reach.radius) if done < _CHOSEN else all_runs(chunks, cutting, cells, reach)
+            cells = Cells.of(
+                centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner
+            )
+            found += (
+                runs(chunks, cutting, cells, reach.radius)
+                if done < _CHOSEN
+                else all_runs(chunks, cutting, cells, reach)
+            )
             ground = Ground.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
             left = left_of(ground, reach, left, rim_rows)
         return found

@@ -1,7 +1,7 @@
 """On which side of a run its metal stands, so that it can be cut in the direction that is asked for.
 
-What a run alone clears tells most: it is there whenever the run is cut. Where that says nothing, all that is left beside it does.
-Where as much stands on either side the run is a slot, and goes either way.
+What a run alone clears tells most: it is there whenever the run is cut. Where that says nothing, all that is left
+beside it does. Where as much stands on either side the run is a slot, and goes either way.
 """
 
 from __future__ import annotations

@@ -1,7 +1,9 @@
-"""A body that does not cut, led straight over metal that stays as it is: how deep it goes, found in a pyramid of maxima.
+"""A body that does not cut, led straight over metal that stays as it is: how deep it goes, found in a pyramid of
+maxima.
 
-Level 0 of the pyramid are the cells, a node of level k + 1 is the highest of the four of level k below it, up to one node. Nodes whose
-highest metal stays below the lowest that the body can be over them are not opened, so few cells are looked at.
+Level 0 of the pyramid are the cells, a node of level k + 1 is the highest of the four of level k below it, up to one
+node. Nodes whose highest metal stays below the lowest that the body can be over them are not opened, so few cells are
+looked at.
 """
 
 from __future__ import annotations
@@ -34,8 +36,8 @@ def rise(shape, aside):
 def lowest_over(shape, way, x, y):
     """Return how low a body gets over a place on its way, mm; infinite where it does not get there.
 
-    Over a place the body's height is convex along the way, so its least is where it enters or leaves, where the flat's rim passes,
-    or where the cone falls as the way rises.
+    Over a place the body's height is convex along the way, so its least is where it enters or leaves, where the flat's
+    rim passes, or where the cone falls as the way rises.
     """
     px, py, dx, dy, dz = x - way[0], y - way[1], way[3] - way[0], way[4] - way[1], way[5] - way[2]
     size, radius = math.sqrt(dx * dx + dy * dy), shape[0]
@@ -65,7 +67,9 @@ def lowest_over(shape, way, x, y):
 
 @kernel(f"float64({_SHAPE}, {_WAY}, float64, float64, float64)")
 def bound_over(shape, way, x, y, half):
-    """Return a height that a body nowhere gets below over a disc round a place, mm; infinite where it gets nowhere over it."""
+    """Return a height that a body nowhere gets below over a disc round a place, mm; infinite where it gets nowhere over
+    it.
+    """
     px, py, dx, dy, dz = x - way[0], y - way[1], way[3] - way[0], way[4] - way[1], way[5] - way[2]
     size, near = math.sqrt(dx * dx + dy * dy), shape[0] + half
     if size <= SHORT:
@@ -81,11 +85,13 @@ def bound_over(shape, way, x, y, half):
 
 
 @kernel(
-    f"Tuple((float64, int64))(float32[::1], int64[:, ::1], UniTuple(float64, 3), {_SHAPE}, {_WAY}, float64, int64[:, ::1], float64[::1])",
+    f"Tuple((float64, int64))(float32[::1], int64[:, ::1], UniTuple(float64, 3), {_SHAPE}, {_WAY}, float64, int64[:, "
+    "::1], float64[::1])",
     counts=False,
 )
 def deepest(heights, levels, grid, shape, way, least, nodes, bounds):
-    """Return how deep a body goes into metal on its way, and in which cell, if deeper than `least`; else `least` and -1.
+    """Return how deep a body goes into metal on its way, and in which cell, if deeper than `least`; else `least` and
+    -1.
 
     Args:
         heights: of all levels, one after the other. levels: (n, 3) where each begins, its rows and columns.
@@ -124,8 +130,11 @@ def deepest(heights, levels, grid, shape, way, least, nodes, bounds):
     return best, cell
 
 
-@kernel("void(float32[::1], int64[:, ::1], UniTuple(float64, 3), float64[:, ::1], float64[:, ::1], int64[::1], int64[::1], float64[::1], "
-        "float64[::1], boolean, float64[::1], int64[::1], int64, int64)")  # fmt: skip
+@kernel(
+    "void(float32[::1], int64[:, ::1], UniTuple(float64, 3), float64[:, ::1], float64[:, ::1], int64[::1], int64[::1], "
+    "float64[::1], "
+    "float64[::1], boolean, float64[::1], int64[::1], int64, int64)"
+)
 def ask(heights, levels, grid, ways, shapes, way, shape, low, least, shared, depth, cell, first, last):
     """Write how deep bodies go into metal, items first … last - 1.
 

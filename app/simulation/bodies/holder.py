@@ -1,9 +1,10 @@
 """What of a tool does not cut, as convex bodies: its shank, and the holder that it stands in.
 
-The shank begins where the flutes end and has its own diameter; of the neck between them nobody tells, so it is taken to be as wide
-as the shank. Metal that stands higher than the flutes in the shank's way is not cut but rubbed, whatever the shank's diameter is;
-a shank as wide as the cutter fits into a wall that the cutter has cut. The holder stands on the tip at its stick-out. Both are
-taken to go on upwards for ever: over a field of heights, what is above metal that they meet is met as well.
+The shank begins where the flutes end and has its own diameter; of the neck between them nobody tells, so it is taken to
+be as wide as the shank. Metal that stands higher than the flutes in the shank's way is not cut but rubbed, whatever the
+shank's diameter is; a shank as wide as the cutter fits into a wall that the cutter has cut. The holder stands on the
+tip at its stick-out. Both are taken to go on upwards for ever: over a field of heights, what is above metal that they
+meet is met as well.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ class Body:
 def bodies_of(tool: Tool) -> tuple[Body, ...]:
     """Return what of a tool does not cut, the shank first.
 
-    A shank is known where its diameter and the length of the flutes are, a holder where its outline and the stick-out are.
+    A shank is known where its diameter and the length of the flutes are, a holder where its outline and the stick-out
+    are.
     """
     return (*_shank(tool), *(each.lifted(tool.stick_out) for each in holder_of(tool)))
 
@@ -58,8 +60,11 @@ def holder_of(tool: Tool) -> tuple[Body, ...]:
             made.append(Cutter(radius, radius, lift=height))
             widest = radius
         if widens:
-            made.append(Cutter(wider, radius, slope=(above - height) / (wider - radius), lift=height) if above > height
-                        else Cutter(wider, wider, lift=height))  # fmt: skip
+            made.append(
+                Cutter(wider, radius, slope=(above - height) / (wider - radius), lift=height)
+                if above > height
+                else Cutter(wider, wider, lift=height)
+            )
             widest = wider
     return tuple(Body(Part.HOLDER, shape) for shape in made)
 

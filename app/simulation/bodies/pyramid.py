@@ -75,11 +75,14 @@ class Pyramid:
         return Pyramid(metal, np.concatenate([level.ravel() for level in stack]), levels)
 
     def deeper(self, led: Led, least: Floats) -> tuple[Floats, Whole]:
-        """Return how deep each item goes where it is deeper than its `least` (n,), and in which cell; else `least` and -1."""
+        """Return how deep each item goes where it is deeper than its `least` (n,), and in which cell; else `least` and
+        -1.
+        """
         return self._asked(led, least, False)
 
     def deepest(self, led: Led, least: Floats) -> tuple[Floats, Whole]:
-        """Return what `deeper` does where an item is deeper than all before it of the same shape, and than `least` (m,), by shape.
+        """Return what `deeper` does where an item is deeper than all before it of the same shape, and than `least`
+        (m,), by shape.
 
         `least` is raised to what is found. Items are looked at in the order of the list.
         """
@@ -96,8 +99,11 @@ class Pyramid:
             ask(*tables, least, True, depth, cell, 0, count)
             return depth, cell
         steps = np.linspace(0, count, PARTS + 1).astype(int).tolist()
-        threads = [pool().submit(ask, *tables, least, False, depth, cell, first, last)
-                   for first, last in pairwise(steps) if last > first]  # fmt: skip
+        threads = [
+            pool().submit(ask, *tables, least, False, depth, cell, first, last)
+            for first, last in pairwise(steps)
+            if last > first
+        ]
         wait(threads)
         for thread in threads:
             thread.result()
@@ -113,7 +119,9 @@ def shape_rows(bodies: Sequence[Cutter], touch: float) -> Floats:
     rows = np.zeros((len(bodies), 4))
     for k, body in enumerate(bodies):
         if body.fillet:
-            raise ParameterError(f"A body with a corner of {body.fillet:g} mm is none; bodies that do not cut are discs and frustums.")
+            raise ParameterError(
+                f"A body with a corner of {body.fillet:g} mm is none; bodies that do not cut are discs and frustums."
+            )
         slim = body.shrunk(min(touch, body.radius / 2)) or body
         rows[k] = slim.radius, slim.flat, 0.0 if math.isinf(slim.slope) else slim.slope, slim.lift
     return rows

@@ -23,7 +23,8 @@ class Apart:
     Attributes:
         largest: mm; infinite where one is no number.
         cells: how many differ by more than `TOLERANCE`.
-        astray: how many differ by more than was allowed, and by more than a cell that falls to the other side of a wall would.
+        astray: how many differ by more than was allowed, and by more than a cell that falls to the other side of a wall
+            would.
         rims: how many differ by more than was allowed, but lie between the heights beside them.
     """
 
@@ -41,15 +42,20 @@ class Apart:
         """Return both, of one job after another, as one."""
         if other is None:
             return self
-        return Apart(max(self.largest, other.largest), self.cells + other.cells, self.astray + other.astray, self.rims + other.rims)
+        return Apart(
+            max(self.largest, other.largest),
+            self.cells + other.cells,
+            self.astray + other.astray,
+            self.rims + other.rims,
+        )
 
 
 def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) -> Apart:
     """Return how far heights are from those of the engine of record, (rows, cols) both.
 
-    A cell whose centre is on a vertical wall falls to either side by rounding: it then has a height between the least and the greatest
-    round it, two cells far, for what goes on beyond the wall may rise from cell to cell. More than a share `RIMS` of such cells are no
-    walls.
+    A cell whose centre is on a vertical wall falls to either side by rounding: it then has a height between the least
+    and the greatest round it, two cells far, for what goes on beyond the wall may rise from cell to cell. More than a
+    share `RIMS` of such cells are no walls.
 
     Args:
         allowed: difference that counts as none, mm; or (rows, cols) of them.
@@ -62,7 +68,9 @@ def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) 
     rims = int(np.count_nonzero(beside))
     astray = int(np.count_nonzero(far & ~beside))
     most = 4 + RIMS * record.size
-    return Apart(float(off.max(initial=0.0)), int(np.count_nonzero(off > TOLERANCE)), astray + (rims if rims > most else 0), rims)
+    return Apart(
+        float(off.max(initial=0.0)), int(np.count_nonzero(off > TOLERANCE)), astray + (rims if rims > most else 0), rims
+    )
 
 
 def least_beside(heights: Heights, reach: int = 1) -> Heights:

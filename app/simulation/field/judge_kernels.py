@@ -46,8 +46,8 @@ def dilate(heights, profile, out, first, last):
 def apart(wanted, row, col, height, where, sign):
     """Return how far any point of a cell at a height is from the part's surface at most, mm.
 
-    That is the least, over the cells' centres q, of the longest way from the cell to q and straight up (sign 1) or down (-1)
-    to the part there, if it is that way.
+    That is the least, over the cells' centres q, of the longest way from the cell to q and straight up (sign 1) or down
+    (-1) to the part there, if it is that way.
 
     Args:
         wanted: the part at the cells' centres, with MOST_RINGS cells more on each side.
@@ -77,7 +77,8 @@ def farthest(heights, wanted, before, where, sign, first, last):
 
     Args:
         heights: bound of what is left, from below for gouges (sign 1), from above for metal left (-1).
-        wanted: the part, see `apart`. before: gouges: the stock before; metal left: nothing is said where this is not finite.
+        wanted: the part, see `apart`. before: gouges: the stock before; metal left: nothing is said where this is not
+            finite.
     """
     worst = 0.0
     for y in range(first, last):
@@ -95,7 +96,9 @@ def farthest(heights, wanted, before, where, sign, first, last):
 
 @kernel(f"void({_FIELD}, {_FIELD}, int64[::1], UniTuple(float64, 2), float64[::1])")
 def ways_out(wanted, heights, cells, where, out):
-    """Write how far the metal's end in some cells, row * cols + col each, is from the part's surface above it; see `apart`."""
+    """Write how far the metal's end in some cells, row * cols + col each, is from the part's surface above it; see
+    `apart`.
+    """
     cols = heights.shape[1]
     for k in range(len(cells)):
         row, col = cells[k] // cols, cells[k] % cols

@@ -27,7 +27,9 @@ def _from_edge(px, py, pz, ax, ay, az, ux, uy, uz):
 
 @kernel(f"float64({_R}, float64, float64, float64)", counts=False)
 def _from_triangle(t, x, y, z):
-    """Return the square of the distance of a place from a triangle (9,): from its face if it is over that, else from an edge."""
+    """Return the square of the distance of a place from a triangle (9,): from its face if it is over that, else from an
+    edge.
+    """
     ux, uy, uz, vx, vy, vz = t[3] - t[0], t[4] - t[1], t[5] - t[2], t[6] - t[0], t[7] - t[1], t[8] - t[2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     square = nx * nx + ny * ny + nz * nz
@@ -95,8 +97,9 @@ def distances(boxes, triangles, places, out):
 def deepest(boxes, triangles, segments, known, fine, out):
     """Write how far the farthest place of each upright segment is from the nearest triangle, mm.
 
-    Between two places the distance is at most half the sum of theirs and of the way between them, and at most the larger distance of
-    both from one triangle, as that is a convex function. An interval is halved until neither bound promises more.
+    Between two places the distance is at most half the sum of theirs and of the way between them, and at most the
+    larger distance of both from one triangle, as that is a convex function. An interval is halved until neither bound
+    promises more.
 
     Args:
         boxes, triangles: of a `TriangleTree`.

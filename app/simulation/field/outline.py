@@ -14,8 +14,8 @@ from .workpiece import Grid
 def inside(grid: Grid, outlines: Sequence[Floats]) -> NDArray[np.bool_]:
     """Return (rows, cols) whether a cell's centre lies inside.
 
-    Each line of centres is crossed by the outlines' edges (an edge counts for y0 <= y < y1); a cell is inside where an odd
-    number of crossings lie left of its centre.
+    Each line of centres is crossed by the outlines' edges (an edge counts for y0 <= y < y1); a cell is inside where an
+    odd number of crossings lie left of its centre.
 
     Args:
         grid: where.
@@ -30,7 +30,9 @@ def inside(grid: Grid, outlines: Sequence[Floats]) -> NDArray[np.bool_]:
 def _cross(grid: Grid, start: Floats, end: Floats, crossings: NDArray[np.uint8]) -> None:
     """Flip, at each crossing of an edge with a line of centres, the first cell whose centre lies beyond it."""
     low, high = np.minimum(start[:, 1], end[:, 1]), np.maximum(start[:, 1], end[:, 1])
-    first, stop = (np.clip(np.ceil((y - grid.y0) / grid.pitch - 0.5), 0, grid.rows).astype(np.int64) for y in (low, high))
+    first, stop = (
+        np.clip(np.ceil((y - grid.y0) / grid.pitch - 0.5), 0, grid.rows).astype(np.int64) for y in (low, high)
+    )
     lines = np.maximum(stop - first, 0)
     edge = np.repeat(np.arange(len(start)), lines)
     row = np.arange(len(edge)) - np.repeat(np.cumsum(lines) - lines, lines) + first[edge]

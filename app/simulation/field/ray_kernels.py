@@ -16,7 +16,8 @@ _STACK = 128
 
 @kernel(f"UniTuple(float64, 2)({_R}, float64, float64)", counts=False)
 def meeting(t, x, y):
-    """Return where the upright line through a place meets a triangle (9,), and 1 where that looks up, -1 down, 0 where it does not.
+    """Return where the upright line through a place meets a triangle (9,), and 1 where that looks up, -1 down, 0 where
+    it does not.
 
     An edge belongs to one of its two triangles, as for `solid_kernels.drop`; upright triangles are met by none.
     """
@@ -25,8 +26,11 @@ def meeting(t, x, y):
         return 0.0, 0.0
     turn = 1.0 if area > 0.0 else -1.0
     u, v, w = side(t[3], t[4], t[6], t[7], x, y), side(t[6], t[7], t[0], t[1], x, y), side(t[0], t[1], t[3], t[4], x, y)
-    if not (holds(u * turn, (t[6] - t[3]) * turn, (t[7] - t[4]) * turn) and holds(v * turn, (t[0] - t[6]) * turn, (t[1] - t[7]) * turn)
-            and holds(w * turn, (t[3] - t[0]) * turn, (t[4] - t[1]) * turn)):  # fmt: skip
+    if not (
+        holds(u * turn, (t[6] - t[3]) * turn, (t[7] - t[4]) * turn)
+        and holds(v * turn, (t[0] - t[6]) * turn, (t[1] - t[7]) * turn)
+        and holds(w * turn, (t[3] - t[0]) * turn, (t[4] - t[1]) * turn)
+    ):
         return 0.0, 0.0
     return (u * t[2] + v * t[5] + w * t[8]) / (u + v + w), turn
 
@@ -39,7 +43,9 @@ def over(boxes, k, x, y):
 
 @kernel(f"void({_MANY}, {_MANY}, {_MANY}, {_R})")
 def tops(boxes, triangles, points, out):
-    """Write the highest place where the upright line through each point (m, 2) meets a triangle, -infinite where it meets none."""
+    """Write the highest place where the upright line through each point (m, 2) meets a triangle, -infinite where it
+    meets none.
+    """
     leaves, stack = (len(boxes) + 1) // 2, np.empty(_STACK, np.int64)
     for j in range(len(points)):
         x, y, best = points[j, 0], points[j, 1], -math.inf
@@ -66,7 +72,8 @@ def tops(boxes, triangles, points, out):
 
 @kernel(f"void({_MANY}, {_MANY}, {_MANY}, int64[::1], {_MANY})")
 def met(boxes, triangles, points, counts, found):
-    """Write how often the upright line through each point (m, 2) meets a triangle, and where there is room for it, where.
+    """Write how often the upright line through each point (m, 2) meets a triangle, and where there is room for it,
+    where.
 
     Args:
         boxes, triangles: of a `TriangleTree`.

@@ -53,7 +53,10 @@ class SolidStock:
 
         ensure_memory(grid, 8)
         floor = float(self.triangles[..., 2].min())
-        heights, crossings = np.full((grid.rows, grid.cols), floor, np.float32), np.zeros((grid.rows, grid.cols), np.int32)
+        heights, crossings = (
+            np.full((grid.rows, grid.cols), floor, np.float32),
+            np.zeros((grid.rows, grid.cols), np.int32),
+        )
         where = (float(grid.x0), float(grid.y0), float(grid.pitch))
         for first in range(0, len(self.triangles), CHUNK):
             drop(self.triangles, where, first, min(first + CHUNK, len(self.triangles)), heights, crossings)
@@ -64,9 +67,15 @@ class SolidStock:
         if not self.turned:
             return ""
         if self.turned == len(self.triangles):
-            return f"{name}: the solid is inside out, as all of its triangles are wound clockwise; it is taken right side out."
-        return (f"{name}: {self.turned} of {len(self.triangles)} triangles are wound against the others; the solid is closed, so they are "
-                "taken the right way round.")
+            return (
+                f"{name}: the solid is inside out, as all of its triangles are wound clockwise; it is taken right "
+                "side out."
+            )
+        return (
+            f"{name}: {self.turned} of {len(self.triangles)} triangles are wound against the others; the solid is "
+            "closed, so they are "
+            "taken the right way round."
+        )
 
 
 def read_solid(name: str, data: bytes) -> SolidStock:
@@ -85,6 +94,8 @@ def read_solid(name: str, data: bytes) -> SolidStock:
     wound = right_side_out(triangles)
     if wound.fault:
         place = "" if wound.place is None else " at ({:.3f}, {:.3f}, {:.3f})".format(*wound.place)
-        raise InputError(f"{name}: the solid's surface is not closed{place}: {wound.fault}; so nobody can say where its metal is; "
-                         "repair it, or export it as one closed solid.")
+        raise InputError(
+            f"{name}: the solid's surface is not closed{place}: {wound.fault}; so nobody can say where its metal is; "
+            "repair it, or export it as one closed solid."
+        )
     return SolidStock(np.ascontiguousarray(wound.triangles), int(np.count_nonzero(wound.turned)), wound.shells)

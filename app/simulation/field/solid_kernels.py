@@ -17,13 +17,16 @@ def side(ax, ay, bx, by, x, y):
 
 @kernel("boolean(float64, float64, float64)")
 def holds(area, dx, dy):
-    """Return whether a point is on the inner side of a counter-clockwise edge; on the edge itself one of both sides has it."""
+    """Return whether a point is on the inner side of a counter-clockwise edge; on the edge itself one of both sides has
+    it.
+    """
     return area > 0.0 or (area == 0.0 and (dy < 0.0 or (dy == 0.0 and dx > 0.0)))
 
 
 @kernel("void(float64[:, :, ::1], UniTuple(float64, 3), int64, int64, float32[:, ::1], int32[:, ::1])")
 def drop(triangles, grid, first, last, heights, crossings):
-    """Raise heights to the triangles first … last - 1, and count how often the vertical through each cell's centre meets them.
+    """Raise heights to the triangles first … last - 1, and count how often the vertical through each cell's centre
+    meets them.
 
     Args:
         triangles: (n, 3, 3) corners, mm. Vertical ones are met by none; an edge belongs to one of its two triangles.
@@ -43,8 +46,14 @@ def drop(triangles, grid, first, last, heights, crossings):
         area = abs(area)
         if area == 0.0:
             continue
-        low, high = math.ceil((min(ay, by, cy) - y0) / pitch - 0.501), math.floor((max(ay, by, cy) - y0) / pitch - 0.499)
-        left, right = math.ceil((min(ax, bx, cx) - x0) / pitch - 0.501), math.floor((max(ax, bx, cx) - x0) / pitch - 0.499)
+        low, high = (
+            math.ceil((min(ay, by, cy) - y0) / pitch - 0.501),
+            math.floor((max(ay, by, cy) - y0) / pitch - 0.499),
+        )
+        left, right = (
+            math.ceil((min(ax, bx, cx) - x0) / pitch - 0.501),
+            math.floor((max(ax, bx, cx) - x0) / pitch - 0.499),
+        )
         for row in range(max(int(low), 0), min(int(high), rows - 1) + 1):
             y = y0 + (row + 0.5) * pitch
             for col in range(max(int(left), 0), min(int(right), cols - 1) + 1):

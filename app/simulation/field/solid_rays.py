@@ -16,10 +16,11 @@ class SolidRays:
         self._solid = solid
 
     def met(self, points: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
-        """Return where the lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 = it looks up, -1 = down.
+        """Return where the lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 = it
+        looks up, -1 = down.
 
-        A line through an edge meets one of its two triangles, so that what is met going up is left again in a closed solid, whatever
-        edges and corners the line goes through; upright triangles are met by none.
+        A line through an edge meets one of its two triangles, so that what is met going up is left again in a closed
+        solid, whatever edges and corners the line goes through; upright triangles are met by none.
         """
         return self._solid.tree.met(points)
 

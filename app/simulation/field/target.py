@@ -36,7 +36,8 @@ class Target:
     """Heights that are wanted over a grid, program coordinates, (rows, cols) each, mm.
 
     Attributes:
-        around: the part at the cells' centres, MOST_RINGS cells wider than the grid on each side; -infinite where there is none.
+        around: the part at the cells' centres, MOST_RINGS cells wider than the grid on each side; -infinite where there
+            is none.
         low: metal that is lower is gouged. high: metal that is higher is left. Infinite where the part says nothing.
             Beside walls they lie apart, so that a cell on a wall may fall to either side.
     """
@@ -82,7 +83,13 @@ def solid_target(solid: SolidStock, grid: Grid, leave: float = 0.0, progress: Pr
 
 def _wider(grid: Grid, cells: int) -> Grid:
     """Return a grid with so many cells more on each side."""
-    return Grid(grid.x0 - cells * grid.pitch, grid.y0 - cells * grid.pitch, grid.pitch, grid.rows + 2 * cells, grid.cols + 2 * cells)
+    return Grid(
+        grid.x0 - cells * grid.pitch,
+        grid.y0 - cells * grid.pitch,
+        grid.pitch,
+        grid.rows + 2 * cells,
+        grid.cols + 2 * cells,
+    )
 
 
 def _coarser(grid: Grid, leave: float) -> Grid:
@@ -93,13 +100,20 @@ def _coarser(grid: Grid, leave: float) -> Grid:
 
 
 def _sampled(coarse: Target, grid: Grid) -> Target:
-    """Return a target on finer cells; low and high are those of the coarse cells around, so that nothing is told too early."""
+    """Return a target on finer cells; low and high are those of the coarse cells around, so that nothing is told too
+    early.
+    """
     import cv2  # for stock to leave alone
 
     kernel = np.ones((3, 3), np.uint8)
     low, high = cv2.erode(coarse.low, kernel), cv2.dilate(coarse.high, kernel)
-    rows, cols = (np.clip(((at - start) / coarse.grid.pitch).astype(np.int64), 0, most - 1)
-                  for at, start, most in ((grid.ys(), coarse.grid.y0, coarse.grid.rows), (grid.xs(), coarse.grid.x0, coarse.grid.cols)))
+    rows, cols = (
+        np.clip(((at - start) / coarse.grid.pitch).astype(np.int64), 0, most - 1)
+        for at, start, most in (
+            (grid.ys(), coarse.grid.y0, coarse.grid.rows),
+            (grid.xs(), coarse.grid.x0, coarse.grid.cols),
+        )
+    )
     fields = (np.asarray(field, np.float32)[np.ix_(rows, cols)] for field in (coarse.wanted, low, high))
     around, low, high = fields
     return Target(grid, np.pad(around, MARGIN, mode="edge"), low, high)
@@ -122,7 +136,9 @@ def _ball(radius: float, pitch: float) -> Heights:
 
 
 def cutter_profile(cutter: Cutter, pitch: float) -> Heights:
-    """Return a cutter's heights over its tip on a grid of (2 k + 1) x (2 k + 1) cells round its axis, infinite beyond its radius."""
+    """Return a cutter's heights over its tip on a grid of (2 k + 1) x (2 k + 1) cells round its axis, infinite beyond
+    its radius.
+    """
     reach = int(cutter.radius / pitch)
     steps = np.arange(-reach, reach + 1) * pitch
     return np.asarray(cutter.lift + cutter.heights(np.hypot(steps[:, None], steps[None, :])), np.float32)

@@ -1,4 +1,6 @@
-"""Triangles in a tree of boxes: which one is nearest to a place, in closed form, and which ones an upright line meets."""
+"""Triangles in a tree of boxes: which one is nearest to a place, in closed form, and which ones an upright line
+meets.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,9 @@ class TriangleTree:
         return out
 
     def deepest(self, segments: Floats, known: Floats, fine: float) -> Floats:
-        """Return the greatest distance (m,) of the places of upright segments (m, 4) x, y, low, high; see `nearest_kernels.deepest`."""
+        """Return the greatest distance (m,) of the places of upright segments (m, 4) x, y, low, high; see
+        `nearest_kernels.deepest`.
+        """
         from .nearest_kernels import deepest
 
         out = np.empty(len(segments))
@@ -46,7 +50,9 @@ class TriangleTree:
         return out
 
     def tops(self, points: Floats) -> Floats:
-        """Return the highest place (m,) where upright lines through points (m, 2) meet triangles, mm; -infinite where they meet none."""
+        """Return the highest place (m,) where upright lines through points (m, 2) meet triangles, mm; -infinite where
+        they meet none.
+        """
         from .ray_kernels import tops
 
         out = np.empty(len(points))
@@ -54,7 +60,9 @@ class TriangleTree:
         return out
 
     def met(self, points: Floats) -> tuple[NDArray[np.int64], Floats, Floats]:
-        """Return where upright lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 = up, -1 = down."""
+        """Return where upright lines through points (m, 2) meet triangles, each meeting of n: point, height in mm, 1 =
+        up, -1 = down.
+        """
         from .ray_kernels import met
 
         places, counts = np.ascontiguousarray(points), np.empty(len(points), np.int64)

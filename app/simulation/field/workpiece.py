@@ -37,13 +37,19 @@ class Grid:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.x0) and math.isfinite(self.y0) and 0 < self.pitch < math.inf):
-            raise ParameterError(f"A grid at {self.x0:g}, {self.y0:g} with cells of {self.pitch:g} mm is none; cells must be wider than 0.")
+            raise ParameterError(
+                f"A grid at {self.x0:g}, {self.y0:g} with cells of {self.pitch:g} mm is none; cells must be wider than "
+                "0."
+            )
         if not (1 <= self.rows <= MOST_CELLS and 1 <= self.cols <= MOST_CELLS):
-            raise ParameterError(f"A grid of {self.cols} x {self.rows} cells is out of range; use 1 to {MOST_CELLS} along each side.")
+            raise ParameterError(
+                f"A grid of {self.cols} x {self.rows} cells is out of range; use 1 to {MOST_CELLS} along each side."
+            )
 
     @staticmethod
     def over(box: tuple[float, float, float, float], cells: int) -> Grid:
-        """Return the grid over a rectangle with `cells` along its longer side; along the shorter one as many as cover it.
+        """Return the grid over a rectangle with `cells` along its longer side; along the shorter one as many as cover
+        it.
 
         Args:
             box: x0, y0, x1, y1, mm.
@@ -54,8 +60,10 @@ class Grid:
         """
         x0, y0, x1, y1 = box
         if not (x1 > x0 and y1 > y0):
-            raise ParameterError(f"The rectangle from {x0:g}, {y0:g} to {x1:g}, {y1:g} mm is empty; "
-                                 "its second corner must lie right of and above the first.")
+            raise ParameterError(
+                f"The rectangle from {x0:g}, {y0:g} to {x1:g}, {y1:g} mm is empty; "
+                "its second corner must lie right of and above the first."
+            )
         if not 1 <= cells <= MOST_CELLS:
             raise ParameterError(f"A grid of {cells} cells along a side is out of range; use 1 to {MOST_CELLS}.")
         pitch = max(x1 - x0, y1 - y0) / cells
@@ -122,8 +130,10 @@ class BoxStock:
 
     def __post_init__(self) -> None:
         if not all(size > 0 for size in self.solid.size):
-            raise ParameterError(f"A stock of {' x '.join(f'{size:g}' for size in self.solid.size)} mm is none; "
-                                 "each side must be longer than 0.")
+            raise ParameterError(
+                f"A stock of {' x '.join(f'{size:g}' for size in self.solid.size)} mm is none; "
+                "each side must be longer than 0."
+            )
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -143,7 +153,9 @@ class BoxStock:
 
 @dataclass(frozen=True, eq=False)
 class HeightStock:
-    """What an earlier set-up has left. Over another grid each cell takes the height of the cell that its centre lies in."""
+    """What an earlier set-up has left. Over another grid each cell takes the height of the cell that its centre lies
+    in.
+    """
 
     workpiece: Workpiece
 
@@ -174,4 +186,8 @@ def ensure_memory(grid: Grid, bytes_a_cell: int) -> None:
     """
     needed, longer = grid.rows * grid.cols * bytes_a_cell, max(grid.rows, grid.cols)
     fits = fewer(longer, needed, 2)
-    ask(needed, f"A grid of {grid.cols} x {grid.rows} cells", f"use at most {fits} cells along its longer side (--grid {fits})")
+    ask(
+        needed,
+        f"A grid of {grid.cols} x {grid.rows} cells",
+        f"use at most {fits} cells along its longer side (--grid {fits})",
+    )

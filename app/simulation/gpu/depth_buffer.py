@@ -1,12 +1,13 @@
-"""Cuts a work piece as it was published in 1999: the sweep in facets, drawn into the depth buffer of the graphics hardware.
+"""Cuts a work piece as it was published in 1999: the sweep in facets, drawn into the depth buffer of the graphics
+hardware.
 
-The grid is the frame buffer, a pixel a cell, and the view runs up along the tool's axis: of all that is drawn over a cell's
-centre the depth test keeps the lowest. What is read back trims the dexels.
+The grid is the frame buffer, a pixel a cell, and the view runs up along the tool's axis: of all that is drawn over a
+cell's centre the depth test keeps the lowest. What is read back trims the dexels.
 
-How far heights are from exact: facets leave metal (`facet_error`, square to the surface, and at steep moves as much again for the
-overlaps), chords of arcs and splines are off by a quarter of that to either side. Hardware rounds corners to a part of a pixel,
-1/256 as a rule, which is worth as much times the slope; a facet that stands all but on edge then gives any of its own heights.
-Depths have 24 bits over the heights that matter, 2e-6 mm of 30 mm.
+How far heights are from exact: facets leave metal (`facet_error`, square to the surface, and at steep moves as much
+again for the overlaps), chords of arcs and splines are off by a quarter of that to either side. Hardware rounds corners
+to a part of a pixel, 1/256 as a rule, which is worth as much times the slope; a facet that stands all but on edge then
+gives any of its own heights. Depths have 24 bits over the heights that matter, 2e-6 mm of 30 mm.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ FACET_PITCHES = 2.0
 """Size of facets, in pitches of the grid: the published figure."""
 
 OVERLAP_PITCHES = 1.0 / 16.0
-"""How far cylinders of level moves reach over their ends: more than hardware rounds by, and worth a 256th of the error of such facets."""
+"""How far cylinders of level moves reach over their ends: more than hardware rounds by, and worth a 256th of the error
+of such facets.
+"""
 
 MOST_CELLS = 4096
 """Along a side of what is drawn at a time."""
@@ -43,7 +46,8 @@ _DEPTH_CLAMP = 0x864F
 
 
 def usual(grid: Grid) -> Tessellation:
-    """Return the facets with which a grid is cut if nobody says otherwise: of the published size d from corner to corner.
+    """Return the facets with which a grid is cut if nobody says otherwise: of the published size d from corner to
+    corner.
 
     A facet of a sphere bends both ways; with sides of d it would lie up to d² / 4r inside, so it lies within d² / 8r.
     """
@@ -71,14 +75,18 @@ class DepthBuffer:
         self._ctx, self._how = ctx, how
         self._program = compiled(ctx, "sweep.vert", "sweep.frag", "SWEEP")
         self._places = ctx.buffer(reserve=ROOM * 48, dynamic=True)
-        self._facets = ctx.vertex_array(self._program, [(self._places, "3f 3f 3f 3f/i", "a", "b", "c", "d")], mode=ctx.TRIANGLE_STRIP)
+        self._facets = ctx.vertex_array(
+            self._program, [(self._places, "3f 3f 3f 3f/i", "a", "b", "c", "d")], mode=ctx.TRIANGLE_STRIP
+        )
 
     def release(self) -> None:
         """Give everything back to the graphics system."""
         for part in (self._facets, self._places, self._program):
             part.release()
 
-    def heights(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], progress: Progress = NO_PROGRESS) -> Heights:
+    def heights(
+        self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], progress: Progress = NO_PROGRESS
+    ) -> Heights:
         """Return what a course leaves of a work piece; rapids do not cut.
 
         Args:
@@ -91,7 +99,8 @@ class DepthBuffer:
             (rows, cols) mm, nowhere above the work piece, nor below its floor.
 
         Raises:
-            ParameterError: a tool that cuts is not among the cutters, the facets are too small for one, or there is too little memory.
+            ParameterError: a tool that cuts is not among the cutters, the facets are too small for one, or there is too
+                little memory.
             Cancelled: the job was asked to stop.
         """
         grid = workpiece.grid
@@ -99,14 +108,20 @@ class DepthBuffer:
         how = self._how or usual(grid)
         sweeps = chains_of(course, cutters, chord_of(course, cutters, how.facet))
         left = workpiece.heights.copy()
-        tiles = list(_tiles(grid, min(MOST_CELLS, *self._ctx.info["GL_MAX_VIEWPORT_DIMS"], self._ctx.info["GL_MAX_TEXTURE_SIZE"])))
+        tiles = list(
+            _tiles(
+                grid, min(MOST_CELLS, *self._ctx.info["GL_MAX_VIEWPORT_DIMS"], self._ctx.info["GL_MAX_TEXTURE_SIZE"])
+            )
+        )
         for k, (here, part) in enumerate(tiles):
             piece = Workpiece(part, left[here].copy(), workpiece.floor)
             left[here] = self._trimmed(piece, sweeps, how, progress.part(k / len(tiles), (k + 1) / len(tiles)))
         progress.step(1.0, "Cut")
         return left
 
-    def _trimmed(self, piece: Workpiece, sweeps: list[tuple[Cutter, Chains]], how: Tessellation, progress: Progress) -> Heights:
+    def _trimmed(
+        self, piece: Workpiece, sweeps: list[tuple[Cutter, Chains]], how: Tessellation, progress: Progress
+    ) -> Heights:
         """Return what is left of a work piece that can be drawn at once."""
         grid, high = piece.grid, float(piece.heights.max())
         low = max(piece.floor, min((chains.lowest for _, chains in sweeps), default=high))
@@ -139,8 +154,12 @@ class DepthBuffer:
             ctx.disable_direct(_DEPTH_CLAMP)
 
 
-def _facets(grid: Grid, low: float, sweeps: list[tuple[Cutter, Chains]], how: Tessellation) -> Iterator[tuple[NDArray[np.float32], float]]:
-    """Yield facets (n, 4, 3) over a grid, mm from its lower left corner and a height, and the share of the moves that is done."""
+def _facets(
+    grid: Grid, low: float, sweeps: list[tuple[Cutter, Chains]], how: Tessellation
+) -> Iterator[tuple[NDArray[np.float32], float]]:
+    """Yield facets (n, 4, 3) over a grid, mm from its lower left corner and a height, and the share of the moves that
+    is done.
+    """
     box = (0.0, 0.0, grid.cols * grid.pitch, grid.rows * grid.pitch)
     done, total = 0, max(sum(len(chains) for _, chains in sweeps), 1)
     for cutter, chains in sweeps:

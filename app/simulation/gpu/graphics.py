@@ -16,7 +16,15 @@ _HOW = "Install a graphics driver, or the packages libegl1 and libgl1, and start
 _DEVICES = ("dri/renderD*", "nvidia[0-9]*", "dxg")
 """Of Mesa and others, of NVIDIA's own driver, of the Linux that runs under Windows."""
 
-_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer", "swiftshader", "gdi generic", "microsoft basic render")
+_SOFTWARE = (
+    "llvmpipe",
+    "softpipe",
+    "swrast",
+    "software rasterizer",
+    "swiftshader",
+    "gdi generic",
+    "microsoft basic render",
+)
 
 
 def standalone_context() -> moderngl.Context:

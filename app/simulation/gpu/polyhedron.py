@@ -39,8 +39,10 @@ def circle_corners(radius: float, facet: float) -> int:
         raise ParameterError(f"Facets of {facet:g} mm are none; they must be larger than 0.")
     count = 2 * max(FEWEST // 2, math.ceil(min(math.pi * radius / facet, 1e9) - 1e-9))
     if count > MOST:
-        raise ParameterError(f"Facets of {facet:g} mm are too small for a cutter of radius {radius:g} mm; "
-                             f"use {2 * math.pi * radius / MOST:.2g} mm or more.")
+        raise ParameterError(
+            f"Facets of {facet:g} mm are too small for a cutter of radius {radius:g} mm; "
+            f"use {2 * math.pi * radius / MOST:.2g} mm or more."
+        )
     return count
 
 
@@ -53,10 +55,11 @@ def circle_table(count: int, shift: float = 0.0) -> Floats:
 
 
 def facet_error(cutter: Cutter, facet: float) -> float:
-    """Return how far at most, square to the surface, facets lie inside what the cutter sweeps, mm; overlaps not counted.
+    """Return how far at most, square to the surface, facets lie inside what the cutter sweeps, mm; overlaps not
+    counted.
 
-    On cylinders and slim wedges it is the sagitta d² / 8r; on spheres, where both sides of a facet are as long, twice that; on
-    a fillet the sagittas of its bands and of its rings add up.
+    On cylinders and slim wedges it is the sagitta d² / 8r; on spheres, where both sides of a facet are as long, twice
+    that; on a fillet the sagittas of its bands and of its rings add up.
     """
     lean = 1.0 - math.cos(math.pi / circle_corners(cutter.radius, facet))
     if is_ball(cutter):

@@ -1,8 +1,9 @@
 """The quads that cover the cells a piece may lower, and the numbers that a fragment of one needs.
 
-Each quad has an anchor, the cell of the grid that is nearest to its middle. Places are float64 up to the anchor, and what is told
-of it is rounded once; from there a fragment counts whole cells, which float32 holds exactly. So what matters to rounding is how
-far a cell is from its anchor, not from the zero or from the start of a piece, and pieces longer than `STRETCH` are several quads.
+Each quad has an anchor, the cell of the grid that is nearest to its middle. Places are float64 up to the anchor, and
+what is told of it is rounded once; from there a fragment counts whole cells, which float32 holds exactly. So what
+matters to rounding is how far a cell is from its anchor, not from the zero or from the start of a piece, and pieces
+longer than `STRETCH` are several quads.
 """
 
 from __future__ import annotations
@@ -33,13 +34,17 @@ def anchor_at(grid, x, y):
         grid: x and y of the lower left corner, pitch, mm; columns and rows.
     """
     x0, y0, pitch, cols, rows = grid
-    col, row = math.floor(min(max((x - x0) / pitch, 0.0), cols - 1.0)), math.floor(min(max((y - y0) / pitch, 0.0), rows - 1.0))
+    col, row = (
+        math.floor(min(max((x - x0) / pitch, 0.0), cols - 1.0)),
+        math.floor(min(max((y - y0) / pitch, 0.0), rows - 1.0)),
+    )
     return col, row, x0 + (col + 0.5) * pitch, y0 + (row + 0.5) * pitch
 
 
 @kernel(f"UniTuple(float64, 2)({_GRID}, float64, UniTuple(float64, 4), UniTuple(float64, 2))")
 def within_grid(grid, radius, way, span):
-    """Return what of a span along a straight piece can meet the grid, mm from its start; the second less than the first: nothing.
+    """Return what of a span along a straight piece can meet the grid, mm from its start; the second less than the
+    first: nothing.
 
     Args:
         radius: of the cutter.
@@ -55,17 +60,20 @@ def within_grid(grid, radius, way, span):
     return max(span[0], middle - half), min(span[1], middle + half)
 
 
-@kernel(f"Tuple((int64, float64))({_PLACES}, {_PLACES}, float64[:, ::1], int64[::1], {_SHAPE}, {_GRID}, float32[:, ::1])")
+@kernel(
+    f"Tuple((int64, float64))({_PLACES}, {_PLACES}, float64[:, ::1], int64[::1], {_SHAPE}, {_GRID}, float32[:, ::1])"
+)
 def straight_quads(start, end, spans, chosen, shape, grid, quads):
-    """Write the quads of straight pieces that are cut with one cutter; return how many they are, and about how many cells they cover.
+    """Write the quads of straight pieces that are cut with one cutter; return how many they are, and about how many
+    cells they cover.
 
     Args:
         start, end, spans: of all pieces, as `tile_kernels.survey` says.
         chosen: the pieces to do.
         shape: of the cutter. grid: as for `anchor_at`.
-        quads: rows to write: column and row of the anchor, its place along the piece from the lower end (a) and across (c), mm; its place
-            from the upper end (b), how a changes from column to column and from row to row, rise; from where to where the quad reaches
-            along the piece, from the anchor, z of the tip at both ends.
+        quads: rows to write: column and row of the anchor, its place along the piece from the lower end (a) and across
+            (c), mm; its place from the upper end (b), how a changes from column to column and from row to row, rise;
+            from where to where the quad reaches along the piece, from the anchor, z of the tip at both ends.
     """
     radius, lift, count, cells, most = shape[0], shape[5], 0, 0.0, grid[3] * grid[4]
     for k in chosen:
@@ -94,9 +102,13 @@ def straight_quads(start, end, spans, chosen, shape, grid, quads):
     return count, cells
 
 
-@kernel(f"Tuple((int64, float64))({_PLACES}, {_PLACES}, int32[::1], float64[:, ::1], int64[::1], {_SHAPE}, {_GRID}, float32[:, ::1])")
+@kernel(
+    f"Tuple((int64, float64))({_PLACES}, {_PLACES}, int32[::1], float64[:, ::1], int64[::1], {_SHAPE}, {_GRID}, "
+    "float32[:, ::1])"
+)
 def round_quads(start, end, arc, arcs, chosen, shape, grid, quads):
-    """Write the quads of level arcs that are cut with one cutter; return how many they are, and about how many cells they cover.
+    """Write the quads of level arcs that are cut with one cutter; return how many they are, and about how many cells
+    they cover.
 
     A wide arc is several quads, which hold all of what is said of it and share its cells.
 
@@ -104,9 +116,9 @@ def round_quads(start, end, arc, arcs, chosen, shape, grid, quads):
         start, end, arc, arcs: of all pieces, as `tile_kernels.survey` says.
         chosen: the pieces to do.
         shape: of the cutter. grid: as for `anchor_at`.
-        quads: rows to write: column and row of the anchor, the direction to it from the centre; how far it is beyond the circle,
-            1 / radius of the circle, z of the tip, half the quad's width, cells; its place from start and from end, mm; from the anchor the
-            middle of the quad, and from there the middle of its far side, cells.
+        quads: rows to write: column and row of the anchor, the direction to it from the centre; how far it is beyond
+            the circle, 1 / radius of the circle, z of the tip, half the quad's width, cells; its place from start and
+            from end, mm; from the anchor the middle of the quad, and from there the middle of its far side, cells.
     """
     radius, cell, count, cells, most = shape[0], 1.0 / grid[2], 0, 0.0, grid[3] * grid[4]
     left, below, right, above = grid[0], grid[1], grid[0] + grid[3] * grid[2], grid[1] + grid[4] * grid[2]
@@ -114,7 +126,10 @@ def round_quads(start, end, arc, arcs, chosen, shape, grid, quads):
         cx, cy, size = arcs[arc[k], 0], arcs[arc[k], 1], arcs[arc[k], 2]
         px, py, qx, qy = start[k, 0], start[k, 1], end[k, 0], end[k, 1]
         first = math.atan2(py - cy, px - cx)
-        turn = max(math.atan2((px - cx) * (qy - cy) - (py - cy) * (qx - cx), (px - cx) * (qx - cx) + (py - cy) * (qy - cy)), 0.0)
+        turn = max(
+            math.atan2((px - cx) * (qy - cy) - (py - cy) * (qx - cx), (px - cx) * (qx - cx) + (py - cy) * (qy - cy)),
+            0.0,
+        )
         parts = 1.0
         if size > 2.0 * radius:
             parts = max(max(math.ceil(0.5 * turn * math.sqrt(size / radius)), math.ceil(turn * size / STRETCH)), 1.0)

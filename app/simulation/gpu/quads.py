@@ -1,8 +1,10 @@
-"""Heights by graphics hardware: a quad for each piece of a path, the exact height in each of its cells, the lowest one stays.
+"""Heights by graphics hardware: a quad for each piece of a path, the exact height in each of its cells, the lowest one
+stays.
 
-The depth buffer of the published method holds the nearest of many small facets. Here nothing is made of facets: a quad covers the
-cells that a piece may lower, the same ones that the engine of record evaluates, and each of its fragments is a cell whose height is
-computed in closed form, float32, as the engine of record does. The picture has one float a cell, and blending keeps the least.
+The depth buffer of the published method holds the nearest of many small facets. Here nothing is made of facets: a quad
+covers the cells that a piece may lower, the same ones that the engine of record evaluates, and each of its fragments is
+a cell whose height is computed in closed form, float32, as the engine of record does. The picture has one float a cell,
+and blending keeps the least.
 """
 
 from __future__ import annotations
@@ -47,11 +49,17 @@ Shape = tuple[float, ...]
 """A cutter's row for the kernels."""
 
 
-def quad_heights(ctx: moderngl.Context, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter],
-                 progress: Progress = NO_PROGRESS) -> Heights:  # fmt: skip
+def quad_heights(
+    ctx: moderngl.Context,
+    workpiece: Workpiece,
+    course: Course,
+    cutters: Mapping[int, Cutter],
+    progress: Progress = NO_PROGRESS,
+) -> Heights:
     """Return what a course leaves of a work piece, (rows, cols) mm: what `trim` does, but for rounding.
 
-    Rapids, and what is left out, cut nothing. Beside a vertical wall a cell whose centre is on the wall may fall to either side.
+    Rapids, and what is left out, cut nothing. Beside a vertical wall a cell whose centre is on the wall may fall to
+    either side.
 
     Args:
         ctx: the graphics context, current on this thread.
@@ -112,7 +120,15 @@ class _Way:
         for array in (pieces.start, pieces.end):
             array.setflags(write=False)
         cutter, corner = self._sweeps.cutter[pieces.motion], (float(grid.x0), float(grid.y0), float(grid.pitch))
-        tables = (pieces.start, pieces.end, self._sweeps.does[pieces.motion], cutter, pieces.arc, self._sweeps.shapes, pieces.arcs)
+        tables = (
+            pieces.start,
+            pieces.end,
+            self._sweeps.does[pieces.motion],
+            cutter,
+            pieces.arc,
+            self._sweeps.shapes,
+            pieces.arcs,
+        )
         spans, met = np.empty((len(pieces), 2)), np.empty((len(pieces), 5), np.int16)
         survey(*tables, corner, (grid.rows, grid.cols), 0, len(pieces), True, top, spans, met)
         comes, frame = met[:, 1] >= met[:, 0], (*corner, float(grid.cols), float(grid.rows))
@@ -126,8 +142,12 @@ class _Way:
                 yield _KINDS[int(shape[6])], shape, quads[:count], cells
             if len(round_):
                 size = pieces.arcs[pieces.arc[round_], 2]
-                quads = np.empty((_most(QUARTER * np.maximum(size / STRETCH, 0.5 * np.sqrt(size / shape[0]))), ROUND), np.float32)
-                count, cells = round_quads(pieces.start, pieces.end, pieces.arc, pieces.arcs, round_, shape, frame, quads)
+                quads = np.empty(
+                    (_most(QUARTER * np.maximum(size / STRETCH, 0.5 * np.sqrt(size / shape[0]))), ROUND), np.float32
+                )
+                count, cells = round_quads(
+                    pieces.start, pieces.end, pieces.arc, pieces.arcs, round_, shape, frame, quads
+                )
                 yield ARC, shape, quads[:count], cells
 
 
@@ -139,7 +159,9 @@ def _most(parts: Floats) -> int:
 class _Picture:
     """The heights of a grid as a picture of one float a cell, in which the least of what is painted stays."""
 
-    def __init__(self, ctx: moderngl.Context, grid: Grid, before: Heights, brushes: dict[str, moderngl.Program]) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, grid: Grid, before: Heights, brushes: dict[str, moderngl.Program]
+    ) -> None:
         """Begin with heights; brushes are programs by the part that they paint, kept from picture to picture."""
         self._ctx, self._grid, self._brushes, self._top, self._waiting = ctx, grid, brushes, float(before.max()), 0.0
         self._texture = ctx.texture((grid.cols, grid.rows), 1, np.ascontiguousarray(before), dtype="f4")
@@ -188,7 +210,12 @@ class _Picture:
             brush = self._brushes[part] = compiled(self._ctx, "sweep_quad.vert", "sweep_quad.frag", part)
         radius, flat, fillet, span, slope, _, _ = shape
         grid = self._grid
-        numbers = {"size": (grid.cols, grid.rows), "pitch": grid.pitch, "tool": (radius, flat, fillet, slope), "span": span}
+        numbers = {
+            "size": (grid.cols, grid.rows),
+            "pitch": grid.pitch,
+            "tool": (radius, flat, fillet, slope),
+            "span": span,
+        }
         for name, value in numbers.items():
             if name in brush:  # a program has only what it uses
                 brush[name] = value

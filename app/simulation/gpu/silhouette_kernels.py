@@ -1,10 +1,11 @@
-"""Facets of what a cutter that is no ball sweeps along chains of moves: a polyhedron, and the quads that its silhouette sweeps.
+"""Facets of what a cutter that is no ball sweeps along chains of moves: a polyhedron, and the quads that its silhouette
+sweeps.
 
-The cutter's lower side is rows of facets: the disc at its tip (row 0), bands between two rings each, and the upright wall
-(the last row, never drawn). All rings have the same number of corners, at the same bearings. Of a convex body that moves
-along u, facets whose normals point along u bound what it sweeps at the end, the others at the start; between them lies the
-silhouette, whose edges sweep the quads that bound the rest. At a corner of the path only those facets are drawn that bound at
-one of the two moves and not at the other: what the wedge is to a sphere.
+The cutter's lower side is rows of facets: the disc at its tip (row 0), bands between two rings each, and the upright
+wall (the last row, never drawn). All rings have the same number of corners, at the same bearings. Of a convex body that
+moves along u, facets whose normals point along u bound what it sweeps at the end, the others at the start; between them
+lies the silhouette, whose edges sweep the quads that bound the rest. At a corner of the path only those facets are
+drawn that bound at one of the two moves and not at the other: what the wedge is to a sphere.
 """
 
 from __future__ import annotations
@@ -60,8 +61,12 @@ def facet(quads, kinds, at, kind, place, tip, rings, table, view):
     """Add the facet of a band (row, sector); return how many quads there are then."""
     row, k = place
     after = k + 1 if k + 1 < len(table) else 0
-    corners = (corner_of(row - 1, k, tip, rings, table), corner_of(row, k, tip, rings, table),
-               corner_of(row, after, tip, rings, table), corner_of(row - 1, after, tip, rings, table))  # fmt: skip
+    corners = (
+        corner_of(row - 1, k, tip, rings, table),
+        corner_of(row, k, tip, rings, table),
+        corner_of(row, after, tip, rings, table),
+        corner_of(row - 1, after, tip, rings, table),
+    )
     return put(quads, kinds, at, kind, corners, view)
 
 
@@ -75,7 +80,8 @@ def swept(quads, kinds, at, kind, a, b, c, d, view):
 
 @kernel(f"int64({_OUT}, int64, UniTuple({_V}, 3), {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_VIEW})", counts=False)
 def silhouette(quads, kinds, at, kind, row, axis, rings, bands, table, bearings, view):
-    """Add what the silhouette's edges above a row, and between its sectors, sweep; return how many quads there are then.
+    """Add what the silhouette's edges above a row, and between its sectors, sweep; return how many quads there are
+    then.
 
     Args:
         axis: both places of the tip, and the move's direction.
@@ -86,16 +92,37 @@ def silhouette(quads, kinds, at, kind, row, axis, rings, bands, table, bearings,
         mine = heads(row, k, u, bands, bearings)
         if heads(row + 1, k, u, bands, bearings) != mine and rings[row, 0] > 0.0:
             after = k + 1 if k + 1 < count else 0
-            at = swept(quads, kinds, at, kind, corner_of(row, k, start, rings, table), corner_of(row, after, start, rings, table),
-                       corner_of(row, k, end, rings, table), corner_of(row, after, end, rings, table), view)  # fmt: skip
+            at = swept(
+                quads,
+                kinds,
+                at,
+                kind,
+                corner_of(row, k, start, rings, table),
+                corner_of(row, after, start, rings, table),
+                corner_of(row, k, end, rings, table),
+                corner_of(row, after, end, rings, table),
+                view,
+            )
         if row > 0 and heads(row, k - 1 if k else count - 1, u, bands, bearings) != mine:
-            at = swept(quads, kinds, at, kind, corner_of(row - 1, k, start, rings, table), corner_of(row, k, start, rings, table),
-                       corner_of(row - 1, k, end, rings, table), corner_of(row, k, end, rings, table), view)  # fmt: skip
+            at = swept(
+                quads,
+                kinds,
+                at,
+                kind,
+                corner_of(row - 1, k, start, rings, table),
+                corner_of(row, k, start, rings, table),
+                corner_of(row - 1, k, end, rings, table),
+                corner_of(row, k, end, rings, table),
+                view,
+            )
     return at
 
 
-@kernel(f"int64({_OUT}, int64, {_V}, UniTuple({_V}, 2), UniTuple(int64, 2), {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_VIEW})",
-        counts=False)  # fmt: skip
+@kernel(
+    f"int64({_OUT}, int64, {_V}, UniTuple({_V}, 2), UniTuple(int64, 2), {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, "
+    f"{_VIEW})",
+    counts=False,
+)
 def facets_at(quads, kinds, at, kind, row, tip, ways, ends, rings, bands, table, bearings, view):
     """Add the facets of a row that bound what is swept at a place; return how many quads there are then.
 
@@ -116,8 +143,12 @@ def facets_at(quads, kinds, at, kind, row, tip, ways, ends, rings, bands, table,
     return at
 
 
-@kernel(f"int64({_ROOM}, UniTuple(int64, 2), {_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, "
-        f"boolean, {_VIEW})", counts=False)  # fmt: skip
+@kernel(
+    f"int64({_ROOM}, UniTuple(int64, 2), {_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_TABLE}, {_TABLE}, {_TABLE}, "
+    f"{_TABLE}, "
+    f"boolean, {_VIEW})",
+    counts=False,
+)
 def row_facets(quads, kinds, at, place, start, end, way, joins, rings, bands, table, bearings, wedges, view):
     """Add what a row of the polyhedron adds on a move (move, row); return how many quads there are then."""
     piece, row = place
@@ -128,7 +159,21 @@ def row_facets(quads, kinds, at, place, start, end, way, joins, rings, bands, ta
     if wedges or not comes:
         before = row_of(way, piece - 1) if comes else u
         kind = WEDGE if comes else END
-        at = facets_at(quads, kinds, at, kind, row, first, (before, u), (int(comes), int(goes)), rings, bands, table, bearings, view)
+        at = facets_at(
+            quads,
+            kinds,
+            at,
+            kind,
+            row,
+            first,
+            (before, u),
+            (int(comes), int(goes)),
+            rings,
+            bands,
+            table,
+            bearings,
+            view,
+        )
     if not goes:
         return at
     at = silhouette(quads, kinds, at, TUBE, row, (first, last, u), rings, bands, table, bearings, view)
@@ -137,8 +182,12 @@ def row_facets(quads, kinds, at, place, start, end, way, joins, rings, bands, ta
     return facets_at(quads, kinds, at, END, row, last, (u, u), (1, 0), rings, bands, table, bearings, view)
 
 
-@kernel(f"UniTuple(int64, 3)({_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, boolean, {_VIEW}, "
-        "UniTuple(int64, 2), float32[:, :, ::1], uint8[::1])", counts=False)  # fmt: skip
+@kernel(
+    f"UniTuple(int64, 3)({_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, boolean, "
+    f"{_VIEW}, "
+    "UniTuple(int64, 2), float32[:, :, ::1], uint8[::1])",
+    counts=False,
+)
 def cutter_facets(start, end, way, joins, rings, bands, table, bearings, wedges, view, begin, quads, kinds):
     """Make facets until there is no room for more; return where to go on (move and row), and how many there are.
 
@@ -147,8 +196,8 @@ def cutter_facets(start, end, way, joins, rings, bands, table, bearings, wedges,
         way, joins, wedges, view, begin: as for `ball_facets`.
         rings: (rows + 1, 2) radius and height over the tip of each ring; the first has radius 0 where there is no disc.
         bands: (rows, 2) outward normals, of any length, along the radius and Z.
-        table, bearings: (count, 2) cosine and sine of the corners of a ring, and of the middles between them; an even number.
-        quads, kinds: room for at least 4 times `count`.
+        table, bearings: (count, 2) cosine and sine of the corners of a ring, and of the middles between them; an even
+        number. quads, kinds: room for at least 4 times `count`.
     """
     room, at = len(quads) - 4 * len(table), 0
     piece, row = begin
@@ -156,7 +205,9 @@ def cutter_facets(start, end, way, joins, rings, bands, table, bearings, wedges,
         while row <= len(bands):
             if at > room:
                 return piece, row, at
-            at = row_facets(quads, kinds, at, (piece, row), start, end, way, joins, rings, bands, table, bearings, wedges, view)
+            at = row_facets(
+                quads, kinds, at, (piece, row), start, end, way, joins, rings, bands, table, bearings, wedges, view
+            )
             row += 1
         piece, row = piece + 1, 0
     return piece, row, at

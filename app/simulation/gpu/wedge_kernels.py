@@ -1,12 +1,13 @@
 """Facets of what a ball sweeps along chains of moves: a cylinder a move, and of each corner's sphere a wedge.
 
-A circle has an even number of corners, the same for all of a ball's cylinders and wedges. Where two moves meet, the circles of both
-begin at the same pole, which is square to both moves, so that the corners of the cylinders' ends are those of the wedge's edges.
-A cylinder's two ends begin at different poles; its strips join each corner to the nearest of the other end, and bend along the
-shorter diagonal: that is the hull of both ends, nowhere deeper under the cylinder than a strip that is not twisted.
+A circle has an even number of corners, the same for all of a ball's cylinders and wedges. Where two moves meet, the
+circles of both begin at the same pole, which is square to both moves, so that the corners of the cylinders' ends are
+those of the wedge's edges. A cylinder's two ends begin at different poles; its strips join each corner to the nearest
+of the other end, and bend along the shorter diagonal: that is the hull of both ends, nowhere deeper under the cylinder
+than a strip that is not twisted.
 
-Cylinders reach over their ends by an overlap, and keep within the spheres there: where two parts meet no crack is left open by
-a drawing whose places are rounded.
+Cylinders reach over their ends by an overlap, and keep within the spheres there: where two parts meet no crack is left
+open by a drawing whose places are rounded.
 """
 
 from __future__ import annotations
@@ -50,7 +51,11 @@ def dot(a, b):
 @kernel(f"{_V}({_V}, float64, {_V}, float64, {_V})", counts=False)
 def off(place, first, a, second, b):
     """Return place + first a + second b."""
-    return place[0] + first * a[0] + second * b[0], place[1] + first * a[1] + second * b[1], place[2] + first * a[2] + second * b[2]
+    return (
+        place[0] + first * a[0] + second * b[0],
+        place[1] + first * a[1] + second * b[1],
+        place[2] + first * a[2] + second * b[2],
+    )
 
 
 @kernel(f"{_V}({_TABLE}, int64)", counts=False)
@@ -61,12 +66,13 @@ def row_of(table, k):
 
 @kernel(f"int64({_OUT}, UniTuple({_V}, 4), {_VIEW})", counts=False)
 def put(quads, kinds, at, kind, corners, view):
-    """Keep a quad, two triangles 0 1 2 and 0 2 3 that run counter-clockwise as seen from inside; return how many there are then.
+    """Keep a quad, two triangles 0 1 2 and 0 2 3 that run counter-clockwise as seen from inside; return how many there
+    are then.
 
     Args:
         at: how many there are.
-        view: low x, low y, high x, high y of what is looked at, and which facets are kept: 1 those that look down in one of
-            their triangles, -1 up, 0 all.
+        view: low x, low y, high x, high y of what is looked at, and which facets are kept: 1 those that look down in
+            one of their triangles, -1 up, 0 all.
     """
     a, b, c, d = corners
     if max(max(a[0], b[0]), max(c[0], d[0])) < view[0] or min(min(a[0], b[0]), min(c[0], d[0])) > view[2]:
@@ -172,15 +178,21 @@ def tube(quads, kinds, at, kind, axis, poles, radius, table, view):
 
 @kernel(f"float64({_V}, {_SHAPE})", counts=False)
 def overlap_of(u, shape):
-    """Return how far the cylinder of a move reaches over its ends: steep ones farther, as less of it is seen from below."""
+    """Return how far the cylinder of a move reaches over its ends: steep ones farther, as less of it is seen from
+    below.
+    """
     return min(shape[2] / max(math.hypot(u[0], u[1]), STEEPEST), shape[0] / 4.0)
 
 
 @kernel(f"boolean({_V}, {_V}, float64, {_VIEW})", counts=False)
 def unseen(a, b, radius, view):
     """Return whether what is within a radius of a line from a to b is off the view."""
-    return (max(a[0], b[0]) + radius < view[0] or max(a[1], b[1]) + radius < view[1]
-            or min(a[0], b[0]) - radius > view[2] or min(a[1], b[1]) - radius > view[3])  # fmt: skip
+    return (
+        max(a[0], b[0]) + radius < view[0]
+        or max(a[1], b[1]) + radius < view[1]
+        or min(a[0], b[0]) - radius > view[2]
+        or min(a[1], b[1]) - radius > view[3]
+    )
 
 
 @kernel(f"UniTuple(int64, 2)(int64, {_TABLE}, uint8[::1], {_SHAPE}, int64, boolean)", counts=False)
@@ -232,8 +244,12 @@ def sphere_strip(quads, kinds, at, piece, k, count, place, way, joins, shape, ta
     return strip(quads, kinds, at, kind, centre, frame_of(pole, u), (k * step, (k + 1) * step), shape[0], table, view)
 
 
-@kernel(f"UniTuple(int64, 3)({_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_SHAPE}, {_TABLE}, boolean, {_VIEW}, UniTuple(int64, 2), "
-        "float32[:, :, ::1], uint8[::1])", counts=False)  # fmt: skip
+@kernel(
+    f"UniTuple(int64, 3)({_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_SHAPE}, {_TABLE}, boolean, {_VIEW}, "
+    "UniTuple(int64, 2), "
+    "float32[:, :, ::1], uint8[::1])",
+    counts=False,
+)
 def ball_facets(start, end, way, joins, shape, table, wedges, view, begin, quads, kinds):
     """Make facets until there is no room for more; return where to go on (move and part), and how many there are.
 

@@ -1,10 +1,10 @@
 """What a cutter sweeps along chains of moves, in facets: the method that was published in 1999.
 
-Of a ball: a cylinder a move, in strips of one facet's width and the length of the move, and at each corner the wedge of the
-sphere between the end planes of its two cylinders, in strips from pole to pole, each divided evenly. At the ends of a chain
-one plane cuts the sphere. All that stays hidden in the cylinders is left away: a point of the swept body's boundary is as
-far from the path as the ball's radius, and nearest either to the inside of a move, and then on its cylinder, or to a
-corner, and then before neither of its planes. Other cutters: see `silhouette_kernels`.
+Of a ball: a cylinder a move, in strips of one facet's width and the length of the move, and at each corner the wedge of
+the sphere between the end planes of its two cylinders, in strips from pole to pole, each divided evenly. At the ends of
+a chain one plane cuts the sphere. All that stays hidden in the cylinders is left away: a point of the swept body's
+boundary is as far from the path as the ball's radius, and nearest either to the inside of a move, and then on its
+cylinder, or to a corner, and then before neither of its planes. Other cutters: see `silhouette_kernels`.
 """
 
 from __future__ import annotations
@@ -56,8 +56,9 @@ class Tessellation:
         facet: their size d, mm, > 0.
         wedges: False leaves the corners of chains open.
         side: which facets are kept. Cutters that are no balls have no upper side.
-        overlap: how far the cylinder of a level move reaches over its ends, mm, >= 0, so that no crack is left where a drawing rounds
-            places; it keeps within the spheres there, and so is slimmer by overlap² / 2r. Of steep moves up to 16 times that.
+        overlap: how far the cylinder of a level move reaches over its ends, mm, >= 0, so that no crack is left where a
+            drawing rounds places; it keeps within the spheres there, and so is slimmer by overlap² / 2r. Of steep moves
+            up to 16 times that.
     """
 
     facet: float
@@ -96,9 +97,11 @@ class PolygonCounts:
     drawn: int
 
 
-def facets_in(cutter: Cutter, chains: Chains, how: Tessellation,
-              box: tuple[float, float, float, float] = EVERYWHERE) -> Iterator[tuple[SweepFacets, float]]:  # fmt: skip
-    """Yield the facets of a sweep in parts, each of which is gone when the next one comes, and the share of the moves that is done.
+def facets_in(
+    cutter: Cutter, chains: Chains, how: Tessellation, box: tuple[float, float, float, float] = EVERYWHERE
+) -> Iterator[tuple[SweepFacets, float]]:
+    """Yield the facets of a sweep in parts, each of which is gone when the next one comes, and the share of the moves
+    that is done.
 
     Args:
         cutter: what is swept.
@@ -116,7 +119,10 @@ def facets_in(cutter: Cutter, chains: Chains, how: Tessellation,
     places = chains.moved((0.0, 0.0, cutter.radius)) if is_ball(cutter) else chains
     course, view, at = (places.start, places.end, places.way, places.joins), (*map(float, box), how.side.value), (0, 0)
     form = Polyhedron.of(cutter, how.facet)
-    shape, parts = (float(cutter.radius), float(how.facet), float(how.overlap)), (form.rings, form.bands, form.table, form.bearings)
+    shape, parts = (
+        (float(cutter.radius), float(how.facet), float(how.overlap)),
+        (form.rings, form.bands, form.table, form.bearings),
+    )
     while at[0] < len(chains):
         if is_ball(cutter):
             piece, part, filled = ball_facets(*course, shape, form.table, how.wedges, view, at, room.quads, room.kind)
@@ -139,15 +145,19 @@ def sweep_facets(points: Floats, radius: float, how: Tessellation) -> SweepFacet
     """
     places = np.asarray(points, float) - (0.0, 0.0, radius)
     joins = np.arange(len(places) - 1) > 0
-    parts = [replace(part, quads=part.quads.copy(), kind=part.kind.copy())
-             for part, _ in facets_in(Cutter(radius, 0.0, radius), Chains.of(places[:-1], places[1:], joins), how)]  # fmt: skip
+    parts = [
+        replace(part, quads=part.quads.copy(), kind=part.kind.copy())
+        for part, _ in facets_in(Cutter(radius, 0.0, radius), Chains.of(places[:-1], places[1:], joins), how)
+    ]
     return SweepFacets(np.concatenate([part.quads for part in parts]), np.concatenate([part.kind for part in parts]))
 
 
 def chord_of(course: Course, cutters: Mapping[int, Cutter], facet: float) -> float:
     """Return how far chords may be from curves where facets have a size, mm."""
-    return CHORD_SHARE * min((facet_error(cutters[number], facet) for number in np.unique(course.tool).tolist() if number in cutters),
-                             default=facet)  # fmt: skip
+    return CHORD_SHARE * min(
+        (facet_error(cutters[number], facet) for number in np.unique(course.tool).tolist() if number in cutters),
+        default=facet,
+    )
 
 
 def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) -> PolygonCounts:
@@ -170,14 +180,20 @@ def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) 
                 found += np.bincount(part.kind, minlength=len(FacetKind))
         both, down = kept[Side.BOTH], kept[Side.DOWN]
         cylinders = FacetKind.CYLINDER
-        total += both[cylinders] + chains.corners * whole, down[cylinders] + chains.corners * lower, both.sum(), down.sum()
+        total += (
+            both[cylinders] + chains.corners * whole,
+            down[cylinders] + chains.corners * lower,
+            both.sum(),
+            down.sum(),
+        )
     return PolygonCounts(*total.tolist())
 
 
 def _whole_counts(cutter: Cutter, facet: float) -> tuple[int, int]:
     """Return how many polygons a cutter has by itself, and how many of them look down.
 
-    A whole sphere falls into bands of one facet's width between parallels, each divided evenly: fewer than strips from pole to pole.
+    A whole sphere falls into bands of one facet's width between parallels, each divided evenly: fewer than strips from
+    pole to pole.
     """
     if not is_ball(cutter):
         return (Polyhedron.of(cutter, facet).facets,) * 2

@@ -1,9 +1,11 @@
-"""Every state of a work piece on its way: reached at once from copies of the squares of cells that changed, and bit for bit.
+"""Every state of a work piece on its way: reached at once from copies of the squares of cells that changed, and bit for
+bit.
 
-A course falls into blocks of motions that take about as long to cut. Behind each block the squares are kept that it has changed. To
-reach a state, every square takes its newest copy from behind the last whole block before it, and the motions from there on are cut.
-Each motion is evaluated wherever the one before it has not swept as deep, whatever comes after it (`TrimOptions.trace`), and lines of
-cells run as they do when the whole course is cut: so the order in which states are reached leaves no trace in them.
+A course falls into blocks of motions that take about as long to cut. Behind each block the squares are kept that it has
+changed. To reach a state, every square takes its newest copy from behind the last whole block before it, and the
+motions from there on are cut. Each motion is evaluated wherever the one before it has not swept as deep, whatever comes
+after it (`TrimOptions.trace`), and lines of cells run as they do when the whole course is cut: so the order in which
+states are reached leaves no trace in them.
 """
 
 from __future__ import annotations
@@ -64,7 +66,9 @@ class _Batch:
     limits: Limits
 
     def cut(self, field: Field, first: int, last: int, progress: Progress) -> Box | None:
-        """Do the motions of this batch among first … last - 1, counted through all courses; return where the field may have changed."""
+        """Do the motions of this batch among first … last - 1, counted through all courses; return where the field may
+        have changed.
+        """
         low, high = max(first - self.start, self.first), min(last - self.start, self.last)
         if low >= high:
             return None
@@ -87,8 +91,14 @@ class History:
         base: the field before all motions.
     """
 
-    def __init__(self, workpiece: Workpiece, courses: Sequence[Course], cutters: Mapping[int, Cutter],
-                 options: HistoryOptions = HistoryOptions(), progress: Progress = NO_PROGRESS) -> None:  # fmt: skip
+    def __init__(
+        self,
+        workpiece: Workpiece,
+        courses: Sequence[Course],
+        cutters: Mapping[int, Cutter],
+        options: HistoryOptions = HistoryOptions(),
+        progress: Progress = NO_PROGRESS,
+    ) -> None:
         """Cut everything once, and keep what changes.
 
         Args:
@@ -143,7 +153,9 @@ class History:
         field.owner[own.owner >= 0] = motion
 
     def behind(self, motion: int) -> tuple[int, int]:
-        """Return the number of the last block that ends at or before a motion, -1 = none, and how many motions are done there."""
+        """Return the number of the last block that ends at or before a motion, -1 = none, and how many motions are done
+        there.
+        """
         block = int(np.searchsorted(self.ends, motion, "right")) - 1
         return block, int(self.ends[block]) if block >= 0 else 0
 
@@ -159,7 +171,9 @@ class History:
             for first, last in each.batches:
                 top = float(field.heights.max())
                 turned = each.part(first, last).sorting(top).turned
-                self._batches.append(_Batch(each, start, first, last, turned, Limits(top, float(self._workpiece.floor), LEVEL)))
+                self._batches.append(
+                    _Batch(each, start, first, last, turned, Limits(top, float(self._workpiece.floor), LEVEL))
+                )
                 self._cut_batch(field, ends, progress)
             start += len(each.motions)
 
@@ -244,8 +258,18 @@ class _Copies:
         """See `History.restore`."""
         from .history_kernels import restore
 
-        restore(block, self._blocks_of_slots, self._slots, self._bounds, self._heights, self._owner, base.heights, base.owner,
-                field.heights, field.owner)  # fmt: skip
+        restore(
+            block,
+            self._blocks_of_slots,
+            self._slots,
+            self._bounds,
+            self._heights,
+            self._owner,
+            base.heights,
+            base.owner,
+            field.heights,
+            field.owner,
+        )
 
     def _forget(self, squares: Ints, block: int) -> bool:
         """Give up the copies that newer ones from behind the same block will replace; return whether there were any."""
@@ -277,7 +301,8 @@ class Playhead:
     """A place on the way, and the metal there.
 
     Attributes:
-        history: of which. motion: how many motions are done. field: the metal then; it is overwritten when the playhead moves.
+        history: of which. motion: how many motions are done. field: the metal then; it is overwritten when the playhead
+            moves.
     """
 
     def __init__(self, history: History) -> None:
@@ -316,7 +341,9 @@ def _block_ends(costs: Floats, blocks: int) -> NDArray[np.int64]:
 
 
 def _round(tiles: list[Box]) -> Box:
-    """Return first row and column, and the ends of rows and columns, round tiles given by first row and column, rows and columns."""
+    """Return first row and column, and the ends of rows and columns, round tiles given by first row and column, rows
+    and columns.
+    """
     all_of = np.array(tiles)
     ends = all_of[:, :2] + all_of[:, 2:]
     return int(all_of[:, 0].min()), int(all_of[:, 1].min()), int(ends[:, 0].max()), int(ends[:, 1].max())
@@ -333,7 +360,8 @@ def _changed(field: Field, before: Field, box: Box) -> Ints:
 
 
 def changed_box(field: Field, before: Field) -> Box | None:
-    """Return first row and column, and the ends of rows and columns, round all squares in which two fields differ; None: they are alike.
+    """Return first row and column, and the ends of rows and columns, round all squares in which two fields differ;
+    None: they are alike.
 
     Args:
         field: the newer one. before: the older one; it becomes like the newer one.

@@ -30,7 +30,8 @@ def changed(heights, owner, old_heights, old_owner, box, side, squares):
 
     Args:
         heights, owner: the field. old_heights, old_owner: the older one; rewritten where it differs.
-        box: first row and column, and the ends of rows and columns, outside which nothing differs; its first ones begin squares.
+        box: first row and column, and the ends of rows and columns, outside which nothing differs; its first ones begin
+            squares.
         side: of a square, cells. squares: row-wise numbers of those that differ; long enough for all.
     """
     rows, cols = heights.shape
@@ -68,7 +69,8 @@ def restore(block, blocks, slots, bounds, kept_heights, kept_owner, base_heights
 
     Args:
         block: its number; -1: before all.
-        blocks, slots: for each kept copy, by square and then by block, behind which block it was taken, and where it lies.
+        blocks, slots: for each kept copy, by square and then by block, behind which block it was taken, and where it
+        lies.
         bounds: (squares + 1,) where each square's copies begin.
         kept_heights, kept_owner: the copies. base_heights, base_owner: the field before all blocks.
         heights, owner: overwritten.
@@ -90,9 +92,16 @@ def restore(block, blocks, slots, bounds, kept_heights, kept_owner, base_heights
         for i in range(min(side, rows - r)):
             if slot >= 0:
                 wide = last - c
-                _copy(kept_heights[slot, i, :wide], heights[r + i, c:last], kept_owner[slot, i, :wide], owner[r + i, c:last])
+                _copy(
+                    kept_heights[slot, i, :wide],
+                    heights[r + i, c:last],
+                    kept_owner[slot, i, :wide],
+                    owner[r + i, c:last],
+                )
             else:
-                _copy(base_heights[r + i, c:last], heights[r + i, c:last], base_owner[r + i, c:last], owner[r + i, c:last])
+                _copy(
+                    base_heights[r + i, c:last], heights[r + i, c:last], base_owner[r + i, c:last], owner[r + i, c:last]
+                )
 
 
 @kernel(f"void(int64[::1], {_KEPT})", counts=False)

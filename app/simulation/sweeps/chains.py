@@ -102,7 +102,10 @@ def chains_of(course: Course, cutters: Mapping[int, Cutter], chord: float) -> li
     pieces = Splitter(motions, arcs_stay=False, chord=chord).pieces(0, len(motions))
     tool, does = course.tool[pieces.motion], cuts[pieces.motion]
     numbers = np.unique(course.tool[cuts]).tolist()
-    return [(cutters[number], _chains(pieces, np.flatnonzero(does & (tool == number)), cutters[number].lift)) for number in numbers]
+    return [
+        (cutters[number], _chains(pieces, np.flatnonzero(does & (tool == number)), cutters[number].lift))
+        for number in numbers
+    ]
 
 
 def _chains(pieces: Pieces, rows: NDArray[np.intp], lift: float) -> Chains:

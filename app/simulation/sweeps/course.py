@@ -29,10 +29,12 @@ class TrimOptions:
 
     Attributes:
         rapids: ASKED: they cut nothing, and metal that they meet is told.
-        touch: a rapid that goes no deeper into metal than this is told as none, mm; also how much slimmer than its cutter it is taken.
+        touch: a rapid that goes no deeper into metal than this is told as none, mm; also how much slimmer than its
+            cutter it is taken.
         stop: motions from this row on are not done; None = all are.
-        trace: note the motion that cut each cell last, and each motion's volume and engaged cells. Every motion is then evaluated
-            in all cells that the one before it in its chain has not swept as deep, which takes three times as long.
+        trace: note the motion that cut each cell last, and each motion's volume and engaged cells. Every motion is then
+            evaluated in all cells that the one before it in its chain has not swept as deep, which takes three times as
+            long.
     """
 
     rapids: Rapids = Rapids.ASKED
@@ -42,7 +44,9 @@ class TrimOptions:
 
     @property
     def heights_alone(self) -> bool:
-        """Whether nothing but the heights at the end is asked of motions, so that one which another outdoes may be left out."""
+        """Whether nothing but the heights at the end is asked of motions, so that one which another outdoes may be left
+        out.
+        """
         return not self.trace and self.stop is None
 
 
@@ -68,5 +72,7 @@ class Course:
     def strange_tool(self, row: int) -> ParameterError:
         """Return the error that nobody has said what the tool of a motion is, by its row."""
         number = int(self.tool[row])
-        return ParameterError(f"T{number} cuts from line {int(self.motions.line[row])} on, but nobody has said what it is; "
-                              f"give its shape, such as {number}=flat:6.")
+        return ParameterError(
+            f"T{number} cuts from line {int(self.motions.line[row])} on, but nobody has said what it is; "
+            f"give its shape, such as {number}=flat:6."
+        )

@@ -1,8 +1,9 @@
 """Motions that change nothing in what is left: another one goes the same way, nowhere higher.
 
-A cutter over a place that goes deeper there takes all that it took before, whatever its shape. So of the turns of a helix on one
-circle the last ones count alone, and of passes along one line or arc the deepest. Heights are the least of all sweeps: which of the
-two came first is the same to them. It is not to a rapid that asks how high the metal is when it comes, so none may lie between.
+A cutter over a place that goes deeper there takes all that it took before, whatever its shape. So of the turns of a
+helix on one circle the last ones count alone, and of passes along one line or arc the deepest. Heights are the least of
+all sweeps: which of the two came first is the same to them. It is not to a rapid that asks how high the metal is when
+it comes, so none may lie between.
 """
 
 from __future__ import annotations
@@ -63,8 +64,8 @@ def _groups(keys: NDArray[np.int64]) -> NDArray[np.int64]:
 def _not_lowest(group: NDArray[np.int64], first: Floats, last: Floats) -> Mask:
     """Return for each of m pairs of heights whether one of its group has both no higher.
 
-    In the order of first heights, it is the least of the last heights so far that tells; ranks that fall from group to group let the least
-    begin anew with each.
+    In the order of first heights, it is the least of the last heights so far that tells; ranks that fall from group to
+    group let the least begin anew with each.
     """
     count = len(group)
     order = np.lexsort((last, first, group))

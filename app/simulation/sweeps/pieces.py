@@ -1,10 +1,11 @@
 """A path in the pieces that the engine sweeps: straight ones, and level arcs of at most a quarter turn.
 
-Level arcs of the XY plane stay arcs. Helices and arcs of the other planes become chords that keep within `CHORD` of them (or as
-near as the caller wants), point by point: between its ends a curve leaves its chord, run at even parameter, by at most
-max |second derivative| / 8, which for an arc of radius A, turn w and change of radius g in n chords is (A w² + 2 g w) / (8 n²).
-Splines become chords within `CHORD` of the hulls of their Bézier pieces (`app.geometry.arcs.nurbs`). A cut height is then off by at most
-CHORD (1 + slope of the surface). Helices may be given chords that are farther off, where a grid is no finer (`helix_chord`).
+Level arcs of the XY plane stay arcs. Helices and arcs of the other planes become chords that keep within `CHORD` of
+them (or as near as the caller wants), point by point: between its ends a curve leaves its chord, run at even parameter,
+by at most max |second derivative| / 8, which for an arc of radius A, turn w and change of radius g in n chords is (A w²
++ 2 g w) / (8 n²). Splines become chords within `CHORD` of the hulls of their Bézier pieces (`app.geometry.arcs.nurbs`).
+A cut height is then off by at most CHORD (1 + slope of the surface). Helices may be given chords that are farther off,
+where a grid is no finer (`helix_chord`).
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ CHORD = 1e-6
 """mm."""
 
 HELIX_CHORD = 1e-4
-"""mm, of chords of helices where cells are asked alone, and never more than a thousandth of a cell: ten times fewer chords."""
+"""mm, of chords of helices where cells are asked alone, and never more than a thousandth of a cell: ten times fewer
+chords.
+"""
 
 QUARTER = math.pi / 2
 
@@ -74,17 +77,24 @@ class Window:
 class Splitter:
     """The pieces of motions, any part of them at a time."""
 
-    def __init__(self, motions: Motions, arcs_stay: bool = True, window: Window | None = None, chord: float = CHORD,
-                 helix_chord: float = 0.0) -> None:  # fmt: skip
+    def __init__(
+        self,
+        motions: Motions,
+        arcs_stay: bool = True,
+        window: Window | None = None,
+        chord: float = CHORD,
+        helix_chord: float = 0.0,
+    ) -> None:
         """Prepare to split.
 
         Args:
             motions: n motions.
             arcs_stay: False: level arcs become chords too.
-            window: of curves off it that fall into chords only the first and the last chord are made: neighbours need no more.
+            window: of curves off it that fall into chords only the first and the last chord are made: neighbours need
+                no more.
             chord: how far at most chords are from their curves, mm, > 0.
-            helix_chord: the same of helices of the XY plane, where it is more: at even parameter their height is linear along curve and
-                chord, so that they are off in X and Y alone.
+            helix_chord: the same of helices of the XY plane, where it is more: at even parameter their height is linear
+                along curve and chord, so that they are off in X and Y alone.
         """
         self._motions = motions
         self._arcs = arc_paths(motions)
@@ -109,13 +119,18 @@ class Splitter:
         arcs = self._arcs
         size = np.maximum(arcs.start_radius, arcs.end_radius)[:, None]
         ends = np.stack([arcs.height, arcs.height + arcs.rise], axis=1)
-        low, high = (along_xyz(np.column_stack([arcs.centre + sign * size, side(ends, axis=1)]), arcs.axes)
-                     for sign, side in ((-1.0, np.min), (1.0, np.max)))  # fmt: skip
+        low, high = (
+            along_xyz(np.column_stack([arcs.centre + sign * size, side(ends, axis=1)]), arcs.axes)
+            for sign, side in ((-1.0, np.min), (1.0, np.max))
+        )
         return arcs.rows[~self._level], low[~self._level], high[~self._level]
 
     def _reach_of_splines(self) -> tuple[NDArray[np.intp], Floats, Floats]:
         """Return the rows of splines, and the lowest and highest coordinates (m, 3) of their chords, mm."""
-        low, high = (np.array([side(points, axis=0) for points in self._splines.values()]).reshape(-1, 3) for side in (np.min, np.max))
+        low, high = (
+            np.array([side(points, axis=0) for points in self._splines.values()]).reshape(-1, 3)
+            for side in (np.min, np.max)
+        )
         return np.array(list(self._splines), np.intp), low, high
 
     def pieces(self, first: int, last: int) -> Pieces:
@@ -123,7 +138,13 @@ class Splitter:
         motions, counts = self._motions, self.counts[first:last]
         rows = np.arange(first, last, dtype=np.int32)
         if not np.any(motions.kind[first:last] >= MotionKind.ARC_CW):
-            return Pieces(motions.start[first:last], motions.end[first:last], rows, np.full(len(rows), -1, np.int32), np.zeros((0, 7)))
+            return Pieces(
+                motions.start[first:last],
+                motions.end[first:last],
+                rows,
+                np.full(len(rows), -1, np.int32),
+                np.zeros((0, 7)),
+            )
         rows, step = np.repeat(rows, counts), _counted(counts)
         step = np.where((step == 1) & (self.counts[rows] < self._whole[rows]), self._whole[rows] - 1, step)
         start, end, arc, k = motions.start[rows], motions.end[rows], np.full(len(rows), -1, np.int32), self._arc[rows]
@@ -143,7 +164,8 @@ class Splitter:
 
 
 def helix_chord(pitch: float) -> float:
-    """Return how far the chords of helices may be from these on a grid, in X and Y alone, mm: what certificates make up for.
+    """Return how far the chords of helices may be from these on a grid, in X and Y alone, mm: what certificates make up
+    for.
 
     Args:
         pitch: side of a cell, mm.
@@ -164,9 +186,13 @@ def _is_level(motions: Motions, arcs: ArcPaths, chord: float) -> NDArray[np.bool
 
 def _level_counts(arcs: ArcPaths) -> NDArray[np.int64]:
     """Return in how many level arcs each falls: at most a quarter turn, and the radius within CHORD of its own."""
-    return np.asarray(np.maximum(
-        np.ceil(np.abs(arcs.sweep) / QUARTER - 1e-9), np.ceil(np.abs(arcs.end_radius - arcs.start_radius) / (2 * CHORD) - 1e-3),
-    ).clip(1), dtype=np.int64)  # fmt: skip
+    return np.asarray(
+        np.maximum(
+            np.ceil(np.abs(arcs.sweep) / QUARTER - 1e-9),
+            np.ceil(np.abs(arcs.end_radius - arcs.start_radius) / (2 * CHORD) - 1e-3),
+        ).clip(1),
+        dtype=np.int64,
+    )
 
 
 def _chords(arcs: ArcPaths, chord: float, helix_chord: float) -> Floats:
@@ -189,12 +215,21 @@ def _places(arcs: ArcPaths, k: NDArray[np.int64], fractions: Floats) -> Floats:
     """Return (n, 3) places of the arcs k (n,) at fractions (n,)."""
     angle = arcs.angle[k] + arcs.sweep[k] * fractions
     radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * fractions
-    return along_xyz(np.column_stack([
-        arcs.centre[k, 0] + radius * np.cos(angle), arcs.centre[k, 1] + radius * np.sin(angle), arcs.height[k] + arcs.rise[k] * fractions,
-    ]), arcs.axes[k])  # fmt: skip
+    return along_xyz(
+        np.column_stack(
+            [
+                arcs.centre[k, 0] + radius * np.cos(angle),
+                arcs.centre[k, 1] + radius * np.sin(angle),
+                arcs.height[k] + arcs.rise[k] * fractions,
+            ]
+        ),
+        arcs.axes[k],
+    )
 
 
-def _level_arcs(arcs: ArcPaths, k: NDArray[np.int64], at: NDArray[np.int64], count: NDArray[np.int64]) -> tuple[Floats, Floats, Floats]:
+def _level_arcs(
+    arcs: ArcPaths, k: NDArray[np.int64], at: NDArray[np.int64], count: NDArray[np.int64]
+) -> tuple[Floats, Floats, Floats]:
     """Return starts, ends and rows of the n level arcs that some arcs fall into.
 
     Args:

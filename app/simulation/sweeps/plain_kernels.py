@@ -1,4 +1,6 @@
-"""A plain trim, to measure others by: one thread, every cell of each move's box, branches, float64: what anybody would write first."""
+"""A plain trim, to measure others by: one thread, every cell of each move's box, branches, float64: what anybody would
+write first.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +26,14 @@ def plain_trim(heights, start, end, radius, pitch):
         length = math.sqrt(length2)
         slope = dz / length if length > 0 else 0.0
         lean = slope / math.sqrt(1 + slope * slope)
-        first_row, last_row = max(0, int((min(y0, y1) - radius) / pitch)), min(rows - 1, int((max(y0, y1) + radius) / pitch))
-        first_col, last_col = max(0, int((min(x0, x1) - radius) / pitch)), min(cols - 1, int((max(x0, x1) + radius) / pitch))
+        first_row, last_row = (
+            max(0, int((min(y0, y1) - radius) / pitch)),
+            min(rows - 1, int((max(y0, y1) + radius) / pitch)),
+        )
+        first_col, last_col = (
+            max(0, int((min(x0, x1) - radius) / pitch)),
+            min(cols - 1, int((max(x0, x1) + radius) / pitch)),
+        )
         for row in range(first_row, last_row + 1):
             y = (row + 0.5) * pitch - y0
             for col in range(first_col, last_col + 1):

@@ -21,8 +21,9 @@ class PathProbe:
     """Motions that cut, in pieces of a tree: whoever asks for a place meets those alone that come over it.
 
     Attributes:
-        boxes: of the nodes, as `probe_kernels.lowest` wants them. pieces: (n, 9) in the order of the leaves. owners: (n, 2) of each the row
-            of its motion, counted through all courses, and of its cutter. shapes: (c, 6) of the cutters.
+        boxes: of the nodes, as `probe_kernels.lowest` wants them. pieces: (n, 9) in the order of the leaves. owners:
+            (n, 2) of each the row of its motion, counted through all courses, and of its cutter. shapes: (c, 6) of the
+            cutters.
     """
 
     boxes: Floats
@@ -51,7 +52,9 @@ class PathProbe:
         return PathProbe(boxes, np.ascontiguousarray(pieces[order]), np.ascontiguousarray(owners[order]), shapes)
 
     def lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
-        """Return the lowest height (m,) that is reached at points (m, 2), infinite where nothing comes, and the motion's row, -1 = none."""
+        """Return the lowest height (m,) that is reached at points (m, 2), infinite where nothing comes, and the
+        motion's row, -1 = none.
+        """
         from .probe_kernels import lowest
 
         heights, motions = np.full(len(points), np.inf), np.full(len(points), -1, np.int64)
@@ -88,9 +91,13 @@ def _shape(cutter: Cutter) -> tuple[float, ...]:
 
 
 def _boxes(pieces: Floats, shapes: Floats) -> tuple[Floats, Floats]:
-    """Return the lowest and highest coordinates (n, 3) that the cutters cut at; of arcs of at most a quarter turn, wide enough."""
+    """Return the lowest and highest coordinates (n, 3) that the cutters cut at; of arcs of at most a quarter turn, wide
+    enough.
+    """
     low, high = np.minimum(pieces[:, :3], pieces[:, 3:6]), np.maximum(pieces[:, :3], pieces[:, 3:6])
-    bulge = (1.0 - math.sqrt(0.5)) * pieces[:, 8:9]  # of a quarter turn beyond its chord, and more than what it is beyond the chord's box
+    bulge = (1.0 - math.sqrt(0.5)) * pieces[
+        :, 8:9
+    ]  # of a quarter turn beyond its chord, and more than what it is beyond the chord's box
     wide = shapes[:, :1] * (1.0 + 1e-9) + bulge
     low[:, :2] -= wide
     high[:, :2] += wide

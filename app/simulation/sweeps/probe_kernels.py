@@ -20,7 +20,9 @@ _NARROWED = 60
 """Times that the interval in which a cutter is lowest is made shorter: to the twelfth digit."""
 
 _UPRIGHT, _RIM = 1e-18, 1e-12
-"""Square of a way, mm2, that goes nowhere sideways; and the part of a radius that rounding may take a place beyond the rim."""
+"""Square of a way, mm2, that goes nowhere sideways; and the part of a radius that rounding may take a place beyond the
+rim.
+"""
 
 
 @kernel(f"float64({_SHAPE}, float64)")
@@ -68,7 +70,8 @@ def lowest_part(shape, span, rise, where):
 
 @kernel(f"float64({_SHAPE}, {_R}, float64, float64, float64)", counts=False)
 def over_straight(shape, p, x, y, best):
-    """Return the lowest height of a cutter over a place on a straight piece; infinite where it does not come, or surely not below best.
+    """Return the lowest height of a cutter over a place on a straight piece; infinite where it does not come, or surely
+    not below best.
 
     The height along the way is convex where the cutter is over the place, so that it has one least value there.
     """
@@ -93,7 +96,9 @@ def over_straight(shape, p, x, y, best):
 
 @kernel(f"float64({_SHAPE}, {_R}, float64, float64)", counts=False)
 def over_arc(shape, p, x, y):
-    """Return the height of a cutter over a place on a level arc of at most a quarter turn; infinite where it does not come over it."""
+    """Return the height of a cutter over a place on a level arc of at most a quarter turn; infinite where it does not
+    come over it.
+    """
     cx, cy, size = p[6], p[7], p[8]
     ox, oy = x - cx, y - cy
     off = abs(math.sqrt(ox * ox + oy * oy) - size)
@@ -105,7 +110,8 @@ def over_arc(shape, p, x, y):
 
 @kernel(f"void({_MANY}, {_MANY}, int64[:, ::1], {_MANY}, {_MANY}, {_R}, int64[::1])")
 def lowest(boxes, pieces, owners, shapes, points, heights, motions):
-    """Write the lowest height that is reached over each point (m, 2), infinite where nothing comes, and the first motion that does.
+    """Write the lowest height that is reached over each point (m, 2), infinite where nothing comes, and the first
+    motion that does.
 
     Args:
         boxes: of the pieces' `box_tree`, a cutter's radius wider on each side, from the lowest height on.

@@ -1,9 +1,9 @@
 """What tools can reach of a solid without touching it: grey dilation by a tool's profile, and erosion by it.
 
-The tool's tip may be where no part of the solid is in the tool: no lower than the greatest of part minus profile round it (dilation). The
-lowest that it cuts at a place is the least of tip plus profile round it (erosion). On cells both are known to half a cell's
-diagonal, so there are two answers: what is surely reached, by a cutter that keeps as much more away, and what may be, by
-one that keeps as much less.
+The tool's tip may be where no part of the solid is in the tool: no lower than the greatest of part minus profile round
+it (dilation). The lowest that it cuts at a place is the least of tip plus profile round it (erosion). On cells both are
+known to half a cell's diagonal, so there are two answers: what is surely reached, by a cutter that keeps as much more
+away, and what may be, by one that keeps as much less.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class Reach:
     Attributes:
         grid: the stock, and the widest tool's radius round it.
         sure: some tool gets as low as that. possible: none gets lower.
-        over_part: how far above the part the tool that gets lowest stays there; part and tool both taken at the cells' centres,
-            so that a slope is no height.
+        over_part: how far above the part the tool that gets lowest stays there; part and tool both taken at the cells'
+            centres, so that a slope is no height.
     """
 
     grid: Grid
@@ -52,8 +52,13 @@ class Reach:
         return self.sure[place], self.possible[place], self.over_part[place]
 
 
-def reach_of(solid: SolidStock, leave: float, box: tuple[float, float, float, float], cutters: Iterable[Cutter],
-             progress: Progress = NO_PROGRESS) -> Reach:  # fmt: skip
+def reach_of(
+    solid: SolidStock,
+    leave: float,
+    box: tuple[float, float, float, float],
+    cutters: Iterable[Cutter],
+    progress: Progress = NO_PROGRESS,
+) -> Reach:
     """Return what some cutters reach of a solid with stock to leave on it.
 
     Args:
@@ -75,7 +80,9 @@ def reach_of(solid: SolidStock, leave: float, box: tuple[float, float, float, fl
     possible = [_lowest(wanted, cutter.shrunk(half), cutter, pitch, progress) for cutter in cutters]
     nearest = np.minimum.reduce([_lowest(wanted, cutter, cutter, pitch, progress) for cutter in cutters])
     over_part = np.zeros_like(wanted)
-    np.subtract(nearest, wanted, out=over_part, where=np.isfinite(wanted))  # beside the part there is none to keep away from
+    np.subtract(
+        nearest, wanted, out=over_part, where=np.isfinite(wanted)
+    )  # beside the part there is none to keep away from
     return Reach(grid, np.minimum.reduce(sure), np.minimum.reduce(possible), over_part)
 
 
@@ -86,21 +93,25 @@ def _lowest(wanted: Heights, led: Cutter | None, cuts: Cutter, pitch: float, pro
     return np.asarray(-dilated(-tip, cutter_profile(cuts, pitch), progress))
 
 
-def reachable(left: NDArray[np.bool_], sure: NDArray[np.bool_], possible: NDArray[np.bool_], near: NDArray[np.bool_],
-              cells: int) -> NDArray[np.bool_]:  # fmt: skip
+def reachable(
+    left: NDArray[np.bool_], sure: NDArray[np.bool_], possible: NDArray[np.bool_], near: NDArray[np.bool_], cells: int
+) -> NDArray[np.bool_]:
     """Return which of the cells that are left count as within reach.
 
-    Sure ones do, and possible ones in places that are wide enough: beside inner corners possible reach is too wide by a part of a
-    cell, so that what is no wider than so many cells is no finding. On slopes heights differ within a cell by more than that;
-    there those count that a tool comes near enough to.
+    Sure ones do, and possible ones in places that are wide enough: beside inner corners possible reach is too wide by a
+    part of a cell, so that what is no wider than so many cells is no finding. On slopes heights differ within a cell by
+    more than that; there those count that a tool comes near enough to.
 
     Args:
-        left: more than the tolerance is. sure, possible: told from heights, and so by a slope times a cell too little, too much.
+        left: more than the tolerance is. sure, possible: told from heights, and so by a slope times a cell too little,
+            too much.
         near: a tool is led to within the tolerance of the part, at the cell's centre.
         cells: so many in a row are a wide place.
     """
     import cv2
 
     maybe = (left & possible).astype(np.uint8)
-    opened = cv2.morphologyEx(maybe, cv2.MORPH_OPEN, np.ones((cells, cells), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    opened = cv2.morphologyEx(
+        maybe, cv2.MORPH_OPEN, np.ones((cells, cells), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0
+    )
     return np.asarray((left & (sure | (possible & near))) | opened.astype(bool))

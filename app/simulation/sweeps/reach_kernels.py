@@ -2,22 +2,23 @@
 
 Let u be a move's horizontal direction, s its rise per mm, L its horizontal length, t a cell's place along it. Give the
 cutter's profile a little curvature everywhere (and let that go to 0): then it touches the surface that it leaves at one
-place for each cell, with the surface's slope T in (0, inf], the place at a distance rho(T) from the axis, at the bearing
-phi from u. Over a cell the whole chain of moves is lowest
+place for each cell, with the surface's slope T in (0, inf], the place at a distance rho(T) from the axis, at the
+bearing phi from u. Over a cell the whole chain of moves is lowest
 
 * inside a move: there T cos(phi) = s, so t lies in [0, L] + v with |v| <= `lead`, and v has the sign of s; or
 * at a corner between the moves i and j: there going on along i would lower it and along j raise it,
   T cos(phi_i) >= s_i and T cos(phi_j) <= s_j. The cell is then evaluated by i, at t = L + rho(T) cos(phi_i); or
 * at an end of the chain: there the whole disc is evaluated.
 
-So nothing is lost on the rectangle |c| <= R, t in [low, high], of this file's `reach`. Bounds of t at a corner, with the
-horizontal turn w, the turn in space th and the pitch a = atan(s_i), rho = flat + fillet sin(tilt) or, on the cone, T = m:
+So nothing is lost on the rectangle |c| <= R, t in [low, high], of this file's `reach`. Bounds of t at a corner, with
+the horizontal turn w, the turn in space th and the pitch a = atan(s_i), rho = flat + fillet sin(tilt) or, on the cone,
+T = m:
 
 * s_j <= 0: then cos(phi_j) <= 0, so cos(phi_i) <= sin(w): t <= R sin(w), for any profile (R where w > 90 degrees).
 * the flat's part is flat cos(phi_i): at most flat, and flat sin(w) where s_j <= 0.
-* the fillet's part is fillet * n·u_i with the unit normal n, n·d_i >= 0 >= n·d_j, n_z <= 0. As n and d_j are 90 degrees or
-  more apart, n·d_i <= sin(th); so n·u_i <= sin(a + th) for a >= 0 (1 from 90 degrees on), <= sin(th) / cos(a) for a < 0,
-  where a normal that points down would only help.
+* the fillet's part is fillet * n·u_i with the unit normal n, n·d_i >= 0 >= n·d_j, n_z <= 0. As n and d_j are 90 degrees
+  or more apart, n·d_i <= sin(th); so n·u_i <= sin(a + th) for a >= 0 (1 from 90 degrees on), <= sin(th) / cos(a) for a
+  < 0, where a normal that points down would only help.
 * on the cone and its rim T >= m, so cos(phi_j) <= s_j / m, and phi_i is at most w less: t <= R sin(asin(s_j / m) + w).
 """
 
@@ -31,7 +32,9 @@ SLACK = 1e-4
 """Added to sines, and as a part of the radius to bounds: far more than rounding, far less than a cell."""
 
 _SHAPE = "UniTuple(float64, 7)"
-"""Of a cutter: radius, flat, fillet, span of the fillet, slope of the cone (0 = none), lift over the tip, kind of runs."""
+"""Of a cutter: radius, flat, fillet, span of the fillet, slope of the cone (0 = none), lift over the tip, kind of
+runs.
+"""
 
 _COURSE = "UniTuple(float64, 5)"
 """Of a move: its horizontal length, direction (2) and rise, and the cosine of its pitch."""
@@ -105,7 +108,8 @@ def reach(shape, course, onward, joins, goes_on):
     Args:
         shape: of the cutter.
         course, onward: of the move and of the next one.
-        joins: whether it begins where a straight move with the same cutter has ended. goes_on: whether such a one follows.
+        joins: whether it begins where a straight move with the same cutter has ended. goes_on: whether such a one
+            follows.
     """
     length, s, radius = course[0], course[3], shape[0]
     ahead = lead(shape, course)

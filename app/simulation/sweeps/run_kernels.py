@@ -4,8 +4,9 @@ A run is a row of cells; cell k has the place a along the move's horizontal dire
 b as seen from its upper end (both negative before it), and c across it. The move rises by s >= 0 a millimetre. At a
 distance rho from the axis the cutter stands h(rho) over its tip, h convex, so the height over a cell,
 z(tau) + h(hypot(c, a - tau)), is convex along the move. Its minimum is where a - tau = v(c, s); v is known in closed
-form (by some steps of Newton's method for a fillet round a flat), and tau is clamped to the move's ends. There the exact
-z of the end is taken. Cells that the cutter does not reach give NaN, infinity or are masked: they stay as they are.
+form (by some steps of Newton's method for a fillet round a flat), and tau is clamped to the move's ends. There the
+exact z of the end is taken. Cells that the cutter does not reach give NaN, infinity or are masked: they stay as they
+are.
 
 Cells behind the run's last one, up to the next sixteen, are cut as well; that is exact too, so it does no harm.
 """
@@ -28,7 +29,8 @@ _LINE = "void(float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32
 def ball_height(a, b, c, move):
     """Return the height of a ball's sweep over a cell, NaN where it does not come.
 
-    Free: z = z0 + s a - sqrt((1 + s²)(r² - c²)), where a sphere's end does not come first; there r² - c² - a² is under the root.
+    Free: z = z0 + s a - sqrt((1 + s²)(r² - c²)), where a sphere's end does not come first; there r² - c² - a² is under
+        the root.
 
     Args:
         a, b, c: place of the cell.
@@ -63,7 +65,9 @@ def ball_run(line, first, blocks, where, move):
 
 @kernel(_LINE.format(3), counts=False)
 def flat_run(line, first, blocks, where, move):
-    """Lower a run under a flat end: over a cell it is lowest when its rear rim passes. move: r², s, z of the lower end."""
+    """Lower a run under a flat end: over a cell it is lowest when its rear rim passes. move: r², s, z of the lower
+    end.
+    """
     a0, b0, c0, da, dc = where
     r2, s, low = move
     for _ in range(blocks):
@@ -118,11 +122,13 @@ def level_run(line, first, blocks, where, move):
 def cone_run(line, first, blocks, where, move):
     """Lower a run under a cone with or without a flat tip.
 
-    Where the cone rises more than the move it touches at v = s |c| / sqrt(m² - s²), but not within its flat; else at its rim.
+    Where the cone rises more than the move it touches at v = s |c| / sqrt(m² - s²), but not within its flat; else at
+    its rim.
 
     Args:
         where: as for the ball.
-        move: shape, s, z of both ends, r², flat², s / sqrt(m² - s²), 1 where the move rises as the cone or more, else 0.
+        move: shape, s, z of both ends, r², flat², s / sqrt(m² - s²), 1 where the move rises as the cone or more, else
+            0.
     """
     a0, b0, c0, da, dc = where
     shape, s, low, high = move[:6], move[6], move[7], move[8]
@@ -147,7 +153,8 @@ def cone_run(line, first, blocks, where, move):
 
 @kernel(_LINE.format(14), counts=False)
 def taper_run(line, first, blocks, where, move):
-    """Lower a run under a ball that goes over into a cone: it touches with the ball where that is within the ball's part.
+    """Lower a run under a ball that goes over into a cone: it touches with the ball where that is within the ball's
+    part.
 
     Args:
         where: as for the ball.
@@ -194,19 +201,27 @@ def _tangent(y, wide, deep):
 
 @kernel("UniTuple(float32, 12)(float64, float64)")
 def bull_guesses(wide, deep):
-    """Return six straight lines that lie below what `bull_contact` solves: its tangents at 0, at infinity and between."""
-    return (_tangent(0.0, wide, deep) + (_F(1.0 / deep), _F(-wide / deep))
-            + _tangent(1.5, wide, deep) + _tangent(4.0, wide, deep) + _tangent(12.0, wide, deep) + _tangent(50.0, wide, deep))  # fmt: skip
+    """Return six straight lines that lie below what `bull_contact` solves: its tangents at 0, at infinity and
+    between.
+    """
+    return (
+        _tangent(0.0, wide, deep)
+        + (_F(1.0 / deep), _F(-wide / deep))
+        + _tangent(1.5, wide, deep)
+        + _tangent(4.0, wide, deep)
+        + _tangent(12.0, wide, deep)
+        + _tangent(50.0, wide, deep)
+    )
 
 
 @kernel("float32(float32, float32, float32, UniTuple(float32, 12))")
 def bull_contact(c, wide, deep, lines):
     """Return y of the place where a fillet round a flat touches.
 
-    With the tilt of the surface, tan(tilt) cos(phi) = s and (flat + fillet sin(tilt)) sin(phi) = c, phi being the bearing of
-    the place from the move's direction. For y = sqrt((sin(tilt) sqrt(1 + s²) / s)² - 1) this is
-    flat sqrt(1 + s²) y / sqrt(1 + y²) + fillet s y = c: concave and rising, so Newton's steps from below stay below and
-    converge. After four steps z is less than 1e-10 (1 + s) of the radius too high, for fillets from a thousandth of the flat on
+    With the tilt of the surface, tan(tilt) cos(phi) = s and (flat + fillet sin(tilt)) sin(phi) = c, phi being the
+    bearing of the place from the move's direction. For y = sqrt((sin(tilt) sqrt(1 + s²) / s)² - 1) this is flat sqrt(1
+    + s²) y / sqrt(1 + y²) + fillet s y = c: concave and rising, so Newton's steps from below stay below and converge.
+    After four steps z is less than 1e-10 (1 + s) of the radius too high, for fillets from a thousandth of the flat on
     (the error of z is the square of v's).
 
     Args:
@@ -223,7 +238,9 @@ def bull_contact(c, wide, deep, lines):
 
 @kernel(_LINE.format(12), counts=False)
 def bull_run(line, first, blocks, where, move):
-    """Lower a run under a bull-nose end on a slope. move: shape, s, z of both ends, r², flat * sqrt(1 + s²), fillet * s."""
+    """Lower a run under a bull-nose end on a slope. move: shape, s, z of both ends, r², flat * sqrt(1 + s²), fillet *
+    s.
+    """
     a0, b0, c0, da, dc = where
     shape, s, low, high = move[:6], move[6], move[7], move[8]
     r2, wide, deep = move[9], move[10], move[11]
@@ -237,7 +254,9 @@ def bull_run(line, first, blocks, where, move):
             c2, y2 = c * c, y * y
             under, left = r2 - c2, _ONE - s * s * y2
             q = np.sqrt(under if under > _ZERO else _ZERO)
-            v = (shape[1] + deep * np.sqrt((_ONE + y2) / stretch)) * np.sqrt((left if left > _ZERO else _ZERO) / (_ONE + y2))
+            v = (shape[1] + deep * np.sqrt((_ONE + y2) / stretch)) * np.sqrt(
+                (left if left > _ZERO else _ZERO) / (_ONE + y2)
+            )
             v = v if v < q else q
             before, after = a < v, b > v
             reach = a if before else (b if after else v)
@@ -251,13 +270,14 @@ def bull_run(line, first, blocks, where, move):
 def arc_run(line, first, blocks, where, shape, bend):
     """Lower a run under any cutter that goes round a level arc of at most a quarter turn.
 
-    Of a cell at the offset d from a place of the circle near by (unit vector n to it from the centre, radius A) the distance
-    from the circle is w / (1 + sqrt(1 + w / A)) with w = 2 n·d + d²/A: exact, and of small numbers only, however large A is.
-    Cells before the start or behind the end are as far as the nearer end.
+    Of a cell at the offset d from a place of the circle near by (unit vector n to it from the centre, radius A) the
+    distance from the circle is w / (1 + sqrt(1 + w / A)) with w = 2 n·d + d²/A: exact, and of small numbers only,
+    however large A is. Cells before the start or behind the end are as far as the nearer end.
 
     Args:
         where: of the first cell: a, b (along the tangents at start and end), 2 n·d, d along the run, start and end
-            along the run; their change from cell to cell for a, b and 2 n·d; d, start and end across the run, squared; pitch.
+            along the run; their change from cell to cell for a, b and 2 n·d; d, start and end across the run, squared;
+            pitch.
         shape: as for `profile`, and the z of the tip.
         bend: 1 / A.
     """

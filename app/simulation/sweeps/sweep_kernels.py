@@ -54,7 +54,18 @@ def run_numbers(shape, s, low, high):
         return kind, numbers + (none, none, none, none, none, none, none, none)
     if kind == FLAT_END:
         return kind, (r2, rise, z0, none, none, none, none, none, none, none, none, none, none, none)
-    form = (_F(radius * radius * (1.0 + 4e-7)), _F(flat), _F(fillet), _F(fillet * fillet), _F(span), _F(slope), rise, z0, z1, r2)
+    form = (
+        _F(radius * radius * (1.0 + 4e-7)),
+        _F(flat),
+        _F(fillet),
+        _F(fillet * fillet),
+        _F(span),
+        _F(slope),
+        rise,
+        z0,
+        z1,
+        r2,
+    )
     if s * radius < LOWEST_RISE:
         return _LEVEL, form + (none, none, none, none)
     if kind == BULL:
@@ -86,9 +97,9 @@ def straight_run(runs, line, first, blocks, where, m):
 def plan_straight(frame, shape, ends, span):
     """Return what the lines of a tile need to know of a straight piece.
 
-    That is: first and last line; of the two bands of cells, beside the piece and between its ends, the middle in line 0, how it
-    moves from line to line, and half the width; direction along fast and slow, length, rise, start (lower end) along
-    fast and slow, z of both ends.
+    That is: first and last line; of the two bands of cells, beside the piece and between its ends, the middle in line
+    0, how it moves from line to line, and half the width; direction along fast and slow, length, rise, start (lower
+    end) along fast and slow, z of both ends.
 
     Args:
         frame: fast and slow place of the tile's first cell, pitch, mm; cells along fast and slow.
@@ -116,8 +127,25 @@ def plan_straight(frame, shape, ends, span):
     side_step, end_step = uf * across, -us * along
     side = (pf - fast0) * cell + (slow0 - ps) * cell * side_step
     end = (pf - fast0 + middle * along) * cell + (slow0 - ps) * cell * end_step
-    return (first, last, side, side_step, radius * abs(across) if across != 0.0 else _FAR,
-            end, end_step, half * abs(along) if along != 0.0 else _FAR, uf, us, length, s, pf, ps, pz, qz, pitch)  # fmt: skip
+    return (
+        first,
+        last,
+        side,
+        side_step,
+        radius * abs(across) if across != 0.0 else _FAR,
+        end,
+        end_step,
+        half * abs(along) if along != 0.0 else _FAR,
+        uf,
+        us,
+        length,
+        s,
+        pf,
+        ps,
+        pz,
+        qz,
+        pitch,
+    )
 
 
 @kernel(f"UniTuple(float64, 2)({_FRAME}, {_PLAN}, float64)")
@@ -179,7 +207,8 @@ def trace_straight(heights, owners, swept, sums, notes, frame, shape, ends, span
 
 @kernel(f"UniTuple(float64, 6)({_FRAME}, {_SHAPE}, {_PLACE}, {_ARC})")
 def plan_arc(frame, shape, ends, circle):
-    """Return first and last cell and line of a tile that an arc may lower, and the direction of their middle from its centre.
+    """Return first and last cell and line of a tile that an arc may lower, and the direction of their middle from its
+    centre.
 
     Args:
         frame, shape: as for `plan_straight`.
@@ -191,22 +220,39 @@ def plan_arc(frame, shape, ends, circle):
     cf, cs, size, sense = circle
     left, below, right, above = min(pf, qf), min(ps, qs), max(pf, qf), max(ps, qs)
     for quarter in range(4):
-        ux, uy = (1.0, 0.0) if quarter == 0 else (0.0, 1.0) if quarter == 1 else (-1.0, 0.0) if quarter == 2 else (0.0, -1.0)
+        ux, uy = (
+            (1.0, 0.0) if quarter == 0 else (0.0, 1.0) if quarter == 1 else (-1.0, 0.0) if quarter == 2 else (0.0, -1.0)
+        )
         ahead, behind = ((pf - cf) * uy - (ps - cs) * ux) * sense, (ux * (qs - cs) - uy * (qf - cf)) * sense
         if ahead >= 0.0 and behind >= 0.0:
             left, right = min(left, cf + size * ux), max(right, cf + size * ux)
             below, above = min(below, cs + size * uy), max(above, cs + size * uy)
     radius = shape[0]
-    c0, c1 = max(math.ceil((left - radius - fast0) / pitch - SLACK), 0.0), min((right + radius - fast0) / pitch + SLACK, cells - 1.0)
-    l0, l1 = max(math.ceil((below - radius - slow0) / pitch - SLACK), 0.0), min((above + radius - slow0) / pitch + SLACK, lines - 1.0)
+    c0, c1 = (
+        max(math.ceil((left - radius - fast0) / pitch - SLACK), 0.0),
+        min((right + radius - fast0) / pitch + SLACK, cells - 1.0),
+    )
+    l0, l1 = (
+        max(math.ceil((below - radius - slow0) / pitch - SLACK), 0.0),
+        min((above + radius - slow0) / pitch + SLACK, lines - 1.0),
+    )
     mf, ms = fast0 + 0.5 * (c0 + c1) * pitch - cf, slow0 + 0.5 * (l0 + l1) * pitch - cs
     middle = math.sqrt(mf * mf + ms * ms)
-    return c0, math.floor(c1), l0, math.floor(l1), mf / middle if middle > 0.0 else 1.0, ms / middle if middle > 0.0 else 0.0
+    return (
+        c0,
+        math.floor(c1),
+        l0,
+        math.floor(l1),
+        mf / middle if middle > 0.0 else 1.0,
+        ms / middle if middle > 0.0 else 0.0,
+    )
 
 
 @kernel(f"UniTuple(float64, 4)({_FRAME}, {_SHAPE}, {_ARC}, {_PLACE}, float64)")
 def cells_round_arc(frame, shape, circle, plan, line):
-    """Return first and last cell of the two runs of a line that lie in an arc's ring; the last before the first: none."""
+    """Return first and last cell of the two runs of a line that lie in an arc's ring; the last before the first:
+    none.
+    """
     fast0, slow0, pitch, _, _ = frame
     cf, cs, size, _ = circle
     y = slow0 + line * pitch - cs
@@ -231,9 +277,21 @@ def place_by_arc(frame, ends, circle, plan, line, first):
     x, y = frame[0] + first * pitch, frame[1] + line * pitch
     df, ds, turn = x - cf - size * nf, y - cs - size * ns, sense / size
     t0f, t0s, t1f, t1s = -(ps - cs) * turn, (pf - cf) * turn, -(qs - cs) * turn, (qf - cf) * turn
-    return (_F((x - pf) * t0f + (y - ps) * t0s), _F((x - qf) * t1f + (y - qs) * t1s), _F(2.0 * (nf * df + ns * ds)),
-            _F(df), _F(x - pf), _F(x - qf), _F(t0f * pitch), _F(t1f * pitch), _F(2.0 * nf * pitch),
-            _F(ds * ds), _F((y - ps) * (y - ps)), _F((y - qs) * (y - qs)), _F(pitch))  # fmt: skip
+    return (
+        _F((x - pf) * t0f + (y - ps) * t0s),
+        _F((x - qf) * t1f + (y - qs) * t1s),
+        _F(2.0 * (nf * df + ns * ds)),
+        _F(df),
+        _F(x - pf),
+        _F(x - qf),
+        _F(t0f * pitch),
+        _F(t1f * pitch),
+        _F(2.0 * nf * pitch),
+        _F(ds * ds),
+        _F((y - ps) * (y - ps)),
+        _F((y - qs) * (y - qs)),
+        _F(pitch),
+    )
 
 
 @kernel(f"void({_TRACED}, {_ARC}, int64, boolean)", counts=False)
@@ -241,7 +299,15 @@ def sweep_arc(heights, owners, swept, sums, notes, frame, shape, ends, circle, o
     """Lower a tile's heights under a level arc, traced or not; what the arguments are `plan_arc` and `settle` say."""
     plan = plan_arc(frame, shape, ends, circle)
     radius, flat, fillet, span, slope, lift, _ = shape
-    form = (_F(radius * radius * (1.0 + 4e-7)), _F(flat), _F(fillet), _F(fillet * fillet), _F(span), _F(slope), _F(ends[2] + lift))
+    form = (
+        _F(radius * radius * (1.0 + 4e-7)),
+        _F(flat),
+        _F(fillet),
+        _F(fillet * fillet),
+        _F(span),
+        _F(slope),
+        _F(ends[2] + lift),
+    )
     bend = _F(1.0 / circle[2])
     for line in range(int(plan[2]), int(plan[3]) + 1):
         runs = cells_round_arc(frame, shape, circle, plan, float(line))

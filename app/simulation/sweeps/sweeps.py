@@ -1,4 +1,6 @@
-"""A course over a grid, made ready to be cut: what each motion does and with which cutter, its pieces, and the tiles that these meet."""
+"""A course over a grid, made ready to be cut: what each motion does and with which cutter, its pieces, and the tiles
+that these meet.
+"""
 
 from __future__ import annotations
 
@@ -84,9 +86,10 @@ class Sweeps:
 
     Attributes:
         grid: the cells. course: what is cut along; `motions` are its, anchored.
-        does: (n,) what each motion does: nothing, it cuts, it is asked. shapes, cutter: rows of the cutters, and each motion's.
-        trace: each motion is evaluated wherever the one before it in its chain has not swept as deep; else those that another one
-            outdoes do nothing.
+        does: (n,) what each motion does: nothing, it cuts, it is asked. shapes, cutter: rows of the cutters, and each
+            motion's.
+        trace: each motion is evaluated wherever the one before it in its chain has not swept as deep; else those that
+            another one outdoes do nothing.
         batches: first motions and ends of the parts that are cut at a time.
     """
 
@@ -113,7 +116,9 @@ class Sweeps:
         self.batches = tuple(_batches(self.splitter.counts))
 
     def part(self, first: int, last: int, behind: int = 0) -> Part:
-        """Return the motions first … last - 1; `behind` motions before them tell how the chain goes on, and are not cut."""
+        """Return the motions first … last - 1; `behind` motions before them tell how the chain goes on, and are not
+        cut.
+        """
         return Part(self, first, last, behind)
 
     @cached_property
@@ -122,8 +127,11 @@ class Sweeps:
         from .sweep_kernels import TILE
 
         grid = self.grid
-        return [(row, col, min(TILE, grid.rows - row), min(TILE, grid.cols - col))
-                for row in range(0, grid.rows, TILE) for col in range(0, grid.cols, TILE)]
+        return [
+            (row, col, min(TILE, grid.rows - row), min(TILE, grid.cols - col))
+            for row in range(0, grid.rows, TILE)
+            for col in range(0, grid.cols, TILE)
+        ]
 
 
 class Part:
@@ -144,8 +152,8 @@ class Part:
 
         Args:
             top: no metal is higher, mm.
-            stop: motions from this one on do nothing; how tiles' lines run does not depend on it, so that what is cut up to a motion
-                is, bit for bit, what is cut on the way to a later one.
+            stop: motions from this one on do nothing; how tiles' lines run does not depend on it, so that what is cut
+                up to a motion is, bit for bit, what is cut on the way to a later one.
         """
         sorting = self._sorted(self.does, top)
         if stop is None or not len(self.motion) or stop > self.motion[-1]:
@@ -159,7 +167,9 @@ class Part:
         self.does = np.where(self.does == ASKS, np.uint8(0), self.does)
         return self
 
-    def cut(self, before: Heights, field: Field, sorting: Sorting, limits: Limits, progress: Progress = NO_PROGRESS) -> Floats:
+    def cut(
+        self, before: Heights, field: Field, sorting: Sorting, limits: Limits, progress: Progress = NO_PROGRESS
+    ) -> Floats:
         """Cut all tiles, or, where `before` is the field's own heights, those that some piece meets.
 
         Args:
@@ -169,8 +179,8 @@ class Part:
             progress: told as tiles are done.
 
         Returns:
-            (refs, 5) what each piece does in its tile: volume in mm of height, engaged cells, greatest depth, its cell, and the height
-            that is reached there; empty where nothing is asked nor traced.
+            (refs, 5) what each piece does in its tile: volume in mm of height, engaged cells, greatest depth, its cell,
+            and the height that is reached there; empty where nothing is asked nor traced.
 
         Raises:
             Cancelled: the job was asked to stop.
@@ -184,8 +194,20 @@ class Part:
 
         def cut(tile: int) -> None:
             mine = slice(bounds[tile], bounds[tile + 1])
-            cut_tile(*tables, sorting.spans, self.motion, sorting.refs[mine], self._where, boxes[tile], bool(sorting.turned[tile]),
-                     old, field.heights, field.owner, told[mine], (limits.floor, limits.touch))  # fmt: skip
+            cut_tile(
+                *tables,
+                sorting.spans,
+                self.motion,
+                sorting.refs[mine],
+                self._where,
+                boxes[tile],
+                bool(sorting.turned[tile]),
+                old,
+                field.heights,
+                field.owner,
+                told[mine],
+                (limits.floor, limits.touch),
+            )
 
         sizes = np.diff(bounds)
         order = np.argsort(-sizes, kind="stable")
@@ -246,7 +268,9 @@ def in_parallel(work: Callable[[int], None], parts: list[int], progress: Progres
 
 
 def _batches(counts: NDArray[np.int64]) -> Iterator[tuple[int, int]]:
-    """Yield parts of a course whose pieces fit into memory: first motion, and the first one of the next part; at least one part."""
+    """Yield parts of a course whose pieces fit into memory: first motion, and the first one of the next part; at least
+    one part.
+    """
     ends, first, total = np.cumsum(counts), 0, len(counts)
     while True:
         done = int(ends[first - 1]) if first else 0
@@ -265,7 +289,9 @@ def _deeds(course: Course, rapids: Rapids) -> NDArray[np.uint8]:
     return does
 
 
-def _shape_rows(course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.uint8], touch: float) -> tuple[Floats, Ints]:
+def _shape_rows(
+    course: Course, cutters: Mapping[int, Cutter], does: NDArray[np.uint8], touch: float
+) -> tuple[Floats, Ints]:
     """Return the rows of the cutters, each followed by the slimmer one of its rapids, and each motion's row.
 
     A motion without a cutter does nothing if it is a rapid.

@@ -88,19 +88,29 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
         arcs: rows of arcs: centre, radius, box.
         grid: x and y of the lower left corner, pitch, mm. extent: rows and columns of cells.
         first, last: the pieces to do are first … last - 1.
-        reduced: pieces that go on are evaluated without what the next one cuts as deep; what the one before has cut is always left out.
+        reduced: pieces that go on are evaluated without what the next one cuts as deep; what the one before has cut is
+            always left out.
         top: no metal is higher.
         spans: (n, 2) from and to along straight pieces, mm (to < from: upright).
-        met: (n, 5) first and last row and column of tiles that the box of those cells meets (the last before the first: none), and how
-            many cells the box is taller than wide.
+        met: (n, 5) first and last row and column of tiles that the box of those cells meets (the last before the first:
+            none), and how many cells the box is taller than wide.
     """
     pitch, known, onward = grid[2], False, (0.0, 1.0, 0.0, 0.0, 1.0)
     window = (grid[0], grid[1], grid[0] + extent[1] * pitch, grid[1] + extent[0] * pitch)
     for i in range(first, last):
         c, a = cutter[i], arc[i]
-        radius, span, here, there = shapes[c, 0], (0.0, -1.0), (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        box = (min(here[0], there[0]) - radius, min(here[1], there[1]) - radius,
-               max(here[0], there[0]) + radius, max(here[1], there[1]) + radius)  # fmt: skip
+        radius, span, here, there = (
+            shapes[c, 0],
+            (0.0, -1.0),
+            (start[i, 0], start[i, 1], start[i, 2]),
+            (end[i, 0], end[i, 1], end[i, 2]),
+        )
+        box = (
+            min(here[0], there[0]) - radius,
+            min(here[1], there[1]) - radius,
+            max(here[0], there[0]) + radius,
+            max(here[1], there[1]) + radius,
+        )
         if a >= 0:
             box = (arcs[a, 3] - radius, arcs[a, 4] - radius, arcs[a, 5] + radius, arcs[a, 6] + radius)
         over = does[i] == NOTHING or min(here[2], there[2]) + shapes[c, 5] >= top
@@ -110,7 +120,10 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
         me, before = (int(does[i]), int(c), int(a)), known
         if not known and i > 0:
             k = i - 1
-            he, last_way = (int(does[k]), int(cutter[k]), int(arc[k])), (end[k, 0] - start[k, 0], end[k, 1] - start[k, 1], 0.0)
+            he, last_way = (
+                (int(does[k]), int(cutter[k]), int(arc[k])),
+                (end[k, 0] - start[k, 0], end[k, 1] - start[k, 1], 0.0),
+            )
             before = goes_on(he, me, (end[k, 0], end[k, 1], end[k, 2]), here) and course_of(last_way)[0] > 0.0
         course = onward if known else course_of((there[0] - here[0], there[1] - here[1], there[2] - here[2]))
         known = False
@@ -122,7 +135,11 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
                 known = course[0] > 0.0 and onward[0] > 0.0
         if a < 0 and course[0] > 0.0:
             shape = (radius, shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
-            span = reach(shape, course, onward, before, known and reduced) if does[i] == CUTS else (-radius, course[0] + radius)
+            span = (
+                reach(shape, course, onward, before, known and reduced)
+                if does[i] == CUTS
+                else (-radius, course[0] + radius)
+            )
             box = box_of(span, (here[0], here[1]), course, radius)
         spans[i, 0], spans[i, 1] = span
         met[i, 0], met[i, 1], met[i, 2], met[i, 3] = tiles_met(box, grid, extent)
@@ -131,10 +148,11 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
 
 @kernel(f"void({_SORTING}, int16[:, ::1], int64[::1], int64[::1])", counts=False)
 def count(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, last, met, counts, votes):
-    """Count how many of the pieces first … last - 1 meet each tile, and how many cells their boxes are taller than wide.
+    """Count how many of the pieces first … last - 1 meet each tile, and how many cells their boxes are taller than
+    wide.
 
-    The rest of the arguments are `survey`'s; counts and votes are by tile. Votes are whole numbers, so that their sum does not depend
-    on the order.
+    The rest of the arguments are `survey`'s; counts and votes are by tile. Votes are whole numbers, so that their sum
+    does not depend on the order.
     """
     across, side = (extent[1] + TILE - 1) // TILE, TILE * grid[2]
     for i in range(first, last):
@@ -152,7 +170,9 @@ def count(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, last
 
 @kernel(f"void({_SORTING}, int16[:, ::1], int64[::1], int32[::1])", counts=False)
 def fill(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, last, met, places, refs):
-    """Write the pieces into the lists of the tiles that they meet; `places` are the next free ones, by tile. See `count`."""
+    """Write the pieces into the lists of the tiles that they meet; `places` are the next free ones, by tile. See
+    `count`.
+    """
     across, side = (extent[1] + TILE - 1) // TILE, TILE * grid[2]
     for i in range(first, last):
         r0, r1, c0, c1 = met[i, 0], met[i, 1], met[i, 2], met[i, 3]
@@ -205,8 +225,27 @@ def move_owners(owners, lines, box, turned, there):
     "float32[::1], int32[::1], float32[::1], float32[::1], float64[::1], float64[:, ::1], UniTuple(float64, 2))",
     counts=False,
 )
-def cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned,
-              heights, owners, swept, sums, notes, told, limits):  # fmt: skip
+def cut_lines(
+    start,
+    end,
+    does,
+    cutter,
+    arc,
+    shapes,
+    arcs,
+    spans,
+    motions,
+    refs,
+    frame,
+    turned,
+    heights,
+    owners,
+    swept,
+    sums,
+    notes,
+    told,
+    limits,
+):
     """Cut the lines of a tile by its pieces, in their order; what the arguments are `survey` and `cut_tile` say."""
     notes[5], notes[6] = limits
     traced = len(owners) > 0
@@ -233,10 +272,30 @@ def cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs,
 
 
 @kernel(
-    f"void({_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], int32[::1], int32[::1], UniTuple(float64, 3), UniTuple(int64, 4), boolean, "
+    f"void({_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], int32[::1], int32[::1], UniTuple(float64, 3), "
+    "UniTuple(int64, 4), boolean, "
     f"{_BEFORE}, float32[:, ::1], int32[:, ::1], float64[:, ::1], UniTuple(float64, 2))"
 )
-def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, grid, box, turned, before, after, owners, told, limits):
+def cut_tile(
+    start,
+    end,
+    does,
+    cutter,
+    arc,
+    shapes,
+    arcs,
+    spans,
+    motions,
+    refs,
+    grid,
+    box,
+    turned,
+    before,
+    after,
+    owners,
+    told,
+    limits,
+):
     """Cut one tile by its pieces, in their order.
 
     Args:
@@ -245,7 +304,8 @@ def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, 
         grid: as for `count`.
         box: first row and column of the tile, its rows and columns.
         turned: whether its lines run along Y.
-        before, after: heights of the whole grid. owners: motion that cut each cell last, -1 = none; no rows: not wanted.
+        before, after: heights of the whole grid. owners: motion that cut each cell last, -1 = none; no rows: not
+        wanted.
         told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, its cell
             as row * columns + column, and the height that is reached there.
         limits: floor, and the depth from which a piece that only asks is told of, mm.
@@ -260,11 +320,32 @@ def cut_tile(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, 
     load(before, heights, box, turned)
     if len(owners) > 0:
         move_owners(owners, mine, box, turned, True)
-    cut_lines(start, end, does, cutter, arc, shapes, arcs, spans, motions, refs, frame, turned,
-              heights, mine, swept, sums, notes, told, limits)  # fmt: skip
+    cut_lines(
+        start,
+        end,
+        does,
+        cutter,
+        arc,
+        shapes,
+        arcs,
+        spans,
+        motions,
+        refs,
+        frame,
+        turned,
+        heights,
+        mine,
+        swept,
+        sums,
+        notes,
+        told,
+        limits,
+    )
     store(after, heights, box, turned, np.float32(limits[0]))
     if len(owners) > 0:
         move_owners(owners, mine, box, turned, False)
     for k in range(len(told)):
         slow, fast = int(told[k, 3]) // STRIDE, int(told[k, 3]) % STRIDE
-        told[k, 3] = (row + fast) * before.shape[1] + col + slow if turned else (row + slow) * before.shape[1] + col + fast
+        told[k, 3] = (
+            (row + fast) * before.shape[1] + col + slow if turned else (row + slow) * before.shape[1] + col + fast
+        )

@@ -19,14 +19,17 @@ PENDING = 32
 """Blocks of cells after which float32 sums are gathered, so that they stay right to some millionths."""
 
 _F = np.float32
-_TRIFLE = _F(1e-5)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
+_TRIFLE = _F(
+    1e-5
+)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
 _ZERO, _ONE, _STEP, _NEVER = _F(0.0), _F(1.0), _F(LANES), _F(math.inf)
 _CELLS = "float32[::1], int32[::1]"
 
 
 @kernel("Tuple((float32, int32, float32, float32))(float32, int32, float32, float32, int32)")
 def lowered(old, mine, z, floor, owner):
-    """Return a cell's height and owner after a motion, by how much it was lowered, and 1 if it changes its owner, else 0.
+    """Return a cell's height and owner after a motion, by how much it was lowered, and 1 if it changes its owner, else
+    0.
 
     Args:
         old, mine: its height and owner before.
@@ -40,7 +43,10 @@ def lowered(old, mine, z, floor, owner):
     return z if z < old else old, owner if changes else mine, depth, _ONE if changes else _ZERO
 
 
-@kernel(f"void({_CELLS}, float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, 6), float32, int32)", counts=False)
+@kernel(
+    f"void({_CELLS}, float32[::1], int64, int64, UniTuple(float32, 5), UniTuple(float32, 6), float32, int32)",
+    counts=False,
+)
 def ball_trace(line, owners, sums, first, blocks, where, move, floor, owner):
     """Lower a run under a ball as `ball_run` does, and note what that takes as `take` does."""
     a0, b0, c0, da, dc = where
@@ -84,8 +90,8 @@ def ask(line, swept, notes, first, cells):
 
     Args:
         line, swept, first: as for `take`. cells: of the run.
-        notes: depths in all, cells, the greatest depth, its place, the height that is reached there, added to; floor, and the depth
-            from which it is told of.
+        notes: depths in all, cells, the greatest depth, its place, the height that is reached there, added to; floor,
+            and the depth from which it is told of.
     """
     floor, slack = _F(notes[5]), _F(notes[6])
     for k in range(cells):

@@ -67,14 +67,19 @@ class Cut:
         return Workpiece(self.before.grid, self.heights, self.before.floor, self.before.hidden)
 
 
-def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions = AS_IT_IS,
-         progress: Progress = NO_PROGRESS) -> Cut:  # fmt: skip
+def trim(
+    workpiece: Workpiece,
+    course: Course,
+    cutters: Mapping[int, Cutter],
+    options: TrimOptions = AS_IT_IS,
+    progress: Progress = NO_PROGRESS,
+) -> Cut:
     """Cut a work piece.
 
     Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm, where a helix went within
-    `pieces.helix_chord`; beside a vertical wall a cell whose centre is on the wall may fall to either side. They do not depend on the
-    order of chains of motions, bit for bit, as long as there are no more than `sweeps.BATCH` pieces (breaking up a chain changes which
-    cells are evaluated, and so the rounding).
+    `pieces.helix_chord`; beside a vertical wall a cell whose centre is on the wall may fall to either side. They do not
+    depend on the order of chains of motions, bit for bit, as long as there are no more than `sweeps.BATCH` pieces
+    (breaking up a chain changes which cells are evaluated, and so the rounding).
 
     Args:
         workpiece: it is left as it is.
@@ -96,7 +101,9 @@ def trim(workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], op
 class _Job:
     """The state of one trim."""
 
-    def __init__(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions) -> None:
+    def __init__(
+        self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter], options: TrimOptions
+    ) -> None:
         self.workpiece, self.options = workpiece, options
         ensure_memory(workpiece.grid, 8 if options.trace else 4)
         self.sweeps = Sweeps(workpiece.grid, course, cutters, options)
@@ -123,8 +130,14 @@ class _Job:
 
     def result(self) -> Cut:
         """Return what was cut."""
-        return Cut(self.workpiece, self.field.heights, tuple(self.hits[row] for row in sorted(self.hits)),
-                   self.field.owner if self.options.trace else None, self.volume, self.engaged)  # fmt: skip
+        return Cut(
+            self.workpiece,
+            self.field.heights,
+            tuple(self.hits[row] for row in sorted(self.hits)),
+            self.field.owner if self.options.trace else None,
+            self.volume,
+            self.engaged,
+        )
 
     def _take_notes(self, part: Part, refs: Ints, told: Floats) -> None:
         from .tile_kernels import ASKS

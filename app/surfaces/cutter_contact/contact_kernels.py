@@ -1,8 +1,9 @@
-"""Compiled: how low a cutter comes over a triangle, exactly: the contact with its face, edges and corners in closed form.
+"""Compiled: how low a cutter comes over a triangle, exactly: the contact with its face, edges and corners in closed
+form.
 
-A cutter's lower side is h(r), the height over its tip at a distance from its axis: flat up to `disc`, then a corner of a radius,
-then a cone, up to the cutter's radius. It rises ever more steeply, so what a cutter's tip may be at, the height of a place of
-the mesh less h there, has one maximum over a triangle: within it, or on one of its edges.
+A cutter's lower side is h(r), the height over its tip at a distance from its axis: flat up to `disc`, then a corner of
+a radius, then a cone, up to the cutter's radius. It rises ever more steeply, so what a cutter's tip may be at, the
+height of a place of the mesh less h there, has one maximum over a triangle: within it, or on one of its edges.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from ...core.jit import kernel
 
 _R = "float64[::1]"
 DISC, CORNER, CONE, RADIUS, BEND = 0, 1, 2, 3, 4
-"""Of a cutter's shape: radius of the flat, radius of the corner, rise of the cone (0: none), its own, and where the corner ends."""
+"""Of a cutter's shape: radius of the flat, radius of the corner, rise of the cone (0: none), its own, and where the
+corner ends.
+"""
 _STEPS, _NEAR = 80, 1e-14
 _SLIVER = 1e-22
 """mm2: the square of how high a triangle is, seen from above, that has a slope."""
@@ -82,7 +85,9 @@ def _along(slope, off, low, high, shape):  # type: ignore[no-untyped-def]
     """Return where on a line, `off` from the axis, slope t - h has its maximum between two places."""
     if shape[DISC] == 0.0 and shape[CONE] == 0.0:  # a ball
         corner = shape[CORNER]
-        return min(max(slope * math.sqrt(max(corner * corner - off * off, 0.0)) / math.sqrt(1.0 + slope * slope), low), high)
+        return min(
+            max(slope * math.sqrt(max(corner * corner - off * off, 0.0)) / math.sqrt(1.0 + slope * slope), low), high
+        )
     if shape[CORNER] == 0.0 and shape[CONE] == 0.0:  # a flat
         return high if slope > 0.0 else low
     if _falls(off, low, shape) >= slope:
@@ -153,7 +158,8 @@ def over_triangle(t, x, y, shape, known):  # type: ignore[no-untyped-def]
 
 @kernel(f"void({_R}, float64, {_R})", counts=False)
 def thicken(shape, skin, out):  # type: ignore[no-untyped-def]
-    """Set `out` to a cutter with a skin, mm, or, if that is less than 0, pared by as much; measured from its own lowest place.
+    """Set `out` to a cutter with a skin, mm, or, if that is less than 0, pared by as much; measured from its own lowest
+    place.
 
     A pared one is never slimmer than the cutter less the skin.
     """

@@ -12,10 +12,13 @@ from ..patches.patch_kernels import copy_row
 _R, _MANY, _NETS, _INTS = "float64[::1]", "float64[:, ::1]", "float64[:, :, :, ::1]", "int64[::1]"
 TREE = f"Tuple(({_MANY}, {_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_NETS}, int64, {_MANY}))"
 BOXES, TRIANGLES, CORNERS, PATCH, ERROR, OWNER, CONTROL, LEAF, BULGE = range(9)
-"""Of what `Tree.held` gives: its arrays, and how many facets a leaf has. PATCH is NONE of facets that stand for themselves."""
+"""Of what `Tree.held` gives: its arrays, and how many facets a leaf has. PATCH is NONE of facets that stand for
+themselves.
+"""
 DESK = f"Tuple(({_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_R}, {_MANY}, {_MANY}))"
 WORK, SHAPES, NODES, BOUNDS, WHICH, HEIGHTS, PLACES, GROUPS = range(8)
-"""Of what `new_desk` makes to work on: rows of facets; two cutters' shapes; nodes that wait and their bounds; facets that may be
+"""Of what `new_desk` makes to work on: rows of facets; two cutters' shapes; nodes that wait and their bounds; facets
+that may be
 touched and their heights; the tip's places along a way, and its chords in groups (see `way_kernels`)."""
 DEEPEST = 64
 ROOM = 96
@@ -23,10 +26,13 @@ ROOM = 96
 QUARTERS, LAST = ROOM - 4, ROOM - 5
 LIKELY = 64
 OFF, HIGHEST, GROUP = 15, 16, 16
-"""Columns of WORK behind corners (9) and parameters (6): how far the facet is off at most, and what the tip comes down to, or
+"""Columns of WORK behind corners (9) and parameters (6): how far the facet is off at most, and what the tip comes down
+to, or
 the group of chords that it is held against."""
 WIDENED, RISE, COLUMNS = 17, 26, 27
-"""Columns of WORK: a triangle that nothing of the part is farther from than what stands in RISE; how many columns there are."""
+"""Columns of WORK: a triangle that nothing of the part is farther from than what stands in RISE; how many columns there
+are.
+"""
 CHORDS = 32
 """Most chords of a way that are proven together."""
 NONE = -1
@@ -37,8 +43,16 @@ ANY = -1
 @kernel(f"{DESK}()")
 def new_desk():  # type: ignore[no-untyped-def]
     """Return arrays to work on."""
-    return (np.empty((ROOM, COLUMNS)), np.empty((2, 5)), np.empty(DEEPEST, np.int64), np.empty(DEEPEST), np.empty(LIKELY, np.int64),
-            np.empty(LIKELY), np.empty((CHORDS + 1, 3)), np.empty((2 * CHORDS, 9)))  # fmt: skip
+    return (
+        np.empty((ROOM, COLUMNS)),
+        np.empty((2, 5)),
+        np.empty(DEEPEST, np.int64),
+        np.empty(DEEPEST),
+        np.empty(LIKELY, np.int64),
+        np.empty(LIKELY),
+        np.empty((CHORDS + 1, 3)),
+        np.empty((2 * CHORDS, 9)),
+    )
 
 
 @kernel(f"void({TREE}, int64, {_MANY})", counts=False)

@@ -9,12 +9,16 @@ from ...core.jit import kernel
 _R = "float64[::1]"
 _FLAT = 1e-300
 _SLIVER = 1e-22
-"""mm2; a triangle whose height is less than the root of this is its edges: of what it faces only rounding would tell."""
+"""mm2; a triangle whose height is less than the root of this is its edges: of what it faces only rounding would
+tell.
+"""
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64, float64, float64, float64)", counts=False)
 def _between(dx, dy, dz, ex, ey, ez, wx, wy, wz):  # type: ignore[no-untyped-def]
-    """Return the square of the distance between segments along d and e, whose starts are apart by w (Eberly, closest points)."""
+    """Return the square of the distance between segments along d and e, whose starts are apart by w (Eberly, closest
+    points).
+    """
     a, b, c = dx * dx + dy * dy + dz * dz, dx * ex + dy * ey + dz * ez, ex * ex + ey * ey + ez * ez
     d, e = dx * wx + dy * wy + dz * wz, ex * wx + ey * wy + ez * wz
     base = a * c - b * b
@@ -39,7 +43,11 @@ def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-
     uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
     if square > _SLIVER * max(uu, vv, uu - 2.0 * uv + vv) and square > _FLAT:
         start, end = nx * px + ny * py + nz * pz, nx * (px + dx) + ny * (py + dy) + nz * (pz + dz)
-        for share in (0.0, 1.0, start / (start - end) if start * end < 0.0 else math.nan):  # both ends, and where it goes through
+        for share in (
+            0.0,
+            1.0,
+            start / (start - end) if start * end < 0.0 else math.nan,
+        ):  # both ends, and where it goes through
             if share == share:
                 x, y, z = px + share * dx, py + share * dy, pz + share * dz
                 du, dv = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz

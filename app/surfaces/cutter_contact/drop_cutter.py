@@ -65,7 +65,8 @@ def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progres
     """Return how low a cutter comes at places (m, 2), mm: over faces, edges and corners, each exactly.
 
     Args:
-        fine: how near to the true surfaces heights are, mm; facets that stand for a patch are refined as far as that takes.
+        fine: how near to the true surfaces heights are, mm; facets that stand for a patch are refined as far as that
+            takes.
 
     Raises:
         Cancelled: the job was asked to stop.
@@ -76,7 +77,9 @@ def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progres
     tree, shape, places = facets.tree, shape_of(tool), np.ascontiguousarray(places, np.float64)
     height, touched = np.empty(len(places)), np.empty(len(places), np.int64)
     parts = [
-        pool().submit(kernels.drop, tree.held, shape, places, first, min(first + _STRIP, len(places)), ANY, fine, height, touched)
+        pool().submit(
+            kernels.drop, tree.held, shape, places, first, min(first + _STRIP, len(places)), ANY, fine, height, touched
+        )
         for first in range(0, len(places), _STRIP)
     ]
     try:

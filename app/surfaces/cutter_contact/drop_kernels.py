@@ -1,9 +1,9 @@
 """Compiled: how low a cutter comes over facets and over what they stand for.
 
-No place of a surface is farther from its facet than the facet's error. So a cutter with a skin of that error, over the facet,
-comes no lower than the cutter itself over the surface: that bounds what a facet can do. Where it could do something, it is
-quartered, its corners taken anew on the surface, and each quarter is four times as near; the highest first, so that the others
-are soon out of question.
+No place of a surface is farther from its facet than the facet's error. So a cutter with a skin of that error, over the
+facet, comes no lower than the cutter itself over the surface: that bounds what a facet can do. Where it could do
+something, it is quartered, its corners taken anew on the surface, and each quarter is four times as near; the highest
+first, so that the others are soon out of question.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import math
 from ...core.jit import kernel
 from ..patches.patch_kernels import copy_row, quarter
 from .contact_kernels import RADIUS, contact, height, length, over_triangle, rise, thicken
-from .desk_kernels import (  # fmt: skip
+from .desk_kernels import (
     ANY,
     BOUNDS,
     BOXES,
@@ -47,13 +47,17 @@ _RIM = 1.0 - 1e-9
 
 @kernel(f"float64({_MANY}, int64, float64, float64, {_R}, float64)", counts=False)
 def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
-    """Return what the tip comes down to at most over what a node holds; -inf where that is out of reach or not above `known`.
+    """Return what the tip comes down to at most over what a node holds; -inf where that is out of reach or not above
+    `known`.
 
-    Under a node's plane the tip's height, as a function of the place that is touched, is concave. So from any place of the box
-    it rises to no other by more than its slope at that place says: it is asked at the one that the plane would be touched at.
+    Under a node's plane the tip's height, as a function of the place that is touched, is concave. So from any place of
+    the box it rises to no other by more than its slope at that place says: it is asked at the one that the plane would
+    be touched at.
     """
     radius = shape[RADIUS]
-    r = length(max(max(boxes[node, 0] - x, x - boxes[node, 2]), 0.0), max(max(boxes[node, 1] - y, y - boxes[node, 3]), 0.0))
+    r = length(
+        max(max(boxes[node, 0] - x, x - boxes[node, 2]), 0.0), max(max(boxes[node, 1] - y, y - boxes[node, 3]), 0.0)
+    )
     if r > radius:
         return -math.inf
     top = boxes[node, 4] - height(r, shape)
@@ -78,7 +82,9 @@ def bound(boxes, node, x, y, shape, known):  # type: ignore[no-untyped-def]
 
 @kernel(f"int64({_MANY}, int64, float64, float64, {_R}, float64, {_INTS}, {_R}, int64)", counts=False)
 def open_node(boxes, node, x, y, shape, known, nodes, bounds, depth):  # type: ignore[no-untyped-def]
-    """Put the children of a node that could be above `known` on the stack, the higher one last; return how deep it is."""
+    """Put the children of a node that could be above `known` on the stack, the higher one last; return how deep it
+    is.
+    """
     one = bound(boxes, 2 * node + 1, x, y, shape, known)
     other = bound(boxes, 2 * node + 2, x, y, shape, known)
     near = 1 if one >= other else 2

@@ -1,7 +1,8 @@
-"""Compiled: how low a cutter comes over surfaces, quickly: exact where it touches, but other places are looked at by their facets.
+"""Compiled: how low a cutter comes over surfaces, quickly: exact where it touches, but other places are looked at by
+their facets.
 
-A facet's own height is taken for about that of what it stands for. What that could miss is less than facets are off; whoever
-needs certainty asks `chord_kernels`, which bound what the true surfaces can do.
+A facet's own height is taken for about that of what it stands for. What that could miss is less than facets are off;
+whoever needs certainty asks `chord_kernels`, which bound what the true surfaces can do.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import math
 from ...core.jit import kernel
 from ..patches.patch_kernels import copy_row, quarter
 from .contact_kernels import CONE, DISC, over_triangle
-from .desk_kernels import (  # fmt: skip
+from .desk_kernels import (
     ANY,
     BOUNDS,
     BOXES,
@@ -159,8 +160,9 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
 
     Args:
         whose: owner of the facets that count, or ANY. slack: no facet is farther off than this, mm.
-        found: (6,) x and y; out: the tip's height, -inf where nothing is in reach; the facet that it touches, NONE where none, and
-            the place on its patch. A facet and a place that go in are touched nearby, which makes it quicker.
+        found: (6,) x and y; out: the tip's height, -inf where nothing is in reach; the facet that it touches, NONE
+            where none, and the place on its patch. A facet and a place that go in are touched nearby, which makes it
+            quicker.
     """
     x, y = found[0], found[1]
     best, touched, best_u, best_v = -math.inf, NONE, math.nan, math.nan
@@ -196,7 +198,9 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
         tip, u, v = _refined(tree, n, x, y, shape, best, fine, _lean(tree[TRIANGLES][n]), desk)
         if tip > best:
             best, touched, best_u, best_v = tip, n, u, v
-    if not ball and shape[CONE] == 0.0 and refined > 0 and best_u == best_u:  # it may be touched beside a facet's own edges
+    if (
+        not ball and shape[CONE] == 0.0 and refined > 0 and best_u == best_u
+    ):  # it may be touched beside a facet's own edges
         tip, u, v = touch(tree[CONTROL], tree[PATCH][touched], best_u, best_v, x, y, shape)
         if tip > best:
             best, best_u, best_v = tip, u, v

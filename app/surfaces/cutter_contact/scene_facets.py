@@ -45,7 +45,9 @@ class SceneFacets:
     areas: Mapping[int, shapely.Geometry]
 
 
-def scene_facets(built: Sequence[Built], tolerance: float | None = None, progress: Progress = NO_PROGRESS) -> SceneFacets:
+def scene_facets(
+    built: Sequence[Built], tolerance: float | None = None, progress: Progress = NO_PROGRESS
+) -> SceneFacets:
     """Return the facets of surfaces.
 
     Args:
@@ -69,7 +71,9 @@ def scene_facets(built: Sequence[Built], tolerance: float | None = None, progres
     facets = _trimmed(uncut, areas, near, progress) if areas else uncut
     for number in areas:
         if not (facets.owner == number).any():
-            raise GeometryError(f"Surface {built[number].surface.name}: its trims leave nothing of it; check their outlines.")
+            raise GeometryError(
+                f"Surface {built[number].surface.name}: its trims leave nothing of it; check their outlines."
+            )
     return SceneFacets(facets, uncut, areas)
 
 

@@ -1,8 +1,9 @@
 """Compiled: where exactly a cutter touches a patch, by Newton's method from a place near it.
 
-Where a ball, or another cutter without a cone, touches a smooth surface that rises by the tangent of some angle, it does so at a
-distance from its axis that its shape gives, uphill. So the place of the patch is known by its slope: two equations for two parameters.
-Along a patch's side the one parameter is that at which the tip is highest. What comes out is the tip over a true place of the
+Where a ball, or another cutter without a cone, touches a smooth surface that rises by the tangent of some angle, it
+does so at a distance from its axis that its shape gives, uphill. So the place of the patch is known by its slope: two
+equations for two parameters. Along a patch's side the one parameter is that at which the tip is highest. What comes out
+is the tip over a true place of the
 surface: never too high.
 """
 
@@ -50,11 +51,18 @@ def _off(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64, float64, float64, {_R})", counts=False)
 def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-def]
-    """Return the tip's height and where it touches, by Newton's method from (u, v); -inf and where it left a patch, or NaN."""
+    """Return the tip's height and where it touches, by Newton's method from (u, v); -inf and where it left a patch, or
+    NaN.
+    """
     off_x, off_y = _off(control, patch, u, v, x, y, shape)
     ux, uy = _off(control, patch, u + _TURN_STEP, v, x, y, shape)
     vx, vy = _off(control, patch, u, v + _TURN_STEP, x, y, shape)
-    ux, uy, vx, vy = (ux - off_x) / _TURN_STEP, (uy - off_y) / _TURN_STEP, (vx - off_x) / _TURN_STEP, (vy - off_y) / _TURN_STEP
+    ux, uy, vx, vy = (
+        (ux - off_x) / _TURN_STEP,
+        (uy - off_y) / _TURN_STEP,
+        (vx - off_x) / _TURN_STEP,
+        (vy - off_y) / _TURN_STEP,
+    )
     base = ux * vy - uy * vx
     for n in range(_TIMES):
         du, dv = (off_x * vy - off_y * vx) / base, (off_y * ux - off_x * uy) / base
@@ -71,7 +79,12 @@ def touch_within(control, patch, u, v, x, y, shape):  # type: ignore[no-untyped-
             vx, vy = _off(control, patch, u, v + _TURN_STEP, x, y, shape)
         off_x, off_y = _off(control, patch, u, v, x, y, shape)
         if n == 1:
-            ux, uy, vx, vy = (ux - off_x) / _TURN_STEP, (uy - off_y) / _TURN_STEP, (vx - off_x) / _TURN_STEP, (vy - off_y) / _TURN_STEP
+            ux, uy, vx, vy = (
+                (ux - off_x) / _TURN_STEP,
+                (uy - off_y) / _TURN_STEP,
+                (vx - off_x) / _TURN_STEP,
+                (vy - off_y) / _TURN_STEP,
+            )
             base = ux * vy - uy * vx
     return -math.inf, math.nan, math.nan
 
@@ -82,13 +95,23 @@ def _on_side(control, patch, u, v, x, y, shape, side):  # type: ignore[no-untype
     at, fixed = (v, float(side)) if side < 2 else (u, float(side - 2))
     at = min(max(at, 0.0), 1.0)
     step = 1e-2
-    best = tip_over(control, patch, fixed, at, x, y, shape) if side < 2 else tip_over(control, patch, at, fixed, x, y, shape)
+    best = (
+        tip_over(control, patch, fixed, at, x, y, shape)
+        if side < 2
+        else tip_over(control, patch, at, fixed, x, y, shape)
+    )
     for _ in range(_SIDE_TIMES):
         low, high = max(at - step, 0.0), min(at + step, 1.0)
         if side < 2:
-            below, above = tip_over(control, patch, fixed, low, x, y, shape), tip_over(control, patch, fixed, high, x, y, shape)
+            below, above = (
+                tip_over(control, patch, fixed, low, x, y, shape),
+                tip_over(control, patch, fixed, high, x, y, shape),
+            )
         else:
-            below, above = tip_over(control, patch, low, fixed, x, y, shape), tip_over(control, patch, high, fixed, x, y, shape)
+            below, above = (
+                tip_over(control, patch, low, fixed, x, y, shape),
+                tip_over(control, patch, high, fixed, x, y, shape),
+            )
         if below > best:
             at, best = low, below
             continue
@@ -100,7 +123,11 @@ def _on_side(control, patch, u, v, x, y, shape, side):  # type: ignore[no-untype
         bend = b * (below - best) + a * (above - best)
         if a > 0.0 and b > 0.0 and bend < 0.0 and below > -math.inf and above > -math.inf:  # the top of a parabola
             new = at - 0.5 * (a * a * (above - best) - b * b * (below - best)) / bend
-        top = tip_over(control, patch, fixed, new, x, y, shape) if side < 2 else tip_over(control, patch, new, fixed, x, y, shape)
+        top = (
+            tip_over(control, patch, fixed, new, x, y, shape)
+            if side < 2
+            else tip_over(control, patch, new, fixed, x, y, shape)
+        )
         if top > best:
             at, best = new, top
         step *= 0.05 if top > -math.inf else 0.25

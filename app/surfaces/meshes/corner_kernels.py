@@ -14,7 +14,8 @@ _SHIFT = np.uint64(32)
 
 @kernel("int64(uint64[:, ::1], int32[::1], int64[::1])")
 def number_rows(rows, table, out):
-    """Write the number of each row (n, m): equal ones have the same, new ones the next; return how many numbers there are.
+    """Write the number of each row (n, m): equal ones have the same, new ones the next; return how many numbers there
+    are.
 
     Args:
         table: -1 all over; a power of two long, and longer than there are rows.

@@ -13,12 +13,16 @@ _PART = 1 << 16
 
 
 def numbered(places: Floats) -> Ints:
-    """Return the number of each place (n, 3), from 0 in the order in which they come; equal ones have one, and there is one zero only."""
+    """Return the number of each place (n, 3), from 0 in the order in which they come; equal ones have one, and there is
+    one zero only.
+    """
     return numbered_rows((places + 0.0).view(np.int64))
 
 
 def numbered_rows(rows: Ints) -> Ints:
-    """Return the number of each row (n, m) of whole numbers, from 0 in the order in which they come; equal ones have the same."""
+    """Return the number of each row (n, m) of whole numbers, from 0 in the order in which they come; equal ones have
+    the same.
+    """
     from .corner_kernels import number_rows
 
     number, size = np.empty(len(rows), np.int64), 2 << max(4, len(rows).bit_length())
@@ -31,5 +35,7 @@ def doubled_areas(triangles: Floats) -> Floats:
     doubled = np.empty(len(triangles))
     for first in range(0, len(triangles), _PART):
         some = triangles[first : first + _PART]
-        doubled[first : first + _PART] = np.linalg.norm(np.cross(some[:, 1] - some[:, 0], some[:, 2] - some[:, 0]), axis=1)
+        doubled[first : first + _PART] = np.linalg.norm(
+            np.cross(some[:, 1] - some[:, 0], some[:, 2] - some[:, 0]), axis=1
+        )
     return doubled

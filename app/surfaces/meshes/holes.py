@@ -1,4 +1,6 @@
-"""Holes in a mesh as a tool sees them that comes from above: rings of open edges round which the surface goes on outside."""
+"""Holes in a mesh as a tool sees them that comes from above: rings of open edges round which the surface goes on
+outside.
+"""
 
 from __future__ import annotations
 
@@ -42,8 +44,8 @@ class Hole:
 def holes(triangles: Floats) -> tuple[Hole, ...]:
     """Return the holes in the surface of triangles (n, 3, 3), the largest first.
 
-    A ring of open edges is a hole where most of its length has its triangles outside of the ring, or upright above it, as where a
-    pocket's floor is missing; the rim of a sheet has them inside, that of a cup below.
+    A ring of open edges is a hole where most of its length has its triangles outside of the ring, or upright above it,
+    as where a pocket's floor is missing; the rim of a sheet has them inside, that of a cup below.
     """
     some = doubled_areas(triangles) > 0
     corners = triangles if some.all() else triangles[some]
@@ -64,16 +66,21 @@ def holes(triangles: Floats) -> tuple[Hole, ...]:
     for p, q, z, turn, up in zip(*(column.tolist() for column in columns), strict=True):
         for key, to_left in (((*p, *q), turn), ((*q, *p), -turn)):
             sides[key], low[key] = -1.0 if up else to_left, min(z, low.get(key, np.inf))
-    rings = shapely.get_parts(shapely.polygonize([shapely.LineString(line) for line in np.stack([a[:, :2], b[:, :2]], axis=1)]))
+    rings = shapely.get_parts(
+        shapely.polygonize([shapely.LineString(line) for line in np.stack([a[:, :2], b[:, :2]], axis=1)])
+    )
     found = [hole for ring in rings if (hole := _hole(ring, sides, low)) is not None]
     return tuple(sorted(found, key=lambda hole: -hole.radius))
 
 
-def _hole(ring: shapely.Polygon, sides: dict[tuple[float, ...], float], low: dict[tuple[float, ...], float]) -> Hole | None:
+def _hole(
+    ring: shapely.Polygon, sides: dict[tuple[float, ...], float], low: dict[tuple[float, ...], float]
+) -> Hole | None:
     """Return what a ring of open edges is, None where it is the rim of a surface.
 
     Args:
-        sides: by the ends of an edge, whether its triangle is to the left, 1, to the right or above, -1, or neither, 0. low: its lower end.
+        sides: by the ends of an edge, whether its triangle is to the left, 1, to the right or above, -1, or neither, 0.
+            low: its lower end.
     """
     places = shapely.get_coordinates(shapely.orient_polygons(ring).exterior)
     keys = [(*p, *q) for p, q in zip(places[:-1].tolist(), places[1:].tolist(), strict=True)]

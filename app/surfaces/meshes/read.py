@@ -55,8 +55,11 @@ def stl_triangles(name: str, data: bytes) -> Floats:
     if len(data) < whole:
         here = _records(data, (len(data) - HEADER) // TRIANGLE)
         if len(data) > HEADER and np.isfinite(here).all() and (np.abs(here) < _SANE).all():
-            raise InputError(f"{name}: this STL file was cut off: it has {len(data):,} bytes of the {whole:,} that its {count:,} triangles "
-                             "take; copy or export it again.")
+            raise InputError(
+                f"{name}: this STL file was cut off: it has {len(data):,} bytes of the {whole:,} that its {count:,} "
+                "triangles "
+                "take; copy or export it again."
+            )
         raise _no_stl(name)
     if len(data) < HEADER:
         raise _no_stl(name)
@@ -80,8 +83,11 @@ def _text(name: str, data: bytes) -> Floats:
     except ValueError as error:
         raise _no_stl(name) from error
     if b"endsolid" not in rest[-1000:].lower():
-        raise InputError(f"{name}: this STL file was cut off after {len(corners):,} triangles, as its end, endsolid, is missing; copy or "
-                         "export it again.")
+        raise InputError(
+            f"{name}: this STL file was cut off after {len(corners):,} triangles, as its end, endsolid, is missing; "
+            "copy or "
+            "export it again."
+        )
     return corners
 
 
@@ -93,7 +99,9 @@ def _by_library(name: str, data: bytes, suffix: str) -> Floats:
     log.propagate = False
     if not log.handlers:
         log.addHandler(logging.NullHandler())
-    plain = data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data  # names may be spelled in any code page
+    plain = (
+        data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data
+    )  # names may be spelled in any code page
     try:
         with np.errstate(all="ignore"):  # numbers that are none are looked for by who asked
             triangles = trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles

@@ -1,7 +1,8 @@
-"""Surfaces that rounding has torn: corners that nearly coincide become one, and a corner on another triangle's edge splits it.
+"""Surfaces that rounding has torn: corners that nearly coincide become one, and a corner on another triangle's edge
+splits it.
 
-Only open edges are looked at, so that a surface that is closed stays as it is to the bit; and nothing moves by more than what a file of
-single precision rounds its numbers by, so that a gap which anybody has drawn stays one.
+Only open edges are looked at, so that a surface that is closed stays as it is to the bit; and nothing moves by more
+than what a file of single precision rounds its numbers by, so that a gap which anybody has drawn stays one.
 """
 
 from __future__ import annotations
@@ -15,10 +16,14 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 ROUNDED = 8 * 2.0**-24
-"""Of the greatest coordinate: how far apart corners may be that are one. Half a unit in the last place, on both sides, some times over."""
+"""Of the greatest coordinate: how far apart corners may be that are one. Half a unit in the last place, on both sides,
+some times over.
+"""
 
 _MOST, _PAIRS = 10_000, 2_000_000
-"""Open edges from which on a surface is not torn but open, and pairs of near places that are looked at: damaged files may have any."""
+"""Open edges from which on a surface is not torn but open, and pairs of near places that are looked at: damaged files
+may have any.
+"""
 
 _SIDES = 3
 """Rounds of splitting: one for each side of a triangle."""
@@ -80,7 +85,9 @@ def _with_area(found: Sewn) -> Sewn:
 
 
 def _welded(triangles: Floats, uses: Ints, within: float) -> Floats | None:
-    """Return triangles whose corners on open edges are one where they are no farther apart than `within`; None: far too many are."""
+    """Return triangles whose corners on open edges are one where they are no farther apart than `within`; None: far too
+    many are.
+    """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
@@ -102,7 +109,9 @@ def _welded(triangles: Floats, uses: Ints, within: float) -> Floats | None:
 
 
 def _split(found: Sewn, uses: Ints, within: float) -> Sewn | None:
-    """Return a surface whose triangles are split at the corners that lie on one open edge of each; None: there are far too many."""
+    """Return a surface whose triangles are split at the corners that lie on one open edge of each; None: there are far
+    too many.
+    """
     from scipy.spatial import cKDTree
 
     begin, end = _ends(found.triangles, uses)

@@ -1,9 +1,11 @@
-"""Which side of a surface of triangles is out: patches that are wound against their neighbours, and solids that are inside out.
+"""Which side of a surface of triangles is out: patches that are wound against their neighbours, and solids that are
+inside out.
 
-The corners of a triangle go counter-clockwise round its outward normal. Files do not always keep to that, and whoever asks a normal
-which side the metal is on believes them. So neighbours are made to agree across every edge that two triangles share, which
-settles each connected patch but for one sign; that comes from the volume that it encloses, and from how deep it is nested: what is
-wholly within one shell is a hollow, whichever way its file winds it, and what is within a hollow is metal again.
+The corners of a triangle go counter-clockwise round its outward normal. Files do not always keep to that, and whoever
+asks a normal which side the metal is on believes them. So neighbours are made to agree across every edge that two
+triangles share, which settles each connected patch but for one sign; that comes from the volume that it encloses, and
+from how deep it is nested: what is wholly within one shell is a hollow, whichever way its file winds it, and what is
+within a hollow is metal again.
 """
 
 from __future__ import annotations
@@ -26,7 +28,9 @@ _WITHIN = 0.75
 """Of a turn: a place that a surface winds round by more is in it; one on it has a half."""
 
 _ASKED = 64
-"""Triangles of a shell whose corners are asked whether they are in another one; bodies that go through one another are each metal."""
+"""Triangles of a shell whose corners are asked whether they are in another one; bodies that go through one another are
+each metal.
+"""
 
 _PART = 1 << 16
 """Triangles that are looked at together."""
@@ -47,8 +51,9 @@ class Wound:
     """A surface, right side out.
 
     Attributes:
-        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area, pairs of them at
-            the same place, and sides that bodies touch in are left out; some may be in parts where others have a corner on their edge.
+        triangles: (k, 3, 3) mm; counter-clockwise seen from outside, unless there is a fault. Those without an area,
+            pairs of them at the same place, and sides that bodies touch in are left out; some may be in parts where
+            others have a corner on their edge.
         turned: (n,) which of those that were given had to be turned over.
         fault: why that cannot be done, as the end of a sentence; "" = it is done.
         place: x, y, z of the fault, mm, where it has one.
@@ -84,7 +89,9 @@ def right_side_out(triangles: Floats) -> Wound:
             return Wound(corners, turned, "its triangles enclose nothing")
         edges, loose = Edges.of(solid), loose[:0]
     if len(loose):
-        return Wound(corners, turned, f"{len(loose)} of its edges belong to one triangle only", _middle(solid, int(loose[0])))
+        return Wound(
+            corners, turned, f"{len(loose)} of its edges belong to one triangle only", _middle(solid, int(loose[0]))
+        )
     patch, against, fault = _agreed(edges, len(solid))
     touching = _touching(solid, edges, patch)
     if touching.any():
@@ -107,10 +114,11 @@ def right_side_out(triangles: Floats) -> Wound:
 
 
 def _less_than_nothing(wound: Floats, edges: Edges, patch: Ints) -> int:
-    """Return a use of a patch that has less than no metal before it, as where a body that touches another is inside out; -1: none has.
+    """Return a use of a patch that has less than no metal before it, as where a body that touches another is inside
+    out; -1: none has.
 
-    Bodies that share edges alone are turned together, so that one of them may be turned wrongly, and edges do not tell. The largest
-    patches that share edges are asked.
+    Bodies that share edges alone are turned together, so that one of them may be turned wrongly, and edges do not tell.
+    The largest patches that share edges are asked.
     """
     meeting = np.unique(patch[np.flatnonzero(edges.count[edges.edge] > 2) // 3])
     normal = np.cross(wound[:, 1] - wound[:, 0], wound[:, 2] - wound[:, 0])
@@ -126,7 +134,8 @@ def _less_than_nothing(wound: Floats, edges: Edges, patch: Ints) -> int:
 
 
 def _counting(number: Ints) -> NDArray[np.bool_]:
-    """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where bodies touch.
+    """Return which triangles are part of a surface: those with an area, but for pairs at the same place, as where
+    bodies touch.
 
     Args:
         number: (3 n,) of their corners.
@@ -141,10 +150,11 @@ def _counting(number: Ints) -> NDArray[np.bool_]:
 
 
 def _touching(triangles: Floats, edges: Edges, patch: Ints) -> NDArray[np.bool_]:
-    """Return which triangles lie in sides that two bodies share: flat patches in pairs that end at the same edges, as others do.
+    """Return which triangles lie in sides that two bodies share: flat patches in pairs that end at the same edges, as
+    others do.
 
-    So it does not matter in which triangles each body has the side that they touch in. A flat patch is what its border encloses, and
-    two of them at the same place have metal, or none, on both sides.
+    So it does not matter in which triangles each body has the side that they touch in. A flat patch is what its border
+    encloses, and two of them at the same place have metal, or none, on both sides.
     """
     found = np.zeros(len(triangles), np.bool_)
     uses = np.flatnonzero(edges.count[edges.edge] > 2)
@@ -190,7 +200,8 @@ def _middle(triangles: Floats, use: int) -> tuple[float, float, float]:
 
 
 def _agreed(edges: Edges, faces: int) -> tuple[Ints, NDArray[np.bool_], int]:
-    """Return the patch of each triangle, whether it is wound against the first one of it, and a use at which that fails, or -1.
+    """Return the patch of each triangle, whether it is wound against the first one of it, and a use at which that
+    fails, or -1.
 
     Patches hang together by edges of two triangles. From each triangle a walk goes on in all directions at once.
     """
@@ -218,10 +229,14 @@ def _agreed(edges: Edges, faces: int) -> tuple[Ints, NDArray[np.bool_], int]:
     return patch, against, int(pairs[wrong[0], 0]) if len(wrong) else -1
 
 
-def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int, int]:
-    """Return which triangles are to be turned over, how many shells there are, and a use at which patches do not go together, or -1.
+def _outward(
+    triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.bool_]
+) -> tuple[NDArray[np.bool_], int, int]:
+    """Return which triangles are to be turned over, how many shells there are, and a use at which patches do not go
+    together, or -1.
 
-    Patches that meet at edges of four triangles and more keep the turn to one another that most of their area has in the file.
+    Patches that meet at edges of four triangles and more keep the turn to one another that most of their area has in
+    the file.
     """
     area = doubled_areas(triangles)
     size = np.bincount(patch, area, len(patch))
@@ -237,13 +252,18 @@ def _outward(triangles: Floats, edges: Edges, patch: Ints, against: NDArray[np.b
 
 
 def _turned_shells(triangles: Floats, turned: NDArray[np.bool_], shell: Ints) -> tuple[NDArray[np.bool_], int]:
-    """Return which triangles are to be turned over when whole shells are, too, and a use of a surface that encloses nothing, or -1."""
+    """Return which triangles are to be turned over when whole shells are, too, and a use of a surface that encloses
+    nothing, or -1.
+    """
     order = np.argsort(shell, kind="stable")
     _, first = np.unique(shell[order], return_index=True)
     rows = np.split(order, first[1:])
     wound = _turned_over(triangles, turned)
     volume = np.add.reduceat(_volumes(wound)[order], first)
-    low, high = np.minimum.reduceat(wound.min(axis=1)[order], first), np.maximum.reduceat(wound.max(axis=1)[order], first)
+    low, high = (
+        np.minimum.reduceat(wound.min(axis=1)[order], first),
+        np.maximum.reduceat(wound.max(axis=1)[order], first),
+    )
     hollow = np.abs(volume) <= _NOTHING * np.max(high - low, axis=1) ** 3
     if hollow.all():
         return turned, int(3 * order[0])
@@ -272,7 +292,9 @@ def _volumes(triangles: Floats) -> Floats:
 
 
 def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
-    """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four and more."""
+    """Return a number by triangle for what is closed: a patch, or several that only close together, at edges of four
+    and more.
+    """
     uses = np.flatnonzero(edges.count[edges.edge] != 2)  # an edge of two triangles is closed within its patch
     keys, at = np.unique(edges.edge[uses].astype(np.int64) * len(patch) + patch[uses // 3], return_inverse=True)
     loose = np.bincount(at.ravel(), np.where(forward[uses], 1, -1), len(keys)) != 0
@@ -290,7 +312,9 @@ def _shells(edges: Edges, patch: Ints, forward: NDArray[np.bool_]) -> Ints:
 
 
 def _holds(outer: Floats, inner: Floats) -> bool:
-    """Return whether a closed surface holds all of another one: its largest triangle's middle, and corners of triangles all over it."""
+    """Return whether a closed surface holds all of another one: its largest triangle's middle, and corners of triangles
+    all over it.
+    """
     size = doubled_areas(inner)
     spread = inner[:: max(1, len(inner) // _ASKED)].reshape(-1, 3)
     places = [inner[int(np.argmax(size))].mean(axis=0), *spread]
@@ -300,7 +324,8 @@ def _holds(outer: Floats, inner: Floats) -> bool:
 def winding_number(triangles: Floats, place: Floats) -> float:
     """Return how often a surface goes round a place: the solid angle that its triangles are seen in, in whole turns.
 
-    1 in a solid that is wound right side out, 0 outside, -1 in one that is inside out; of a surface that is open, in between.
+    1 in a solid that is wound right side out, 0 outside, -1 in one that is inside out; of a surface that is open, in
+    between.
 
     References:
         Tangent of half the solid angle of a triangle by its corners' vectors (Van Oosterom and Strackee, 1983).

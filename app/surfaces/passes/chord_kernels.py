@@ -1,7 +1,9 @@
-"""Compiled: proof that a cutter on its way along a chord goes nowhere deeper than allowed into what one facet stands for.
+"""Compiled: proof that a cutter on its way along a chord goes nowhere deeper than allowed into what one facet stands
+for.
 
-A cutter that is pared by what is allowed must not reach it, all along the chord. Over one facet, with a skin for how far it may be
-from what it stands for, the tip's height over the chord is concave along it: from three places it is bounded everywhere.
+A cutter that is pared by what is allowed must not reach it, all along the chord. Over one facet, with a skin for how
+far it may be from what it stands for, the tip's height over the chord is concave along it: from three places it is
+bounded everywhere.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ _SHORT = 0.02
 
 @kernel(f"float64({_R}, float64, float64, float64, float64)", counts=False)
 def _nearest(t, ax, ay, bx, by):  # type: ignore[no-untyped-def]
-    """Return where on a chord, from 0 to 1, it is nearest to a triangle (9,), both seen from above: beside a corner, or over a side."""
+    """Return where on a chord, from 0 to 1, it is nearest to a triangle (9,), both seen from above: beside a corner, or
+    over a side.
+    """
     dx, dy = bx - ax, by - ay
     square = dx * dx + dy * dy
     if square == 0.0:
@@ -48,7 +52,8 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
     """Return whether a cutter with a skin is proven to go nowhere into a triangle along a chord.
 
     Args:
-        chord: (6,) its ends, and how long it is. tool: the cutter's shape. shape: that of the cutter with its skin; changed.
+        chord: (6,) its ends, and how long it is. tool: the cutter's shape. shape: that of the cutter with its skin;
+            changed.
     """
     ax, ay, az, bx, by, bz = chord[0], chord[1], chord[2], chord[3], chord[4], chord[5]
     low, middle, high = 0.0, 0.5, 1.0
@@ -59,7 +64,12 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
         return False
     if at_low == -math.inf and at == -math.inf and at_high == -math.inf:  # in reach nowhere, or between these places
         middle = _nearest(triangle, ax, ay, bx, by)
-        at = over_triangle(triangle, ax + middle * (bx - ax), ay + middle * (by - ay), shape, -math.inf) + skin - az - middle * (bz - az)
+        at = (
+            over_triangle(triangle, ax + middle * (bx - ax), ay + middle * (by - ay), shape, -math.inf)
+            + skin
+            - az
+            - middle * (bz - az)
+        )
         if at == -math.inf or at > 0.0:
             return at < 0.0
     for _ in range(times):
@@ -77,7 +87,9 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
             over = over_triangle(triangle, ax + new * (bx - ax), ay + new * (by - ay), shape, -math.inf) + more
             return over <= az + new * (bz - az)
         leftwards = left > right or (left == right and middle - low > high - middle)
-        if at > -math.inf and min(at_low, at_high) == -math.inf:  # nothing is known of a slope there: both sides get shorter
+        if (
+            at > -math.inf and min(at_low, at_high) == -math.inf
+        ):  # nothing is known of a slope there: both sides get shorter
             leftwards = middle - low > high - middle
         new = 0.5 * (low + middle) if leftwards else 0.5 * (middle + high)
         at_new = over_triangle(triangle, ax + new * (bx - ax), ay + new * (by - ay), shape, -math.inf) + skin
@@ -98,10 +110,11 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
 
 @kernel(f"int64({_R}, {_R}, float64, float64)", counts=False)
 def by_middle(t, chord, radius, away):  # type: ignore[no-untyped-def]
-    """Return APART or _TOGETHER, as far as a triangle's middle tells: whether all of it is so far from a ball's way, with its shank.
+    """Return APART or _TOGETHER, as far as a triangle's middle tells: whether all of it is so far from a ball's way,
+    with its shank.
 
-    The square of the distance from what the ball's centre, and all above it, goes through is convex; so it is nowhere less than
-    it is in the middle and rises from there as it begins to.
+    The square of the distance from what the ball's centre, and all above it, goes through is convex; so it is nowhere
+    less than it is in the middle and rises from there as it begins to.
     """
     dx, dy, dz = chord[3] - chord[0], chord[4] - chord[1], chord[5] - chord[2]
     middle_x, middle_y, middle_z = (t[0] + t[3] + t[6]) / 3.0, (t[1] + t[4] + t[7]) / 3.0, (t[2] + t[5] + t[8]) / 3.0
@@ -126,7 +139,8 @@ def by_middle(t, chord, radius, away):  # type: ignore[no-untyped-def]
 
 @kernel(f"boolean({_R}, float64, {_R}, {_R}, float64, int64, {DESK})", counts=False)
 def apart(part, off, shape, chord, allowed, times, desk):  # type: ignore[no-untyped-def]
-    """Return whether a cutter is proven to go along a chord nowhere deeper than allowed into what a facet (9,) stands for.
+    """Return whether a cutter is proven to go along a chord nowhere deeper than allowed into what a facet (9,) stands
+    for.
 
     Args:
         off: how far the facet may be off it, or the cutter off the chord, mm. times: so often may the chord be divided.
@@ -136,7 +150,10 @@ def apart(part, off, shape, chord, allowed, times, desk):  # type: ignore[no-unt
         told = by_middle(part, chord, radius, away)
         if told != _OPEN:
             return told == APART
-        return square_from_curtain(part, chord[0], chord[1], chord[2] + radius, chord[3], chord[4], chord[5] + radius) >= away * away
+        return (
+            square_from_curtain(part, chord[0], chord[1], chord[2] + radius, chord[3], chord[4], chord[5] + radius)
+            >= away * away
+        )
     dx, dy, dz = chord[3] - chord[0], chord[4] - chord[1], chord[5] - chord[2]
     length, wide = math.sqrt(dx * dx + dy * dy + dz * dz), desk[SHAPES][1]
     skin, z = 0.5 * length + off - allowed, 0.5 * (chord[2] + chord[5])

@@ -1,9 +1,10 @@
-"""Compiled: a cutter along one line over surfaces: points so near that every chord is proven, and where surfaces change.
+"""Compiled: a cutter along one line over surfaces: points so near that every chord is proven, and where surfaces
+change.
 
-On one patch the path goes from touch to touch by Newton's method, as far as the chord's middle allows, and many chords are
-proven together: nearly all of a path is made so. Where that proof fails, or a patch ends, the path is taken up from the last
-chord that is proven and goes on with care: all facets are asked at every point, changes of surface are solved for, and chords
-are proven one by one.
+On one patch the path goes from touch to touch by Newton's method, as far as the chord's middle allows, and many chords
+are proven together: nearly all of a path is made so. Where that proof fails, or a patch ends, the path is taken up from
+the last chord that is proven and goes on with care: all facets are asked at every point, changes of surface are solved
+for, and chords are proven one by one.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from ..cutter_contact.desk_kernels import ANY, CHORDS, CONTROL, DESK, PATCH, PLA
 from ..cutter_contact.drop_kernels import drop_one
 from ..cutter_contact.touch_kernels import tip_over, touch_within
 from .meet_kernels import FOUND, OTHER, mark, meet
-from .point_kernels import (  # fmt: skip
+from .point_kernels import (
     ALLOWED,
     BEGINS,
     BOUNDARY,
@@ -52,14 +53,17 @@ _R, _MANY = "float64[::1]", "float64[:, ::1]"
 _STACK = 256
 _TIE = 1e-9
 _SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
-"""Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's length at most,
-or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end there again, for ever."""
+"""Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's
+length at most,
+or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end there again, for
+ever."""
 _SLOW, _FEW = 16, 4
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
 _CLOSE = 0.02
 """mm; a chord as short as this that is not proven suggests that something was missed at its ends."""
 _BESIDE = 20.0
-"""Times LEAST that a boundary point may lie beside two places between which the surface changes: where surfaces meet at a small
+"""Times LEAST that a boundary point may lie beside two places between which the surface changes: where surfaces meet at
+a small
 angle, their heights are written as the same beside it."""
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
 """What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
@@ -68,7 +72,9 @@ NO_PROOF, NO_ROOM = -2, -1
 
 @kernel(f"boolean({TREE}, {_R}, {_R}, {_R}, {_R}, float64, {_R})", counts=False)
 def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untyped-def]
-    """Set `right` to what is touched further on the patch that is touched on the left; False where that is not known."""
+    """Set `right` to what is touched further on the patch that is touched on the left; False where that is not
+    known.
+    """
     if left[FACET] < 0.0 or left[U] != left[U]:
         return False
     patch = tree[PATCH][int(left[FACET])]
@@ -82,7 +88,9 @@ def _onward(tree, shape, line, rules, left, s, right):  # type: ignore[no-untype
 
 @kernel(f"float64({TREE}, {_R}, {_R}, {_R}, {_R})", counts=False)
 def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
-    """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its middle; 0: unknown."""
+    """Return how many times as long a chord on one patch could be, by how low the tip comes over the patch in its
+    middle; 0: unknown.
+    """
     span, rise = right[S] - left[S], right[Z] - left[Z]
     x, y, z = 0.5 * (left[X] + right[X]), 0.5 * (left[Y] + right[Y]), 0.5 * (left[Z] + right[Z])
     u, v = 0.5 * (left[U] + right[U]), 0.5 * (left[V] + right[V])
@@ -99,7 +107,9 @@ def _spare(tree, shape, rules, left, right):  # type: ignore[no-untyped-def]
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_MANY}, int64, int64, {DESK})", counts=False)
 def _proven(tree, shape, rules, out, first, count, desk):  # type: ignore[no-untyped-def]
-    """Return how many of the chords from a row on, all on one patch, are proven; none of them goes into other surfaces at all."""
+    """Return how many of the chords from a row on, all on one patch, are proven; none of them goes into other surfaces
+    at all.
+    """
     for n in range(count + 1):
         for c in range(3):
             desk[PLACES][n, c] = out[first + n, X + c]
@@ -210,7 +220,9 @@ def _emit(left, right, corner, out, count):  # type: ignore[no-untyped-def]
 
 @kernel(f"UniTuple(int64, 2)({_R}, {_MANY}, int64, {_MANY}, int64)", counts=False)
 def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
-    """Where `left` has been raised, have the chord to it looked at again; return how many points there are then, and how many wait."""
+    """Where `left` has been raised, have the chord to it looked at again; return how many points there are then, and
+    how many wait.
+    """
     if count == 0 or not left[Z] > out[count - 1, Z]:
         return count, depth
     if count == 1 or left[NEW] == BEGINS:
@@ -225,7 +237,9 @@ def _back(left, waiting, depth, out, count):  # type: ignore[no-untyped-def]
     return count, depth + 1
 
 
-@kernel(f"Tuple((int64, float64, boolean))({TREE}, {_R}, {_R}, {_R}, float64, {_MANY}, int64, {_R}, {DESK})", counts=False)
+@kernel(
+    f"Tuple((int64, float64, boolean))({TREE}, {_R}, {_R}, {_R}, float64, {_MANY}, int64, {_R}, {DESK})", counts=False
+)
 def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: ignore[no-untyped-def]
     """Go on from the last point on its patch, by Newton's method, as far as that goes and chords are proven.
 
@@ -253,9 +267,14 @@ def _quickly(tree, shape, line, rules, ds, out, count, row, desk):  # type: igno
         group = min(2 * group, CHORDS)
 
 
-@kernel(f"Tuple((int64, float64))({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_MANY}, int64, {_MANY}, {_MANY}, {DESK})", counts=False)
+@kernel(
+    f"Tuple((int64, float64))"
+    f"({TREE}, {_R}, {_R}, {_R}, float64, int64, {_R}, {_MANY}, int64, {_MANY}, {_MANY}, {DESK})",
+    counts=False,
+)
 def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, rows, desk):  # type: ignore[no-untyped-def]
-    """Go on by so many chords at most from `left`, which goes along; return how many points there are then, or why it ends, and `ds`.
+    """Go on by so many chords at most from `left`, which goes along; return how many points there are then, or why it
+    ends, and `ds`.
 
     Args:
         waiting: (k, COLUMNS) to work in: places beyond the chord that is looked at. rows: (4, COLUMNS) to work in.
@@ -265,7 +284,17 @@ def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, r
         if left[S] >= last:
             break
         depth = 1
-        touched_at(tree, shape, line, rules, left[S] + ds if left[S] + ds < last - least else last, ANY, rows[FOUND], waiting[0], desk)
+        touched_at(
+            tree,
+            shape,
+            line,
+            rules,
+            left[S] + ds if left[S] + ds < last - least else last,
+            ANY,
+            rows[FOUND],
+            waiting[0],
+            desk,
+        )
         while depth > 0:
             if count + 3 > len(out):
                 return NO_ROOM, ds
@@ -292,15 +321,22 @@ def _carefully(tree, shape, line, rules, ds, times, left, out, count, waiting, r
 
 @kernel(f"int64({TREE}, {_R}, {_R}, {_R}, {_MANY})")
 def follow(tree, shape, line, rules, out):  # type: ignore[no-untyped-def]
-    """Follow surfaces along a line; return how many points there are, NO_ROOM in `out` for them, or NO_PROOF of a chord.
+    """Follow surfaces along a line; return how many points there are, NO_ROOM in `out` for them, or NO_PROOF of a
+    chord.
 
     Args:
         line: x, y, direction x, y, first and last place along it.
-        rules: (7,) longest chord; how far the tip may be above where it could be, in the middle of chords; how deep it may go into
-            surfaces; shortest chord; grid that places are rounded to, or 0; SLACK and FINE of `quick_one`; all mm.
+        rules: (7,) longest chord; how far the tip may be above where it could be, in the middle of chords; how deep it
+            may go into surfaces; shortest chord; grid that places are rounded to, or 0; SLACK and FINE of `quick_one`;
+            all mm.
         out: (k, COLUMNS).
     """
-    desk, waiting, rows, left = new_desk(), np.empty((_STACK + 1, COLUMNS)), np.full((4, COLUMNS), -1.0), np.empty(COLUMNS)
+    desk, waiting, rows, left = (
+        new_desk(),
+        np.empty((_STACK + 1, COLUMNS)),
+        np.full((4, COLUMNS), -1.0),
+        np.empty(COLUMNS),
+    )
     touched_at(tree, shape, line, rules, line[4], ANY, rows[FOUND], left, desk)
     left[NEW] = BEGINS
     count, ds, slow = 0, rules[DS], 1

@@ -7,7 +7,7 @@ import math
 from ...core.jit import kernel
 from ..cutter_contact.desk_kernels import ANY, DESK, NONE, TREE
 from ..cutter_contact.quick_kernels import quick_one
-from .point_kernels import (  # fmt: skip
+from .point_kernels import (
     BOUNDARY,
     COLUMNS,
     FACET,
@@ -46,7 +46,8 @@ def _tip(tree, shape, line, rules, s, whose, found, desk):  # type: ignore[no-un
 
 @kernel(f"UniTuple(float64, 3)({TREE}, {_R}, {_R}, {_R}, {_R}, {_R}, float64, {_MANY}, {DESK})", counts=False)
 def _balance(tree, shape, line, rules, left, right, beyond, pair, desk):  # type: ignore[no-untyped-def]
-    """Return where the tip is as high over the surface on the left as over that on the right, and both heights; NaN if nowhere.
+    """Return where the tip is as high over the surface on the left as over that on the right, and both heights; NaN if
+    nowhere.
 
     Args:
         beyond: so far beyond both places it may be. pair: (2, 6) to work in; out: what is touched on both.

@@ -1,4 +1,6 @@
-"""The path of a cutter over a compound surface: along every plane as low as it comes, each chord proven, told apart by surface."""
+"""The path of a cutter over a compound surface: along every plane as low as it comes, each chord proven, told apart by
+surface.
+"""
 
 from __future__ import annotations
 
@@ -26,12 +28,16 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 ALLOWED = 9.99e-5
-"""mm; no chord goes deeper into a surface, measured square to the cutter: that is proven for each. Rounding has the rest of 1e-4."""
+"""mm; no chord goes deeper into a surface, measured square to the cutter: that is proven for each. Rounding has the
+rest of 1e-4.
+"""
 _WHILE_MADE = 9.7e-5
 """mm; paths are made with less, so that their written text is proven again with a hair to spare."""
 _FINE = 1e-7
 _PART, _LEAST, _MOST = 0.05, 1e-4, 0.25
-"""Of the tolerance, mm, and of the tolerance at most: so far above where it could be a path may be before points are left out."""
+"""Of the tolerance, mm, and of the tolerance at most: so far above where it could be a path may be before points are
+left out.
+"""
 _TWICE = 2.0
 """Times as high as in its middle a chord may be elsewhere, over a path that bends upwards all along it."""
 _ROOM = 4096
@@ -42,7 +48,9 @@ _SHORT = 0.05
 
 
 _THEN = 1.5
-"""Times the memory of points as they are followed that all passes take at a time: what is made of them is held beside them."""
+"""Times the memory of points as they are followed that all passes take at a time: what is made of them is held beside
+them.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,15 +98,25 @@ class Follower:
         if options.leave:
             contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
         least = max(1e-6, 2 * options.grid)
-        self._rules = np.array([max(tool.radius / 2, 4 * least), self.tolerance, _WHILE_MADE, least, options.grid,
-                                float(facets.error.max()), _FINE])  # fmt: skip
+        self._rules = np.array(
+            [
+                max(tool.radius / 2, 4 * least),
+                self.tolerance,
+                _WHILE_MADE,
+                least,
+                options.grid,
+                float(facets.error.max()),
+                _FINE,
+            ]
+        )
 
     def along(self, planes: Planes, plane: int, part: Stretch) -> Floats:
         """Return the rows (n, COLUMNS) of points on a plane, facets by their numbers."""
         return self._rows(np.array([*planes.place(plane, 0.0), *planes.along, *part]))
 
     def between(self, start: tuple[float, float], end: tuple[float, float]) -> Floats | None:
-        """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None: it has a gap,
+        """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None:
+        it has a gap,
         or cannot be proven."""
         from . import point_kernels as k
 
@@ -112,7 +130,9 @@ class Follower:
         (rows,) = self.thinned([rows], ((end[0] - start[0]) / far, (end[1] - start[1]) / far))
         return rows[:, k.X : k.Z + 1].copy()
 
-    def thinned(self, rows: Sequence[Floats], along: tuple[float, float], progress: Progress = NO_PROGRESS) -> list[Floats]:
+    def thinned(
+        self, rows: Sequence[Floats], along: tuple[float, float], progress: Progress = NO_PROGRESS
+    ) -> list[Floats]:
         """Return rows along lines of one direction with as few points as the tolerance allows."""
         room = self.options.tolerance - _TWICE * self.tolerance
         return thinned(rows, Thinning(along, room, self.options.grid, self.facets.owner, self._proven), progress)
@@ -121,13 +141,18 @@ class Follower:
         return self.proven(chords, progress, _WHILE_MADE)
 
     def proven(self, chords: Floats, progress: Progress = NO_PROGRESS, allowed: float = ALLOWED) -> NDArray[np.bool_]:
-        """Return which ways (m, 6) of the tip, from a place to a place, go nowhere deeper than allowed into what is to be left."""
+        """Return which ways (m, 6) of the tip, from a place to a place, go nowhere deeper than allowed into what is to
+        be left.
+        """
         from . import way_kernels
 
         lowered = np.ascontiguousarray(chords - np.array([0, 0, self._leave, 0, 0, self._leave]))
         found = np.zeros(len(chords), np.bool_)
         spans = [(first, min(first + _CHORDS, len(chords))) for first in range(0, len(chords), _CHORDS)]
-        waiting = [pool().submit(way_kernels.clear_all, self._held, self._shape, lowered, *span, allowed, found) for span in spans]
+        waiting = [
+            pool().submit(way_kernels.clear_all, self._held, self._shape, lowered, *span, allowed, found)
+            for span in spans
+        ]
         for n, each in enumerate(waiting):
             each.result()
             progress.step((n + 1) / len(waiting), "Proving")
@@ -155,12 +180,17 @@ class Follower:
         return rows
 
 
-def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | None = None, progress: Progress = NO_PROGRESS,
-                overrun: Overrun = Overrun(0.0)) -> Compound:  # fmt: skip
+def cutter_path(
+    follower: Follower,
+    planes: Planes,
+    area: shapely.Geometry | None = None,
+    progress: Progress = NO_PROGRESS,
+    overrun: Overrun = Overrun(0.0),
+) -> Compound:
     """Return the path of a cutter's tip over surfaces: one run or more on each plane, rising along it.
 
-    Its centre stays within the box round the surfaces, seen along the planes, but for the overrun. Where it passes from one surface
-    to another, a boundary point is solved for: there it touches both.
+    Its centre stays within the box round the surfaces, seen along the planes, but for the overrun. Where it passes from
+    one surface to another, a boundary point is solved for: there it touches both.
 
     Args:
         area: where the cutter's centre may be, XY; None: everywhere.
@@ -173,14 +203,23 @@ def cutter_path(follower: Follower, planes: Planes, area: shapely.Geometry | Non
     facets = follower.facets
     whole, across = extent_on(planes, facets.triangles[:, :, :2].reshape(-1, 2))
     beside = [overrun.far > 0 and not across[0] - _NEAR <= offset <= across[1] + _NEAR for offset in planes.offsets]
-    jobs = [(plane, part) for plane in range(len(beside)) if not beside[plane] for part in stretches(planes, plane, whole, area)]
+    jobs = [
+        (plane, part)
+        for plane in range(len(beside))
+        if not beside[plane]
+        for part in stretches(planes, plane, whole, area)
+    ]
     rows = _followed(follower, planes, jobs, progress.part(0.0, 0.7 if overrun.far > 0 else 0.8))
     if overrun.far > 0:
         outer = whole[0] - overrun.far, whole[1] + overrun.far
         allowed = _allowed(planes, outer, overrun, area)
-        more = [(plane, part) for plane, beyond in enumerate(beside)
-                for piece in ((outer,) if beyond else ((outer[0], whole[0]), (whole[1], outer[1])))
-                for part in stretches(planes, plane, piece, allowed) if part[1] - part[0] > _SHORT]
+        more = [
+            (plane, part)
+            for plane, beyond in enumerate(beside)
+            for piece in ((outer,) if beyond else ((outer[0], whole[0]), (whole[1], outer[1])))
+            for part in stretches(planes, plane, piece, allowed)
+            if part[1] - part[0] > _SHORT
+        ]
         lowest = max(overrun.floor, min((float(each[:, _z()].min()) for each in rows if len(each)), default=-math.inf))
         more, outside = _outside(follower, planes, more, lowest, progress.part(0.7, 0.8))
         jobs, rows = _in_a_row([*jobs, *more], [*rows, *outside])
@@ -198,12 +237,19 @@ def _z() -> int:
 
 def _allowed(planes: Planes, outer: Stretch, overrun: Overrun, area: shapely.Geometry | None) -> shapely.Geometry:
     """Return where the centre may be in the overrun."""
-    far = max(abs(outer[0]), abs(outer[1])) + max(map(abs, planes.offsets), default=0.0) + max(map(abs, planes.origin)) + 1.0
+    far = (
+        max(abs(outer[0]), abs(outer[1]))
+        + max(map(abs, planes.offsets), default=0.0)
+        + max(map(abs, planes.origin))
+        + 1.0
+    )
     box = shapely.box(*(min(max(side, -far), far) for side in overrun.box))
     return box if area is None else shapely.intersection(box, area)
 
 
-def _followed(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], progress: Progress) -> list[Floats]:
+def _followed(
+    follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], progress: Progress
+) -> list[Floats]:
     """Return the rows of points of each stretch of a plane."""
     waiting = [pool().submit(follower.along, planes, plane, part) for plane, part in jobs]
     rows: list[Floats] = []
@@ -223,8 +269,9 @@ def _followed(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stre
     return rows
 
 
-def _outside(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], lowest: float,
-             progress: Progress) -> tuple[list[tuple[int, Stretch]], list[Floats]]:  # fmt: skip
+def _outside(
+    follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], lowest: float, progress: Progress
+) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
     """Return stretches of planes as far as the tip is no lower than a height on them, and the rows of points there."""
     rows = _followed(follower, planes, jobs, progress)
     short: list[tuple[int, Stretch]] = []
@@ -234,7 +281,9 @@ def _outside(follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stret
 
 
 def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
-    """Return from where to where points are above a height; where a chord goes below it, so early that the true path does not."""
+    """Return from where to where points are above a height; where a chord goes below it, so early that the true path
+    does not.
+    """
     from . import point_kernels as k
 
     found: list[Stretch] = []
@@ -257,7 +306,9 @@ def _above(rows: Floats, lowest: float, tolerance: float) -> list[Stretch]:
     return [part for part in found if part[1] - part[0] > _SHORT]
 
 
-def _in_a_row(jobs: Sequence[tuple[int, Stretch]], rows: Sequence[Floats]) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
+def _in_a_row(
+    jobs: Sequence[tuple[int, Stretch]], rows: Sequence[Floats]
+) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
     """Return the stretches in the order of their planes and along them, those joined that meet at one point."""
     from . import point_kernels as k
 
@@ -278,7 +329,9 @@ def _in_a_row(jobs: Sequence[tuple[int, Stretch]], rows: Sequence[Floats]) -> tu
 def _used(planes: Planes, beside: Sequence[bool], touched: Sequence[int]) -> tuple[Planes, dict[int, int]]:
     """Return the planes without those beside the surfaces on which nothing is touched, and the new number of each."""
     kept = [plane for plane in range(len(beside)) if not beside[plane] or plane in set(touched)]
-    return replace(planes, offsets=tuple(planes.offsets[plane] for plane in kept)), {plane: n for n, plane in enumerate(kept)}
+    return replace(planes, offsets=tuple(planes.offsets[plane] for plane in kept)), {
+        plane: n for n, plane in enumerate(kept)
+    }
 
 
 def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Compound:
@@ -289,7 +342,10 @@ def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Seq
     for plane, rows in zip(numbers, parts, strict=True):
         starts = np.flatnonzero(rows[:, k.NEW] == k.BEGINS)
         for first, stop in pairwise([*starts.tolist(), len(rows)]):
-            points, owner = rows[first:stop, k.X : k.Z + 1], facets.owner[rows[first : stop - 1, k.FACET].astype(np.int64)]
+            points, owner = (
+                rows[first:stop, k.X : k.Z + 1],
+                facets.owner[rows[first : stop - 1, k.FACET].astype(np.int64)],
+            )
             apart = (np.diff(points, axis=0) != 0).any(axis=1)  # a boundary point may be written where its neighbour is
             if apart.any():
                 runs.append(Run(plane, points[np.append(apart, True)], owner[apart]))
@@ -297,7 +353,9 @@ def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Seq
 
 
 def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Boundaries:
-    """Return where the path passes from surface to surface: where it touches both, and where it jumps from one to the other."""
+    """Return where the path passes from surface to surface: where it touches both, and where it jumps from one to the
+    other.
+    """
     from . import point_kernels as k
 
     found: list[tuple[int, Floats, Floats, bool]] = []
@@ -320,8 +378,12 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
     other = np.where(jump, there[:, k.LEFT], there[:, k.FACET]).astype(np.int64)
     at_one = np.where(jump[:, None], here[:, [k.U, k.V]], here[:, [k.LEFT_U, k.LEFT_V]])
     at_other = np.where(jump[:, None], there[:, [k.LEFT_U, k.LEFT_V]], there[:, [k.U, k.V]])
-    place = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.MET], here[:, k.TRUE_Z], strict=True)])
-    end = np.array([(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.MET], there[:, k.TRUE_Z], strict=True)])
+    place = np.array(
+        [(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), here[:, k.MET], here[:, k.TRUE_Z], strict=True)]
+    )
+    end = np.array(
+        [(*planes.place(p, s), z) for p, s, z in zip(where.tolist(), there[:, k.MET], there[:, k.TRUE_Z], strict=True)]
+    )
     sides = (surface_parameters(facets, one, at_one), surface_parameters(facets, other, at_other))
     kind = np.where(jump, BoundaryKind.JUMP, kinds_of(facets, (one, other), sides))
     return Boundaries(where, facets.owner[one], facets.owner[other], place, end, *sides, kind.astype(np.uint8))

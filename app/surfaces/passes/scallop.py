@@ -22,8 +22,8 @@ _STEEPEST = math.tan(math.radians(75.0))
 def stepover_for_scallop(ball_radius: float, scallop_height: float) -> float:
     """Return the stepover that leaves ridges of a given height on a flat floor.
 
-    Neighbouring passes of a ball-nose cutter leave a ridge whose crest is where their circles meet. Exact on a flat; along a slope
-    across the passes that is their distance on the slope.
+    Neighbouring passes of a ball-nose cutter leave a ridge whose crest is where their circles meet. Exact on a flat;
+    along a slope across the passes that is their distance on the slope.
 
     Args:
         ball_radius: of the cutter's corner, mm, > 0.
@@ -39,8 +39,10 @@ def stepover_for_scallop(ball_radius: float, scallop_height: float) -> float:
         Half-stepover right triangle: r^2 = (r - h)^2 + (s / 2)^2.
     """
     if not 0 < scallop_height <= ball_radius:
-        raise ParameterError(f"The scallop height is {scallop_height:g} mm; it must be greater than 0 and not more than the radius of "
-                             f"the cutter's corner, {ball_radius:g} mm.")
+        raise ParameterError(
+            f"The scallop height is {scallop_height:g} mm; it must be greater than 0 and not more than the radius of "
+            f"the cutter's corner, {ball_radius:g} mm."
+        )
     return 2 * math.sqrt(scallop_height * (2 * ball_radius - scallop_height))
 
 
@@ -50,24 +52,34 @@ def corner_radius(tool: Tool) -> float:
     Raises:
         ParameterError: it has none.
     """
-    radius = {ToolKind.BALL: tool.radius, ToolKind.BULL: tool.corner_radius, ToolKind.TAPER: tool.tip_diameter / 2}.get(tool.kind, 0.0)
+    radius = {ToolKind.BALL: tool.radius, ToolKind.BULL: tool.corner_radius, ToolKind.TAPER: tool.tip_diameter / 2}.get(
+        tool.kind, 0.0
+    )
     if not radius > 0:
-        raise ParameterError(f"T{tool.number} is a {tool.kind.value} tool, whose ridges no scallop height describes; give a pitch, or "
-                             "choose a ball, bull-nose or tapered tool.")
+        raise ParameterError(
+            f"T{tool.number} is a {tool.kind.value} tool, whose ridges no scallop height describes; give a pitch, or "
+            "choose a ball, bull-nose or tapered tool."
+        )
     return radius
 
 
-def scallop_planes(facets: Facets, tool: Tool, scallop_height: float, origin: tuple[float, float], angle: float) -> Planes:
-    """Return planes as far apart as a scallop height allows, nearer to each other where surfaces are steeper across them.
+def scallop_planes(
+    facets: Facets, tool: Tool, scallop_height: float, origin: tuple[float, float], angle: float
+) -> Planes:
+    """Return planes as far apart as a scallop height allows, nearer to each other where surfaces are steeper across
+    them.
 
-    On a slope the distance along it counts. Where surfaces curve the ridge is a little higher or lower than on their tangent
+    On a slope the distance along it counts. Where surfaces curve the ridge is a little higher or lower than on their
+    tangent
     planes: `hitofude cut` measures it.
 
     Args:
-        scallop_height: mm. origin: x, y of a place on one of the planes, mm. angle: of the planes to the X axis, radians.
+        scallop_height: mm. origin: x, y of a place on one of the planes, mm. angle: of the planes to the X axis,
+            radians.
 
     Raises:
-        ParameterError: the tool leaves no such ridges, the height is out of its range, or there would be too many planes.
+        ParameterError: the tool leaves no such ridges, the height is out of its range, or there would be too many
+            planes.
     """
     flat = stepover_for_scallop(corner_radius(tool), scallop_height)
     bare = Planes(origin, angle, ())
@@ -111,7 +123,9 @@ def _steps(begin: float, end: float, flat: float, slopes: tuple[Floats, Floats, 
             steepest = np.maximum.accumulate(slope[order])
             allowed = flat / np.sqrt(1 + steepest**2)
             beyond = np.flatnonzero(starts[order] >= allowed)  # what begins behind the step does not matter to it
-            step = float(min(allowed[-1] if not len(beyond) else max(allowed[beyond[0]], starts[order][beyond[0]]), flat))
+            step = float(
+                min(allowed[-1] if not len(beyond) else max(allowed[beyond[0]], starts[order][beyond[0]]), flat)
+            )
         else:
             step = flat
         at = min(at + step, end)

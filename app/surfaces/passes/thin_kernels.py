@@ -1,14 +1,16 @@
 """Compiled: as few points for a path as a tube above it lets through.
 
-A path of many points is a function z(t) along its line. Another one that is nowhere below it keeps as clear of the surfaces, and where
-it is nowhere higher than a length measured square to the path it is as near as asked. Its points stand over points of the first one, so
-that between two of these both are straight, and what holds at the points holds everywhere. From a point, the slopes that pass every
-point's interval up to some point are an interval too, which shrinks from point to point: a chord goes on until that is empty. Round a
-convex bend chords touch the path in their middles, and their ends stand out: of the tube's height h they are sqrt(8 h r) long, as
-chords are that may be h too low.
+A path of many points is a function z(t) along its line. Another one that is nowhere below it keeps as clear of the
+surfaces, and where it is nowhere higher than a length measured square to the path it is as near as asked. Its points
+stand over points of the first one, so that between two of these both are straight, and what holds at the points holds
+everywhere. From a point, the slopes that pass every point's interval up to some point are an interval too, which
+shrinks from point to point: a chord goes on until that is empty. Round a convex bend chords touch the path in their
+middles, and their ends stand out: of the tube's height h they are sqrt(8 h r) long, as chords are that may be h too
+low.
 
 References:
-    Cones of slopes through intervals: Reumann and Witkam (1974), Tomek (1974); polygons within a tube: Imai and Iri (1988).
+    Cones of slopes through intervals: Reumann and Witkam (1974), Tomek (1974); polygons within a tube: Imai and Iri
+    (1988).
 """
 
 from __future__ import annotations
@@ -19,13 +21,17 @@ from ...core.jit import kernel
 
 _R, _MANY, _INTS = "float64[::1]", "float64[:, ::1]", "int64[::1]"
 T, Z, FIXED, BEGINS, ROOM = range(5)
-"""Columns of a path's points: place along its line; the tip; whether it stays as it is; whether a run begins; how much higher it may be."""
+"""Columns of a path's points: place along its line; the tip; whether it stays as it is; whether a run begins; how much
+higher it may be.
+"""
 COLUMNS = 5
 
 
 @kernel(f"void({_MANY}, float64)")
 def give_room(rows, most):  # type: ignore[no-untyped-def]
-    """Set how much higher each point may be, straight up, for `most` square to both chords that meet there; 0 of fixed ones."""
+    """Set how much higher each point may be, straight up, for `most` square to both chords that meet there; 0 of fixed
+    ones.
+    """
     for n in range(len(rows)):
         least = math.inf
         for k in (n, n + 1):
@@ -37,7 +43,9 @@ def give_room(rows, most):  # type: ignore[no-untyped-def]
 
 @kernel(f"int64({_MANY}, int64, int64, float64, {_R})", counts=False)
 def _chord(rows, first, last, z, found):  # type: ignore[no-untyped-def]
-    """Return the farthest point that a chord from height z over a point reaches, `last` at most; `found`: its height there."""
+    """Return the farthest point that a chord from height z over a point reaches, `last` at most; `found`: its height
+    there.
+    """
     low, high, best = -math.inf, math.inf, first
     for k in range(first + 1, last + 1):
         far = rows[k, T] - rows[first, T]
@@ -57,7 +65,8 @@ def thin(rows, grid, kept, heights):  # type: ignore[no-untyped-def]
     """Set which points are kept and how high they are then; return how many.
 
     Args:
-        rows: (n, COLUMNS); the first and the last point of each run are fixed. grid: heights are rounded up to it, mm, or 0.
+        rows: (n, COLUMNS); the first and the last point of each run are fixed. grid: heights are rounded up to it, mm,
+            or 0.
         kept, heights: (n + 1,) to be set.
     """
     count, fixed = 0, 0

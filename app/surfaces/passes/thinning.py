@@ -16,7 +16,9 @@ Ints = NDArray[np.int64]
 _UPRIGHT = 1e-9
 """mm; points that are no farther apart along the line stand over one another."""
 _TIMES = 4
-"""So often are the ends of a chord raised that is not proven, each time by twice as much; then the points that it left out come back."""
+"""So often are the ends of a chord raised that is not proven, each time by twice as much; then the points that it left
+out come back.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +43,10 @@ class Thinning:
 def thinned(rows: Sequence[Floats], way: Thinning, progress: Progress = NO_PROGRESS) -> list[Floats]:
     """Return paths (n, COLUMNS of `point_kernels`) with as few points as `way` asks for.
 
-    Ends of runs, boundary points, corners of jumps and what they join, and places where the surface changes stay as they are. Nothing
-    of the new paths is lower than the old ones, so whatever is proven of these holds; only as places are rounded a chord may pass beside
-    the points that it leaves out. So all are proven once more, raised a little where they are not, and given up where that does not help.
+    Ends of runs, boundary points, corners of jumps and what they join, and places where the surface changes stay as
+    they are. Nothing of the new paths is lower than the old ones, so whatever is proven of these holds; only as places
+    are rounded a chord may pass beside the points that it leaves out. So all are proven once more, raised a little
+    where they are not, and given up where that does not help.
     """
     from . import thin_kernels as t
     from .point_kernels import Z

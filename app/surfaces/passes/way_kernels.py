@@ -1,10 +1,11 @@
 """Compiled: proof for many chords of a cutter's way at once.
 
-A way of chords is halved into groups down to single chords; a group is a straight line from its first place to its last, and how far
-its places are off that. Where a cutter pared by what is allowed, grown by how far group and facet are off, keeps away from the
-facet all along the group's line, all chords of the group are proven against all that the facet stands for. Where it does not, the
-one that is farther off is divided: the group into its halves, or the facet into its quarters. So what is far away is dismissed
-for many chords in one step, and neighbouring chords share the quarters that they come near.
+A way of chords is halved into groups down to single chords; a group is a straight line from its first place to its
+last, and how far its places are off that. Where a cutter pared by what is allowed, grown by how far group and facet are
+off, keeps away from the facet all along the group's line, all chords of the group are proven against all that the facet
+stands for. Where it does not, the one that is farther off is divided: the group into its halves, or the facet into its
+quarters. So what is far away is dismissed for many chords in one step, and neighbouring chords share the quarters that
+they come near.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import math
 
 from ...core.jit import kernel
 from ..cutter_contact.contact_kernels import CONE, DISC, RADIUS, thicken
-from ..cutter_contact.desk_kernels import (  # fmt: skip
+from ..cutter_contact.desk_kernels import (
     ANY,
     BOXES,
     BULGE,
@@ -54,9 +55,13 @@ _PART = 0.25
 _OFTEN, _SELDOM = 64, 4
 """So often is a single chord divided, and the line of a group."""
 _FINEST = 1e-5
-"""mm; facets as near to the surface are taken for it. The same whatever is allowed, so that what is proven is proven where more is."""
+"""mm; facets as near to the surface are taken for it. The same whatever is allowed, so that what is proven is proven
+where more is.
+"""
 _MOST, _MOST_EACH = 200_000, 2_000
-"""Facets that are looked at for one chord alone, and for each of many; then what is left of them counts as not proven."""
+"""Facets that are looked at for one chord alone, and for each of many; then what is left of them counts as not
+proven.
+"""
 
 
 @kernel(f"float64({_MANY}, int64, {_R})", counts=False)
@@ -104,7 +109,8 @@ def _normal(t):  # type: ignore[no-untyped-def]
 
 @kernel(f"void({_R}, float64, float64, float64, float64, float64)", counts=False)
 def _widen(row, x, y, z, below, above):  # type: ignore[no-untyped-def]
-    """Set WIDENED and RISE of a row: the triangle amid what it stands for, and as much wider as that may be off within its plane.
+    """Set WIDENED and RISE of a row: the triangle amid what it stands for, and as much wider as that may be off within
+    its plane.
 
     Args:
         below, above: how far it may be off that way along (x, y, z), which the whole facet faces, of OFF.
@@ -113,7 +119,14 @@ def _widen(row, x, y, z, below, above):  # type: ignore[no-untyped-def]
     for k in range(9):
         row[WIDENED + k] = row[k]
     row[RISE] = off
-    ax, ay, az, bx, by, bz = row[3] - row[0], row[4] - row[1], row[5] - row[2], row[6] - row[3], row[7] - row[4], row[8] - row[5]
+    ax, ay, az, bx, by, bz = (
+        row[3] - row[0],
+        row[4] - row[1],
+        row[5] - row[2],
+        row[6] - row[3],
+        row[7] - row[4],
+        row[8] - row[5],
+    )
     east, north, up = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
     twice = math.sqrt(east * east + north * north + up * up)
     a, b = math.sqrt(ax * ax + ay * ay + az * az), math.sqrt(bx * bx + by * by + bz * bz)
@@ -144,7 +157,8 @@ def _widen(row, x, y, z, below, above):  # type: ignore[no-untyped-def]
 
 @kernel(f"Tuple((int64, int64))({TREE}, int64, {_R}, float64, float64, int64, int64, int64, {DESK})", counts=False)
 def _facet_clear(tree, n, shape, allowed, fine, failing, looked, most, desk):  # type: ignore[no-untyped-def]
-    """Return the first chord that is not proven against one facet, `failing` where that is not earlier, and how many were looked at.
+    """Return the first chord that is not proven against one facet, `failing` where that is not earlier, and how many
+    were looked at.
 
     Args:
         fine: facets as near to the surface are taken for it, mm. most: so many are looked at.
@@ -230,7 +244,8 @@ def way_clear(tree, shape, count, mine, allowed, desk):  # type: ignore[no-untyp
 
 @kernel(f"UniTuple(int64, 3)({_MANY}, int64, int64, int64, {_R}, int64, {DESK})", counts=False)
 def _gather(chords, k, part, stop, shape, most, desk):  # type: ignore[no-untyped-def]
-    """Put chord k from one of its parts on, and what follows without a gap, on PLACES, and the chord of each part on WHICH.
+    """Put chord k from one of its parts on, and what follows without a gap, on PLACES, and the chord of each part on
+    WHICH.
 
     Return how many parts there are, `most` or less, and the chord and part after them.
     """
@@ -257,7 +272,9 @@ def _gather(chords, k, part, stop, shape, most, desk):  # type: ignore[no-untype
 
 @kernel(f"void({TREE}, {_R}, {_MANY}, int64, int64, float64, boolean[::1])")
 def clear_all(tree, shape, chords, first, stop, allowed, found):  # type: ignore[no-untyped-def]
-    """Set which of chords first to stop - 1 (m, 6) go nowhere deeper into surfaces than allowed, for all that can be proven."""
+    """Set which of chords first to stop - 1 (m, 6) go nowhere deeper into surfaces than allowed, for all that can be
+    proven.
+    """
     desk = new_desk()
     k, part, group = first, 0, CHORDS
     for n in range(first, stop):

@@ -47,9 +47,15 @@ _PART = 1 << 16
 """Triangles that are placed together."""
 
 _ANALYTIC = {
-    PlaneShape: shapes.plane, SphereShape: shapes.sphere, CylinderShape: shapes.cylinder, ConeShape: shapes.cone,
-    TorusShape: shapes.torus, BilinearShape: shapes.bilinear, BicubicShape: shapes.bicubic, BsplineShape: shapes.bspline,
-}  # fmt: skip
+    PlaneShape: shapes.plane,
+    SphereShape: shapes.sphere,
+    CylinderShape: shapes.cylinder,
+    ConeShape: shapes.cone,
+    TorusShape: shapes.torus,
+    BilinearShape: shapes.bilinear,
+    BicubicShape: shapes.bicubic,
+    BsplineShape: shapes.bspline,
+}
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,6 @@
-"""Triangles that stand for surfaces, each with the part of the surface that it stands for and how far that may be from it."""
+"""Triangles that stand for surfaces, each with the part of the surface that it stands for and how far that may be from
+it.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,8 @@ class Facets:
         patch: (n,) number of the patch that it stands for a part of, NONE where it is the surface itself.
         corners: (n, 3, 2) parameters of its corners in that patch, each from 0 to 1.
         error: (n,) no place of that part is farther than this from the triangle's place of the same parameters, mm.
-        bulge: (n, 2) nor farther than this below and above the triangle, square to it, on the side that its corners are told to, mm; >= 0.
+        bulge: (n, 2) nor farther than this below and above the triangle, square to it, on the side that its corners are
+            told to, mm; >= 0.
         patches: of all surfaces.
     """
 
@@ -61,19 +64,40 @@ class Facets:
         count = len(triangles)
         if not count:
             raise GeometryError("surfaces of no triangles; at least one was expected.")
-        return Facets(np.ascontiguousarray(triangles, np.float64), np.full(count, owner, np.int64), np.full(count, NONE, np.int64),
-                      np.zeros((count, 3, 2)), np.zeros(count), np.zeros((count, 2)), patches_of(()))
+        return Facets(
+            np.ascontiguousarray(triangles, np.float64),
+            np.full(count, owner, np.int64),
+            np.full(count, NONE, np.int64),
+            np.zeros((count, 3, 2)),
+            np.zeros(count),
+            np.zeros((count, 2)),
+            patches_of(()),
+        )
 
     @staticmethod
     def none(patches: Patches) -> Facets:
         """Return no facets, of patches of the same degrees."""
-        return Facets(np.zeros((0, 3, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3, 2)), np.zeros(0),
-                      np.zeros((0, 2)), patches.only(np.zeros(len(patches), np.bool_)))  # fmt: skip
+        return Facets(
+            np.zeros((0, 3, 3)),
+            np.zeros(0, np.int64),
+            np.zeros(0, np.int64),
+            np.zeros((0, 3, 2)),
+            np.zeros(0),
+            np.zeros((0, 2)),
+            patches.only(np.zeros(len(patches), np.bool_)),
+        )
 
     def only(self, rows: Ints | NDArray[np.bool_]) -> Facets:
         """Return some of them."""
-        return replace(self, triangles=self.triangles[rows], owner=self.owner[rows], patch=self.patch[rows],
-                       corners=self.corners[rows], error=self.error[rows], bulge=self.bulge[rows])
+        return replace(
+            self,
+            triangles=self.triangles[rows],
+            owner=self.owner[rows],
+            patch=self.patch[rows],
+            corners=self.corners[rows],
+            error=self.error[rows],
+            bulge=self.bulge[rows],
+        )
 
     @cached_property
     def tree(self) -> Tree:
@@ -82,7 +106,8 @@ class Facets:
 
 
 def surface_parameters(facets: Facets, facet: Ints, at: Floats) -> Floats:
-    """Return a surface's parameters (m, 2), from 0 to 1, of places of facets (m,) at their patches' parameters; NaN on meshes.
+    """Return a surface's parameters (m, 2), from 0 to 1, of places of facets (m,) at their patches' parameters; NaN on
+    meshes.
 
     Places that are not known, NaN, are taken as the middle of their facet.
     """
@@ -103,7 +128,9 @@ def joined(parts: Sequence[Facets]) -> Facets:
     if len({each.degrees for each in patches}) > 1:
         raise GeometryError("patches of different degrees do not go together; make them by one call of `patches_of`.")
     before = np.cumsum([0, *(len(part.patches) for part in parts)])
-    numbers = [np.where(part.patch >= 0, part.patch + first, NONE) for part, first in zip(parts, before.tolist(), strict=False)]
+    numbers = [
+        np.where(part.patch >= 0, part.patch + first, NONE) for part, first in zip(parts, before.tolist(), strict=False)
+    ]
     numbered = [replace(part, patch=number) for part, number in zip(parts, numbers, strict=True)]
     return joined_parts(numbered, joined_patches(patches) if patches else patches_of(()))
 
@@ -116,7 +143,9 @@ def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
 
     if len(parts) == 1:
         return replace(parts[0], patches=patches)
-    return Facets(every("triangles"), every("owner"), every("patch"), every("corners"), every("error"), every("bulge"), patches)
+    return Facets(
+        every("triangles"), every("owner"), every("patch"), every("corners"), every("error"), every("bulge"), patches
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,10 +153,12 @@ class Tree:
     """A balanced binary tree over facets that lie near one another.
 
     Attributes:
-        boxes: (2^k - 1, 8) of what each node's facets stand for: x0, y0, x1, y1, top, and a plane that nothing of it is above: its
-            slopes along X and Y and its height at the origin. The root first; children of i are 2 i + 1 and 2 i + 2.
-        triangles: (n, 9) in the order of the leaves. corners: (n, 6), patch, error, owner: (n,), bulge: (n, 2) likewise; patch is
-            NONE where that is not whole: such facets stand for themselves, and for all that is within their error.
+        boxes: (2^k - 1, 8) of what each node's facets stand for: x0, y0, x1, y1, top, and a plane that nothing of it is
+            above: its slopes along X and Y and its height at the origin. The root first; children of i are 2 i + 1 and
+            2 i + 2.
+        triangles: (n, 9) in the order of the leaves. corners: (n, 6), patch, error, owner: (n,), bulge: (n, 2)
+            likewise; patch is NONE where that is not whole: such facets stand for themselves, and for all that is
+            within their error.
         order: (n,) their numbers.
         control: (patches, p + 1, q + 1, 4).
     """
@@ -145,7 +176,17 @@ class Tree:
     @property
     def held(self) -> tuple[Floats | Ints | int, ...]:
         """What kernels take, see `desk_kernels`."""
-        return (self.boxes, self.triangles, self.corners, self.patch, self.error, self.owner, self.control, LEAF, self.bulge)
+        return (
+            self.boxes,
+            self.triangles,
+            self.corners,
+            self.patch,
+            self.error,
+            self.owner,
+            self.control,
+            LEAF,
+            self.bulge,
+        )
 
 
 def _tree(facets: Facets) -> Tree:
@@ -164,13 +205,23 @@ def _tree(facets: Facets) -> Tree:
     slopes, counts = _slopes(triangles.reshape(-1, 3, 3)), [len(level) for level in levels[::-1]]
     planes = np.concatenate([_planes(triangles.reshape(-1, 3, 3), error, slopes, count) for count in counts])
     patch = np.where(np.append(facets.patches.whole, False)[facets.patch], facets.patch, NONE)
-    return Tree(np.column_stack([np.concatenate(levels[::-1]), planes]), triangles,
-                np.ascontiguousarray(_taken(facets.corners.reshape(-1, 6), order)), patch[order], error,
-                _taken(facets.bulge, order), facets.owner[order], order, facets.patches.control)  # fmt: skip
+    return Tree(
+        np.column_stack([np.concatenate(levels[::-1]), planes]),
+        triangles,
+        np.ascontiguousarray(_taken(facets.corners.reshape(-1, 6), order)),
+        patch[order],
+        error,
+        _taken(facets.bulge, order),
+        facets.owner[order],
+        order,
+        facets.patches.control,
+    )
 
 
 def _taken(values: Floats, order: Ints) -> Floats:
-    """Return values in another order; zeros alone, as meshes have them, are given anew: what nobody writes takes no memory."""
+    """Return values in another order; zeros alone, as meshes have them, are given anew: what nobody writes takes no
+    memory.
+    """
     return values[order] if values.any() else np.zeros((len(order), *values.shape[1:]))
 
 
@@ -180,7 +231,8 @@ def _merged(boxes: Floats) -> Floats:
 
 
 def _planes(triangles: Floats, error: Floats, slopes: Floats, nodes: int) -> Floats:
-    """Return planes (nodes, 3) that nothing of equal shares of the facets is above: slopes along X and Y, height at the origin.
+    """Return planes (nodes, 3) that nothing of equal shares of the facets is above: slopes along X and Y, height at the
+    origin.
 
     Args:
         slopes: of each facet (n, 2).

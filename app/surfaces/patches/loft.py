@@ -1,7 +1,7 @@
 """Lofted and ruled surfaces: sections in one space of splines, and their control points interpolated across (skinning).
 
-The surface holds every section exactly, but for rounding; between them it is what a spline of the chosen degree makes of it.
-Piegl & Tiller, The NURBS Book, 10.3.
+The surface holds every section exactly, but for rounding; between them it is what a spline of the chosen degree makes
+of it. Piegl & Tiller, The NURBS Book, 10.3.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ def lofted(curves: Sequence[Nurbs], degree: int, closed: bool = False) -> Bsplin
 
 
 def section_parameters(sections: Floats) -> Floats:
-    """Return parameters from 0 to 1 of sections (n, k, 4): chord lengths of their control points, the mean of all that move.
+    """Return parameters from 0 to 1 of sections (n, k, 4): chord lengths of their control points, the mean of all that
+    move.
 
     Raises:
         GeometryError: two neighbouring sections are the same.

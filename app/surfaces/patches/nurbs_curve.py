@@ -73,7 +73,9 @@ def clamped(points: Floats, knots: Floats, degree: int) -> tuple[Floats, Floats]
 
 
 def parameters(points: Floats, exponent: float) -> Floats:
-    """Return parameters (n,) from 0 to 1 of points (n, …), by chord lengths to an exponent: 1, or 0.5 for centripetal ones."""
+    """Return parameters (n,) from 0 to 1 of points (n, …), by chord lengths to an exponent: 1, or 0.5 for centripetal
+    ones.
+    """
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1) ** exponent
     made = np.concatenate([[0.0], np.cumsum(steps)])
     return unit_knots(made)
@@ -103,11 +105,18 @@ def through(points: Floats, at: Floats, degree: int, closed: bool = False) -> tu
 
 
 def of_primitives(primitives: Sequence[Primitive]) -> Nurbs:
-    """Return the curve of joined lines, arcs or one circle in the plane z = 0, exactly: rational of degree 2, straight ones of 1."""
+    """Return the curve of joined lines, arcs or one circle in the plane z = 0, exactly: rational of degree 2, straight
+    ones of 1.
+    """
     if all(isinstance(each, Line) for each in primitives):
         corners = np.array([primitives[0].start, *(each.end for each in primitives)])
         at = parameters(corners, 1.0)
-        return Nurbs(np.column_stack([corners, np.zeros(len(corners))]), np.ones(len(corners)), np.concatenate([[0.0], at, [1.0]]), 1)
+        return Nurbs(
+            np.column_stack([corners, np.zeros(len(corners))]),
+            np.ones(len(corners)),
+            np.concatenate([[0.0], at, [1.0]]),
+            1,
+        )
     rows: list[tuple[float, float, float]] = [(*primitives[0].start, 1.0)]
     lengths: list[float] = []
     for each in primitives:
@@ -145,7 +154,9 @@ def _length(primitive: Primitive) -> float:
 
 
 def unit_arc(start: float, end: float) -> Floats:
-    """Return control points (2 n + 1, 3) x, y, weight of an arc of the unit circle, of n pieces of a quarter turn at most, radians."""
+    """Return control points (2 n + 1, 3) x, y, weight of an arc of the unit circle, of n pieces of a quarter turn at
+    most, radians.
+    """
     count = max(1, math.ceil(abs(end - start) / (math.pi / 2) - 1e-12))
     angles = np.linspace(start, end, 2 * count + 1)
     half = abs(end - start) / (2 * count)
@@ -159,7 +170,9 @@ def arc_knots(count: int) -> Floats:
 
 
 def compatible(curves: Sequence[Nurbs]) -> tuple[list[Floats], Floats, int]:
-    """Return control points (k, 4) of curves in one space, its knots from 0 to 1, and its degree; exact but for rounding."""
+    """Return control points (k, 4) of curves in one space, its knots from 0 to 1, and its degree; exact but for
+    rounding.
+    """
     degree = max(curve.degree for curve in curves)
     wanted: list[list[float]] = []
     for curve in curves:
@@ -202,4 +215,6 @@ def checked(weights: Floats, what: str) -> None:
         GeometryError: one is not.
     """
     if not (weights > 0).all():
-        raise GeometryError(f"{what} goes through infinity between its sections; add sections, or take fewer different ones.")
+        raise GeometryError(
+            f"{what} goes through infinity between its sections; add sections, or take fewer different ones."
+        )

@@ -1,4 +1,6 @@
-"""B-spline surfaces, and the rational Bézier patches that they are made of: all that engines need to know of a surface."""
+"""B-spline surfaces, and the rational Bézier patches that they are made of: all that engines need to know of a
+surface.
+"""
 
 from __future__ import annotations
 
@@ -41,15 +43,22 @@ class BsplineSurface:
             raise GeometryError("a surface has control points that are not finite.")
         if not (self.weights > 0).all():
             raise GeometryError("a surface has a weight of 0 or less; weights must be greater than 0.")
-        ways = (("u", self.knots_u, self.degree_u, self.points.shape[0]), ("v", self.knots_v, self.degree_v, self.points.shape[1]))
+        ways = (
+            ("u", self.knots_u, self.degree_u, self.points.shape[0]),
+            ("v", self.knots_v, self.degree_v, self.points.shape[1]),
+        )
         for name, knots, degree, count in ways:
             if not 1 <= degree <= HIGHEST_DEGREE:
                 raise GeometryError(f"a surface of degree {degree} along {name}; use 1 to {HIGHEST_DEGREE}.")
             if degree >= count or len(knots) != count + degree + 1:
-                raise GeometryError(f"a surface of degree {degree} with {count} control points and {len(knots)} knots along {name}; "
-                                    "there must be more points than the degree, and as many knots as both and one.")  # fmt: skip
+                raise GeometryError(
+                    f"a surface of degree {degree} with {count} control points and {len(knots)} knots along {name}; "
+                    "there must be more points than the degree, and as many knots as both and one."
+                )
             if not np.isfinite(knots).all() or (np.diff(knots) < 0).any() or not knots[degree] < knots[count]:
-                raise GeometryError(f"the knots along {name} fall, or leave no room; they must rise from the first to the last.")
+                raise GeometryError(
+                    f"the knots along {name} fall, or leave no room; they must rise from the first to the last."
+                )
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +69,8 @@ class Patches:
         control: (n, p + 1, q + 1, 4) control points w x, w y, w z, w.
         owner: (n,) number of the surface that each is of.
         spans: (n, 4) u0, u1, v0, v1 of each in its surface's own parameters, which go from 0 to 1.
-        whole: (n,) whether none of it is trimmed off; what is left of others are triangles, and kernels do not ask them.
+        whole: (n,) whether none of it is trimmed off; what is left of others are triangles, and kernels do not ask
+            them.
     """
 
     control: Floats

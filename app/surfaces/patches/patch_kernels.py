@@ -15,7 +15,9 @@ _MANY, _NETS = "float64[:, ::1]", "float64[:, :, :, ::1]"
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, float64, float64)", counts=False)
 def place(control, patch, u, v):  # type: ignore[no-untyped-def]
-    """Return the place of a patch (of n, p + 1, q + 1, 4) at its parameters, by Horner's rule for Bernstein polynomials."""
+    """Return the place of a patch (of n, p + 1, q + 1, 4) at its parameters, by Horner's rule for Bernstein
+    polynomials.
+    """
     p, q = control.shape[1] - 1, control.shape[2] - 1
     s, t = 1.0 - u, 1.0 - v
     x = y = z = w = 0.0
@@ -24,10 +26,30 @@ def place(control, patch, u, v):  # type: ignore[no-untyped-def]
         for i in range(4):
             share = s * s * s if i == 0 else (3.0 * s * s * u if i == 1 else (3.0 * s * u * u if i == 2 else u * u * u))
             a, b, c, d = share * low, share * near, share * far, share * high
-            x += a * control[patch, i, 0, 0] + b * control[patch, i, 1, 0] + c * control[patch, i, 2, 0] + d * control[patch, i, 3, 0]
-            y += a * control[patch, i, 0, 1] + b * control[patch, i, 1, 1] + c * control[patch, i, 2, 1] + d * control[patch, i, 3, 1]
-            z += a * control[patch, i, 0, 2] + b * control[patch, i, 1, 2] + c * control[patch, i, 2, 2] + d * control[patch, i, 3, 2]
-            w += a * control[patch, i, 0, 3] + b * control[patch, i, 1, 3] + c * control[patch, i, 2, 3] + d * control[patch, i, 3, 3]
+            x += (
+                a * control[patch, i, 0, 0]
+                + b * control[patch, i, 1, 0]
+                + c * control[patch, i, 2, 0]
+                + d * control[patch, i, 3, 0]
+            )
+            y += (
+                a * control[patch, i, 0, 1]
+                + b * control[patch, i, 1, 1]
+                + c * control[patch, i, 2, 1]
+                + d * control[patch, i, 3, 1]
+            )
+            z += (
+                a * control[patch, i, 0, 2]
+                + b * control[patch, i, 1, 2]
+                + c * control[patch, i, 2, 2]
+                + d * control[patch, i, 3, 2]
+            )
+            w += (
+                a * control[patch, i, 0, 3]
+                + b * control[patch, i, 1, 3]
+                + c * control[patch, i, 2, 3]
+                + d * control[patch, i, 3, 3]
+            )
         return x / w, y / w, z / w
     up = 1.0
     for i in range(p + 1):
@@ -55,7 +77,10 @@ def quarter(control, patch, rows, source, first):  # type: ignore[no-untyped-def
     """
     for k in range(3):  # corner k stays, and so is that of quarter k; the others and the middle one are made of middles
         n = (k + 1) % 3
-        u, v = 0.5 * (rows[source, 9 + 2 * k] + rows[source, 9 + 2 * n]), 0.5 * (rows[source, 10 + 2 * k] + rows[source, 10 + 2 * n])
+        u, v = (
+            0.5 * (rows[source, 9 + 2 * k] + rows[source, 9 + 2 * n]),
+            0.5 * (rows[source, 10 + 2 * k] + rows[source, 10 + 2 * n]),
+        )
         x, y, z = place(control, patch, u, v)
         for row, corner in ((first + k, n), (first + n, k), (first + 3, k)):
             rows[row, 3 * corner], rows[row, 3 * corner + 1], rows[row, 3 * corner + 2] = x, y, z

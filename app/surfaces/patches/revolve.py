@@ -35,7 +35,9 @@ def revolved(profile: Nurbs, centre: Floats, axis: Floats, turn: tuple[float, fl
 
 
 def upper_side(axis: Floats) -> Floats:
-    """Return the direction from which angles about an axis count: its upper side, or +X about an upright one; a unit vector."""
+    """Return the direction from which angles about an axis count: its upper side, or +X about an upright one; a unit
+    vector.
+    """
     along = axis / np.linalg.norm(axis)
     upright = math.hypot(along[0], along[1]) <= 1e-9
     up = np.array([1.0, 0.0, 0.0] if upright else [0.0, 0.0, 1.0])

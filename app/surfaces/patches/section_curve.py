@@ -41,7 +41,9 @@ def resolve(section: SectionCurve, sources: Sources) -> Resolved:
 
 
 def resolve_all(sections: Sequence[SectionCurve], sources: Sources) -> list[Resolved]:
-    """Return sections as curves; tables of as many points each share the mean of their parameters, so that no knots are added."""
+    """Return sections as curves; tables of as many points each share the mean of their parameters, so that no knots are
+    added.
+    """
     if shared_parameters(sections):
         at = np.mean([own_parameters(section) for section in sections], axis=0)
         return [Resolved(_through(section, at)) for section in sections]
@@ -55,7 +57,9 @@ def shared_parameters(sections: Sequence[SectionCurve]) -> bool:
 
 
 def own_parameters(section: SectionCurve) -> Floats:
-    """Return parameters from 0 to 1 of the points that a curve goes through; with that of the first once more where it is closed."""
+    """Return parameters from 0 to 1 of the points that a curve goes through; with that of the first once more where it
+    is closed.
+    """
     return parameters(_places(section), 0.5 if section.spacing is Spacing.CENTRIPETAL else 1.0)
 
 
@@ -106,7 +110,9 @@ def contours_of(part: Part, layer: str, name: str) -> tuple[Contour, ...]:
     found = chain([each for each in part.entities if layer in ("", each.layer) and not each.lettering]).contours
     if not found:
         known = ", ".join(dict.fromkeys(each.layer for each in part.entities)) or "no layer"
-        raise GeometryError(f"{name} has no contour on layer {layer}; curves are on {known}." if layer else f"{name} has no contour.")
+        raise GeometryError(
+            f"{name} has no contour on layer {layer}; curves are on {known}." if layer else f"{name} has no contour."
+        )
     return tuple(found)
 
 
@@ -114,16 +120,27 @@ def _drawn(section: SectionCurve, sources: Sources) -> Resolved:
     part = sources.part(section.drawing)
     contours = contours_of(part, section.layer, section.drawing)
     if section.number > len(contours):
-        raise GeometryError(f"{section.drawing} has {len(contours)} contours there, so none with number {section.number}; "
-                            f"use 1 to {len(contours)}.")
+        raise GeometryError(
+            f"{section.drawing} has {len(contours)} contours there, so none with number {section.number}; "
+            f"use 1 to {len(contours)}."
+        )
     flat = flat_curve(contours[section.number - 1], part)
-    return Resolved(Nurbs(placed(flat.curve.points, section), flat.curve.weights, flat.curve.knots, flat.curve.degree), flat.deviation)
+    return Resolved(
+        Nurbs(placed(flat.curve.points, section), flat.curve.weights, flat.curve.knots, flat.curve.degree),
+        flat.deviation,
+    )
 
 
 def flat_curve(contour: Contour, part: Part) -> Resolved:
-    """Return a contour of a drawing as a curve in the plane z = 0: splines as they are, lines, arcs and circles exactly."""
+    """Return a contour of a drawing as a curve in the plane z = 0: splines as they are, lines, arcs and circles
+    exactly.
+    """
     curve = part.curve(contour.entity_ids[0]) if len(contour.entity_ids) == 1 else None
-    return Resolved(_spline(curve)) if isinstance(curve, Spline) else Resolved(of_primitives(contour.primitives), contour.deviation)
+    return (
+        Resolved(_spline(curve))
+        if isinstance(curve, Spline)
+        else Resolved(of_primitives(contour.primitives), contour.deviation)
+    )
 
 
 def _spline(spline: Spline) -> Nurbs:

@@ -8,7 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Nurbs
-from ...model.scene_shapes import BicubicShape, BilinearShape, BsplineShape, ConeShape, CylinderShape, PlaneShape, SphereShape, TorusShape
+from ...model.scene_shapes import (
+    BicubicShape,
+    BilinearShape,
+    BsplineShape,
+    ConeShape,
+    CylinderShape,
+    PlaneShape,
+    SphereShape,
+    TorusShape,
+)
 from .nurbs_curve import arc_knots, even_knots, unit_arc
 from .patch import BsplineSurface
 from .revolve import revolved, upper_side
@@ -53,7 +62,12 @@ def sphere(shape: SphereShape) -> BsplineSurface:
     """Return a sphere: half a circle turned about the upright axis, its poles at both ends of u."""
     centre = np.array(shape.centre)
     arc = unit_arc(-math.pi / 2, math.pi / 2)
-    return revolved(_arc(arc, centre, shape.radius * np.eye(3)[0], shape.radius * np.eye(3)[2]), centre, np.eye(3)[2], (0.0, math.tau))
+    return revolved(
+        _arc(arc, centre, shape.radius * np.eye(3)[0], shape.radius * np.eye(3)[2]),
+        centre,
+        np.eye(3)[2],
+        (0.0, math.tau),
+    )
 
 
 def torus(shape: TorusShape) -> BsplineSurface:

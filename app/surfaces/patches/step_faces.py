@@ -16,7 +16,10 @@ from ...core.errors import GeometryError, InputError
 
 Floats = NDArray[np.float64]
 
-EXTRA = "STEP files are read by Open CASCADE, which is not installed here; install it with: {} -m pip install 'cadquery-ocp>=8,<9'."
+EXTRA = (
+    "STEP files are read by Open CASCADE, which is not installed here; install it with: {} -m pip install "
+    "'cadquery-ocp>=8,<9'."
+)
 _ANGLE = 0.3
 """radians; triangles of one face lean no more from one to the next, whatever the tolerance."""
 _TIMES, _FINER = 6, 0.4
@@ -30,8 +33,8 @@ def step_triangles(name: str, data: bytes, numbers: tuple[int, ...], tolerance: 
     Args:
         name: of the file, for errors. data: its bytes.
         numbers: of the faces, from 1 on, in the order of the file; (): all of them.
-        tolerance: how far the faces are from the triangles at most, mm; that is looked at, in the middle of every triangle and side,
-            and where it is more the face is divided anew, more finely.
+        tolerance: how far the faces are from the triangles at most, mm; that is looked at, in the middle of every
+            triangle and side, and where it is more the face is divided anew, more finely.
 
     Raises:
         InputError: Open CASCADE is not installed, or cannot read the file, or it has no such face.
@@ -48,7 +51,9 @@ def step_triangles(name: str, data: bytes, numbers: tuple[int, ...], tolerance: 
         if off <= tolerance:
             return found
         asked *= _FINER
-    raise GeometryError(f"{name}: a face stays {off:.4g} mm from its triangles, more than {tolerance:g} mm; make tolerance larger.")
+    raise GeometryError(
+        f"{name}: a face stays {off:.4g} mm from its triangles, more than {tolerance:g} mm; make tolerance larger."
+    )
 
 
 def _faces(name: str, data: bytes) -> tuple[Any, list[Any]]:
@@ -121,7 +126,9 @@ def _places(surface: Any, parameters: Floats) -> Iterator[tuple[float, float, fl
 
 
 def _off(places: list[tuple[float, float, float]], triangles: Floats) -> Floats:
-    """Return how far places (n,) are from their triangles' planes; of slivers, which have none, from a corner's reach: 0."""
+    """Return how far places (n,) are from their triangles' planes; of slivers, which have none, from a corner's reach:
+    0.
+    """
     a, b, c = np.moveaxis(triangles, 1, 0)
     normal = np.cross(b - a, c - a)
     size = np.linalg.norm(normal, axis=1)

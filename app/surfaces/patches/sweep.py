@@ -1,4 +1,5 @@
-"""Swept surfaces: a profile moved along a guide, parallel to itself (exactly) or turning with the guide (within a tolerance).
+"""Swept surfaces: a profile moved along a guide, parallel to itself (exactly) or turning with the guide (within a
+tolerance).
 
 The turning frame is that which turns least about the guide (rotation-minimising), found by double reflection:
 Wang, Jüttler, Zheng, Liu: Computation of rotation minimizing frames, ACM Trans. Graph. 27(1), 2008.
@@ -29,11 +30,14 @@ def parallel_sweep(profile: Nurbs, guide: Nurbs) -> BsplineSurface:
     """Return a profile moved along a guide without turning, exactly: u goes along the profile, v along the guide."""
     points = profile.points[:, None] + (guide.points - guide.points[0])[None]
     weights = profile.weights[:, None] * guide.weights[None]
-    return BsplineSurface(points, weights, unit_knots(profile.knots), unit_knots(guide.knots), profile.degree, guide.degree)
+    return BsplineSurface(
+        points, weights, unit_knots(profile.knots), unit_knots(guide.knots), profile.degree, guide.degree
+    )
 
 
 def following_sweep(profile: Nurbs, guide: Nurbs) -> tuple[BsplineSurface, ...]:
-    """Return a profile that turns with a guide: one surface for each span between the guide's knots, joined without gaps.
+    """Return a profile that turns with a guide: one surface for each span between the guide's knots, joined without
+    gaps.
 
     Raises:
         GeometryError: the guide has a corner, or turns too sharply for TOLERANCE.
@@ -47,7 +51,9 @@ def following_sweep(profile: Nurbs, guide: Nurbs) -> tuple[BsplineSurface, ...]:
         places, tangents = _places(guide, at, (low, high))
         if before is not None and np.linalg.norm(before - tangents[0]) > 1e-6:
             x, y, z = places[0]
-            raise GeometryError(f"The guide of a sweep has a corner at {x:g}, {y:g}, {z:g}; round it, or keep the profile parallel.")
+            raise GeometryError(
+                f"The guide of a sweep has a corner at {x:g}, {y:g}, {z:g}; round it, or keep the profile parallel."
+            )
         turns = _turns(places, tangents, turn)
         made.append(_span(profile, guide.points[0], places, turns))
         turn, before = turns[-1], tangents[-1]
@@ -58,7 +64,9 @@ def _places(guide: Nurbs, at: Floats, span: tuple[float, float]) -> tuple[Floats
     """Return places (n, 3) and unit tangents (n, 3) of a guide within one span of its knots."""
     spline = spline_of(homogeneous(guide), guide.knots, guide.degree)
     low, high = span
-    inner = np.clip(at, low + 1e-12 * (high - low), high - 1e-12 * (high - low))  # derivatives of this span, not of the next
+    inner = np.clip(
+        at, low + 1e-12 * (high - low), high - 1e-12 * (high - low)
+    )  # derivatives of this span, not of the next
     rows, slopes = spline(at), spline.derivative()(inner)
     places = rows[:, :3] / rows[:, 3:]
     steep = slopes[:, :3] - places * slopes[:, 3:]
@@ -97,7 +105,11 @@ def _span(profile: Nurbs, start: Floats, places: Floats, turns: Floats) -> Bspli
         off = np.linalg.norm(spline_of(control, knots, degree)(at) - sections, axis=2).max()
         if off <= TOLERANCE:
             weights = np.repeat(profile.weights[:, None], len(control), axis=1)
-            return BsplineSurface(control.transpose(1, 0, 2), weights, unit_knots(profile.knots), knots, profile.degree, degree)
+            return BsplineSurface(
+                control.transpose(1, 0, 2), weights, unit_knots(profile.knots), knots, profile.degree, degree
+            )
         step //= 2
     x, y, z = places[len(places) // 2]
-    raise GeometryError(f"The guide of a sweep turns too sharply about {x:g}, {y:g}, {z:g}; give it more points, or larger radii.")
+    raise GeometryError(
+        f"The guide of a sweep turns too sharply about {x:g}, {y:g}, {z:g}; give it more points, or larger radii."
+    )

@@ -1,10 +1,11 @@
-"""Patches into facets that are proven to be as near to them as asked, fine where they curve and coarse where they are flat.
+"""Patches into facets that are proven to be as near to them as asked, fine where they curve and coarse where they are
+flat.
 
-A surface whose second derivatives are no longer than M_uu, M_uv and M_vv is nowhere farther from a triangle with its corners
-on it, a by b in parameters, than (a² M_uu + 2 a b M_uv + b² M_vv) / 8 (Filip, Magedson, Markot 1986). The derivatives are
-bounded by the differences of control points, whose hull holds them; of rational patches by the quotient rule on such bounds.
-Most of them usually lies within the surface, where parameters run faster or slower; so the same is asked of the heights over each
-triangle alone: that bounds how far the surface bulges from it.
+A surface whose second derivatives are no longer than M_uu, M_uv and M_vv is nowhere farther from a triangle with its
+corners on it, a by b in parameters, than (a² M_uu + 2 a b M_uv + b² M_vv) / 8 (Filip, Magedson, Markot 1986). The
+derivatives are bounded by the differences of control points, whose hull holds them; of rational patches by the quotient
+rule on such bounds. Most of them usually lies within the surface, where parameters run faster or slower; so the same is
+asked of the heights over each triangle alone: that bounds how far the surface bulges from it.
 """
 
 from __future__ import annotations
@@ -46,7 +47,10 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
         uu, uv, vv = bounds[rows].T
         error = (uu / nu**2 + 2 * uv / (nu * nv) + vv / nv**2) / 8
         each = 2 * nu * nv
-        bulge = [_bulges(control[part], triangles.reshape(len(rows), nu, nv, 2, 3, 3)[at], (nu, nv)) for at, part in _batches(rows, each)]
+        bulge = [
+            _bulges(control[part], triangles.reshape(len(rows), nu, nv, 2, 3, 3)[at], (nu, nv))
+            for at, part in _batches(rows, each)
+        ]
         bulges = np.minimum(np.concatenate(bulge), np.repeat(error, each)[:, None])
         made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each), bulges))
     triangles, patch, corners, error, bulges = (np.concatenate(column) for column in zip(*made, strict=True))
@@ -54,14 +58,18 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
 
 
 def facets_alone(patches: Patches) -> Facets:
-    """Return two facets for each patch, and how far the surface is off them, seen as a whole: parameters may be elsewhere.
+    """Return two facets for each patch, and how far the surface is off them, seen as a whole: parameters may be
+    elsewhere.
 
     It is off as far as it bulges from them, or as its sides leave them: no farther than their control points.
     """
     control = patches.control
     uu, uv, vv = second_derivatives(control).T
     triangles, corners = _grid(control, np.tile([0.0, 0.0, 1.0, 1.0], (len(patches), 1)), (1, 1))
-    most = [_bulges(control[part], triangles.reshape(-1, 1, 1, 2, 3, 3)[at], (1, 1)) for at, part in _batches(np.arange(len(patches)), 2)]
+    most = [
+        _bulges(control[part], triangles.reshape(-1, 1, 1, 2, 3, 3)[at], (1, 1))
+        for at, part in _batches(np.arange(len(patches)), 2)
+    ]
     bulge = np.concatenate([np.zeros((0, 2)), *most]).reshape(-1, 4).max(axis=1)
     places = control[..., :3] / control[..., 3:]
     sides = [_from_chord(places[:, k]) for k in (0, -1)] + [_from_chord(places[:, :, k]) for k in (0, -1)]
@@ -74,7 +82,9 @@ def _from_chord(places: Floats) -> Floats:
     """Return how far places (n, k, 3) are from the lines through the first and the last of them (n,)."""
     chord, away = places[:, -1:] - places[:, :1], places - places[:, :1]
     square = np.maximum((chord**2).sum(axis=-1, keepdims=True), 1e-300)
-    return np.asarray(np.linalg.norm(away - (away * chord).sum(axis=-1, keepdims=True) / square * chord, axis=-1).max(axis=1))
+    return np.asarray(
+        np.linalg.norm(away - (away * chord).sum(axis=-1, keepdims=True) / square * chord, axis=-1).max(axis=1)
+    )
 
 
 def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Floats, Ints, Floats, Ints]:
@@ -90,7 +100,10 @@ def _divided(patches: Patches, tolerance: float, progress: Progress) -> tuple[Fl
         done.append((control[fine], number[fine], box[fine], counts[fine]))
         total += 2 * int(np.minimum(counts, _GRID).prod(axis=1).sum())
         if total > MOST_FACETS:
-            raise GeometryError(f"facets {tolerance:g} mm near the surfaces would be more than {MOST_FACETS:,}; allow a larger tolerance.")
+            raise GeometryError(
+                f"facets {tolerance:g} mm near the surfaces would be more than {MOST_FACETS:,}; allow a larger "
+                "tolerance."
+            )
         control, number, box, counts = control[~fine], number[~fine], box[~fine], counts[~fine]
         for axis in (0, 1):
             wanting = counts[:, axis] > _GRID
@@ -115,10 +128,12 @@ def _counts(bounds: Floats, tolerance: float) -> Ints:
 
 
 def second_derivatives(control: Floats, signed: bool = False) -> Floats:
-    """Return bounds (n, 3) of the lengths of S_uu, S_uv and S_vv over whole patches (n, p + 1, q + 1, k + 1) in k dimensions.
+    """Return bounds (n, 3) of the lengths of S_uu, S_uv and S_vv over whole patches (n, p + 1, q + 1, k + 1) in k
+    dimensions.
 
     Args:
-        signed: of patches in one dimension, bounds (n, 3, 2): what they, and their opposites, are nowhere more than, if that is >= 0.
+        signed: of patches in one dimension, bounds (n, 3, 2): what they, and their opposites, are nowhere more than, if
+            that is >= 0.
     """
     p, q = control.shape[1] - 1, control.shape[2] - 1
     weight = control[..., -1]
@@ -170,16 +185,25 @@ def halves(control: Floats, axis: int) -> tuple[Floats, Floats]:
 
 
 def _grid(control: Floats, box: Floats, counts: tuple[int, int]) -> tuple[Floats, Floats]:
-    """Return the triangles (k, 3, 3) of sub-patches, so many along u and v, and the parameters (k, 3, 2) of their corners."""
+    """Return the triangles (k, 3, 3) of sub-patches, so many along u and v, and the parameters (k, 3, 2) of their
+    corners.
+    """
     nu, nv = counts
     u, v = np.arange(nu + 1) / nu, np.arange(nv + 1) / nv
-    made = np.einsum("ai,bj,nijc->nabc", bernstein(u, control.shape[1] - 1), bernstein(v, control.shape[2] - 1), control)
+    made = np.einsum(
+        "ai,bj,nijc->nabc", bernstein(u, control.shape[1] - 1), bernstein(v, control.shape[2] - 1), control
+    )
     places = made[..., :3] / made[..., 3:]
     across = box[:, None, 0] + (box[:, 2] - box[:, 0])[:, None] * u
     along = box[:, None, 1] + (box[:, 3] - box[:, 1])[:, None] * v
     shape = (len(control), nu + 1, nv + 1)
-    whole = np.concatenate([places, np.stack([np.broadcast_to(across[:, :, None], shape), np.broadcast_to(along[:, None], shape)], axis=3)],
-                           axis=3)  # fmt: skip
+    whole = np.concatenate(
+        [
+            places,
+            np.stack([np.broadcast_to(across[:, :, None], shape), np.broadcast_to(along[:, None], shape)], axis=3),
+        ],
+        axis=3,
+    )
     a, b, c, d = whole[:, :-1, :-1], whole[:, 1:, :-1], whole[:, 1:, 1:], whole[:, :-1, 1:]
     both = np.stack([np.stack([a, b, c], axis=3), np.stack([a, c, d], axis=3)], axis=3).reshape(-1, 3, 5)
     return np.ascontiguousarray(both[..., :3]), np.ascontiguousarray(both[..., 3:])
@@ -193,7 +217,9 @@ def _batches(rows: Ints, each: int) -> Iterator[tuple[slice, Ints]]:
 
 
 def _bulges(control: Floats, triangles: Floats, counts: tuple[int, int]) -> Floats:
-    """Return how far sub-patches reach below and above their triangles (n, nu, nv, 2, 3, 3), square to each (m, 2); inf without an area."""
+    """Return how far sub-patches reach below and above their triangles (n, nu, nv, 2, 3, 3), square to each (m, 2); inf
+    without an area.
+    """
     within = [_within(count, degree - 1) for count, degree in zip(counts, control.shape[1:3], strict=True)]
     net = np.einsum("aki,blj,nijc->nabklc", within[0], within[1], control, optimize=True)
     normal = np.cross(triangles[..., 1, :] - triangles[..., 0, :], triangles[..., 2, :] - triangles[..., 0, :])
@@ -209,7 +235,9 @@ def _bulges(control: Floats, triangles: Floats, counts: tuple[int, int]) -> Floa
 
 
 def _within(count: int, degree: int) -> Floats:
-    """Return what makes control points (degree + 1) those of each of so many equal parts (count, degree + 1, degree + 1)."""
+    """Return what makes control points (degree + 1) those of each of so many equal parts (count, degree + 1, degree +
+    1).
+    """
     nodes = np.arange(degree + 1) / max(degree, 1)
     back = np.linalg.inv(bernstein(nodes, degree))
     return np.stack([back @ bernstein((k + nodes) / count, degree) for k in range(count)])

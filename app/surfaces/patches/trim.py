@@ -1,7 +1,7 @@
 """Surfaces cut where trims end them, so that nothing but what is left of them is ever touched.
 
-A patch that an outline crosses is halved until its parts are off it, and those are patches in their own right, whole to their sides;
-or until they are so fine that triangles stand for them within a hair: those are cut along the outline.
+A patch that an outline crosses is halved until its parts are off it, and those are patches in their own right, whole to
+their sides; or until they are so fine that triangles stand for them within a hair: those are cut along the outline.
 """
 
 from __future__ import annotations
@@ -24,13 +24,17 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 AT_OUTLINES = 3e-5
-"""mm; triangles along outlines are not farther from their surfaces. What chords are proven against them by allows for it."""
+"""mm; triangles along outlines are not farther from their surfaces. What chords are proven against them by allows for
+it.
+"""
 _HAIR = 1e-9
 _LITTLE = 1e-3
 _UPRIGHT = 1e-9
 
 
-def trimmed_patches(patches: Patches, areas: Mapping[int, shapely.Geometry], progress: Progress = NO_PROGRESS) -> tuple[Patches, Facets]:
+def trimmed_patches(
+    patches: Patches, areas: Mapping[int, shapely.Geometry], progress: Progress = NO_PROGRESS
+) -> tuple[Patches, Facets]:
     """Return the patches that trims leave whole, some of them divided, and facets along the outlines.
 
     Args:
@@ -51,7 +55,9 @@ def trimmed_patches(patches: Patches, areas: Mapping[int, shapely.Geometry], pro
         alone = alone.only(near[alone.patch])
         count += len(alone)
         if count + 2 * len(todo) > MOST_FACETS:
-            raise GeometryError(f"facets along the trims' outlines would be more than {MOST_FACETS:,}; make the outlines shorter.")
+            raise GeometryError(
+                f"facets along the trims' outlines would be more than {MOST_FACETS:,}; make the outlines shorter."
+            )
         own = replace(todo.only(near), whole=np.zeros(near.sum(), np.bool_))
         cuts.append(cut(replace(alone, patch=(np.cumsum(near) - 1)[alone.patch], patches=own), inside[alone.patch]))
         todo, source = _halved(todo.only(~near))
@@ -93,8 +99,11 @@ def _halved(patches: Patches) -> tuple[Patches, Ints]:
 def trimmed_mesh(facets: Facets, area: shapely.Geometry) -> Facets:
     """Return what an area leaves of facets that are the surface themselves."""
     shapely.prepare(area)
-    ends = [np.stack([places[:-1], places[1:]], axis=1) for ring in shapely.get_rings(shapely.get_parts(area))
-            for places in (shapely.get_coordinates(ring),)]  # fmt: skip
+    ends = [
+        np.stack([places[:-1], places[1:]], axis=1)
+        for ring in shapely.get_rings(shapely.get_parts(area))
+        for places in (shapely.get_coordinates(ring),)
+    ]
     sides = shapely.STRtree(shapely.linestrings(np.concatenate([np.zeros((0, 2, 2)), *ends])))
     border = np.zeros(len(facets), np.bool_)
     border[sides.query(shapely.polygons(facets.triangles[:, :, :2]), predicate="dwithin", distance=_HAIR)[0]] = True
@@ -117,13 +126,18 @@ def cut(facets: Facets, inside: NDArray[np.object_]) -> Facets:
         found.append(shares)
     source, shares = np.concatenate(sources), np.concatenate(found)
     error = facets.error[source]
-    return replace(facets.only(source), triangles=np.einsum("nkc,ncd->nkd", shares, facets.triangles[source]),
-                   corners=np.einsum("nkc,ncd->nkd", shares, facets.corners[source]),
-                   bulge=np.repeat(error[:, None], 2, axis=1))  # fmt: skip
+    return replace(
+        facets.only(source),
+        triangles=np.einsum("nkc,ncd->nkd", shares, facets.triangles[source]),
+        corners=np.einsum("nkc,ncd->nkd", shares, facets.corners[source]),
+        bulge=np.repeat(error[:, None], 2, axis=1),
+    )
 
 
 def _cut_flat(triangles: Floats, inside: NDArray[np.object_]) -> tuple[Ints, Floats]:
-    """Return what areas (n,) leave of triangles (n, 3, 2) in triangles: of which each is, and shares (k, 3, 3) of its corners."""
+    """Return what areas (n,) leave of triangles (n, 3, 2) in triangles: of which each is, and shares (k, 3, 3) of its
+    corners.
+    """
     parts, source = shapely.get_parts(shapely.intersection(inside, shapely.polygons(triangles)), return_index=True)
     polygons = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & (shapely.area(parts) > 0)
     parts, source = parts[polygons], source[polygons]
@@ -144,8 +158,12 @@ def _cut_upright(triangle: Floats, inside: shapely.Geometry) -> Floats:
     along = (flat - flat[0]) @ way / length
     seen = np.column_stack([along, triangle[:, 2]])
     ends = flat[0] + np.outer([along.min(), along.max()], way / length)
-    near = shapely.intersection(shapely.buffer(inside, _HAIR), shapely.LineString(ends))  # walls on the outline are kept
-    spans = [(shapely.get_coordinates(part) - flat[0]) @ way / length for part in shapely.get_parts(near) if part.length > 0]
+    near = shapely.intersection(
+        shapely.buffer(inside, _HAIR), shapely.LineString(ends)
+    )  # walls on the outline are kept
+    spans = [
+        (shapely.get_coordinates(part) - flat[0]) @ way / length for part in shapely.get_parts(near) if part.length > 0
+    ]
     bars = [shapely.box(span.min(), seen[:, 1].min() - 1, span.max(), seen[:, 1].max() + 1) for span in spans]
     return _cut_flat(seen[None], np.array([shapely.union_all(bars)], np.object_))[1]
 

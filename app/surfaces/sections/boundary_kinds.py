@@ -29,8 +29,14 @@ def _on_side(facets: Facets, facet: Ints, parameters: Floats) -> NDArray[np.bool
     """Return which places are on a side of their surface where it ends: neither a seam nor a pole."""
     ends = _ends(facets)
     owner = facets.owner[facet]
-    near = np.column_stack([parameters[:, 0] <= _SIDE, parameters[:, 0] >= 1 - _SIDE,
-                            parameters[:, 1] <= _SIDE, parameters[:, 1] >= 1 - _SIDE])  # fmt: skip
+    near = np.column_stack(
+        [
+            parameters[:, 0] <= _SIDE,
+            parameters[:, 0] >= 1 - _SIDE,
+            parameters[:, 1] <= _SIDE,
+            parameters[:, 1] >= 1 - _SIDE,
+        ]
+    )
     return np.asarray((near & ends[owner]).any(axis=1))
 
 

@@ -1,4 +1,6 @@
-"""The compound surface as it is generated: plane by plane the topmost points, and where they pass from surface to surface."""
+"""The compound surface as it is generated: plane by plane the topmost points, and where they pass from surface to
+surface.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +66,9 @@ class Planes:
         count = len(self.offsets)
         apart = (self.offsets[-1] - self.offsets[0]) / max(count - 1, 1)
         larger = f"{apart / fitting(needed) * 1.05:.2g}"
-        ask(needed, f"Passes on {count:,} planes", f"set them {larger} mm apart or more (pitch = {larger} in the scene)")
+        ask(
+            needed, f"Passes on {count:,} planes", f"set them {larger} mm apart or more (pitch = {larger} in the scene)"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +92,8 @@ class Curve:
 
     Attributes:
         plane, owner: numbers of the plane and of the surface.
-        points: (n, 3) on the surface, mm, in order. parameters: (n, 2) of the surface there, each from 0 to 1; NaN on meshes.
+        points: (n, 3) on the surface, mm, in order. parameters: (n, 2) of the surface there, each from 0 to 1; NaN on
+            meshes.
     """
 
     plane: int
@@ -104,7 +109,8 @@ class Boundaries:
     Attributes:
         plane: (m,) number of the plane.
         before, after: (m,) numbers i and j of the surfaces, NO_SURFACE beyond the ends of the compound surface.
-        place: (m, 3) mm, on i. end: (m, 3) on j: the other height of a jump, the end of a stretch of contact; else `place`.
+        place: (m, 3) mm, on i. end: (m, 3) on j: the other height of a jump, the end of a stretch of contact; else
+            `place`.
         before_at, after_at: (m, 2) parameters on both, each from 0 to 1; NaN on meshes and beyond ends.
         kind: (m,) BoundaryKind.
     """
@@ -133,7 +139,8 @@ class Compound:
     """A compound surface, or the path of a cutter over one, which is that of the offset surfaces.
 
     Attributes:
-        planes: that it was cut by. runs: its points, plane by plane. boundaries: where they pass from surface to surface.
+        planes: that it was cut by. runs: its points, plane by plane. boundaries: where they pass from surface to
+            surface.
         curves: of every surface on every plane, also below others; none for the path of a cutter.
     """
 
@@ -147,6 +154,8 @@ class Compound:
         at = np.append(numbers, NO_SURFACE)
         marks = self.boundaries
         return Compound(
-            self.planes, tuple(replace(run, owner=at[run.owner]) for run in self.runs),
+            self.planes,
+            tuple(replace(run, owner=at[run.owner]) for run in self.runs),
             replace(marks, before=at[marks.before], after=at[marks.after]),
-            tuple(replace(curve, owner=int(at[curve.owner])) for curve in self.curves))  # fmt: skip
+            tuple(replace(curve, owner=int(at[curve.owner])) for curve in self.curves),
+        )

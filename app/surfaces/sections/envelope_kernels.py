@@ -1,7 +1,8 @@
 """Compiled: the topmost of many pieces of section curves on one plane, and where it passes from surface to surface.
 
-Between two neighbouring ends of pieces every piece is a smooth function. Those whose chords, with how far off these are, could be
-topmost are asked exactly, on their surfaces; where two of them are, the place at which they are equally high is solved for.
+Between two neighbouring ends of pieces every piece is a smooth function. Those whose chords, with how far off these
+are, could be topmost are asked exactly, on their surfaces; where two of them are, the place at which they are equally
+high is solved for.
 """
 
 from __future__ import annotations
@@ -22,7 +23,9 @@ AT, HERE, UNTIL, THERE, BEFORE, AFTER, BU, BV, AU, AV, KIND = range(11)
 """Columns of marks: along the plane and height; those on the next surface; pieces; parameters on both; kind."""
 CROSSING, EDGE, JUMP, TANGENT = range(4)
 COUNT, MARKED, CURRENT, TIED, TIED_FROM, TIED_UNTIL = range(6)
-"""What is known on the way: spans and marks so far, the surface that is topmost, the one that lies on it, and from where to where."""
+"""What is known on the way: spans and marks so far, the surface that is topmost, the one that lies on it, and from
+where to where.
+"""
 _TIE = 1e-9
 _SHORT = 1e-11
 _SAME = 1e-8
@@ -33,10 +36,15 @@ _ROOTS = 80
 
 @kernel(f"UniTuple(float64, 3)({_NETS}, int64, {_MANY}, int64, {_R}, float64)", counts=False)
 def over(control, patch, pieces, k, plane, s):  # type: ignore[no-untyped-def]
-    """Return height and parameters of a piece of a section curve at a place along the plane (its place and direction, 4)."""
+    """Return height and parameters of a piece of a section curve at a place along the plane (its place and direction,
+    4).
+    """
     width = pieces[k, S1] - pieces[k, S0]
     share = min(max((s - pieces[k, S0]) / width, 0.0), 1.0) if width > 0.0 else 0.0
-    z, u = pieces[k, Z0] + share * (pieces[k, Z1] - pieces[k, Z0]), pieces[k, U0] + share * (pieces[k, U1] - pieces[k, U0])
+    z, u = (
+        pieces[k, Z0] + share * (pieces[k, Z1] - pieces[k, Z0]),
+        pieces[k, U0] + share * (pieces[k, U1] - pieces[k, U0]),
+    )
     v = pieces[k, V0] + share * (pieces[k, V1] - pieces[k, V0])
     if patch < 0 or share == 0.0 or share == 1.0:
         return z, u, v
@@ -64,7 +72,9 @@ def over(control, patch, pieces, k, plane, s):  # type: ignore[no-untyped-def]
 
 @kernel(f"int64({_R}, {_INTS}, int64, {_INTS}, int64)", counts=False)
 def _highest(heights, chosen, count, owner, current):  # type: ignore[no-untyped-def]
-    """Return which of some pieces is topmost: of equally high ones that of the current surface, else of the first one."""
+    """Return which of some pieces is topmost: of equally high ones that of the current surface, else of the first
+    one.
+    """
     best = 0
     for n in range(1, count):
         if heights[n] > heights[best]:
@@ -88,7 +98,9 @@ def _chord(pieces, k, a, b):  # type: ignore[no-untyped-def]
 
 @kernel(f"UniTuple(int64, 2)({_MANY}, float64, float64, {_INTS}, int64, {_INTS})", counts=False)
 def _candidates(pieces, a, b, active, actives, chosen):  # type: ignore[no-untyped-def]
-    """Forget pieces that end before a; choose those that could be topmost from a to b; return how many are active, and chosen."""
+    """Forget pieces that end before a; choose those that could be topmost from a to b; return how many are active, and
+    chosen.
+    """
     kept, floor = 0, -math.inf
     for n in range(actives):
         k = active[n]
@@ -161,7 +173,9 @@ def _covered(control, pieces, patch, plane, chosen, count, i, j, s):  # type: ig
 
 @kernel(f"boolean({_MANY}, {_INTS}, int64, float64, float64)", counts=False)
 def _ends(pieces, owner, number, s, z):  # type: ignore[no-untyped-def]
-    """Return whether the section of a surface ends at a place: one of its pieces does, and no other goes on or back from there."""
+    """Return whether the section of a surface ends at a place: one of its pieces does, and no other goes on or back
+    from there.
+    """
     count = 0
     for k in range(len(pieces)):
         if owner[k] == number:
@@ -170,12 +184,17 @@ def _ends(pieces, owner, number, s, z):  # type: ignore[no-untyped-def]
     return count == 1
 
 
-@kernel(f"void({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, int64, int64, float64, float64, int64, {_MANY}, {_R})", counts=False)
+@kernel(
+    f"void({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, int64, int64, float64, float64, int64, {_MANY}, {_R})",
+    counts=False,
+)
 def _mark(control, pieces, patch, owner, plane, i, j, start, stop, kind, marks, state):  # type: ignore[no-untyped-def]
     """Write a mark between pieces: i until `start`, j from `stop`."""
     mark = marks[int(state[MARKED])]
     before, after = over(control, patch[i], pieces, i, plane, stop), over(control, patch[j], pieces, j, plane, stop)
-    if kind == CROSSING and (_ends(pieces, owner, owner[i], stop, before[0]) or _ends(pieces, owner, owner[j], stop, after[0])):
+    if kind == CROSSING and (
+        _ends(pieces, owner, owner[i], stop, before[0]) or _ends(pieces, owner, owner[j], stop, after[0])
+    ):
         kind = EDGE
     mark[AT], mark[HERE], mark[UNTIL], mark[THERE] = start, before[0], stop, after[0]
     if start != stop:  # they lie on each other from there on
@@ -194,7 +213,12 @@ def _change(control, pieces, patch, owner, plane, i, a, spans, marks, state):  #
     k = int(spans[count - 1, PIECE])
     apart = over(control, patch[k], pieces, k, plane, a)[0] - over(control, patch[i], pieces, i, plane, a)[0]
     kind, start = CROSSING if abs(apart) <= _TIE else JUMP, a
-    if kind == CROSSING and state[TIED] == owner[i] and state[TIED_UNTIL] >= a - _SHORT and a - state[TIED_FROM] > _SHORT:
+    if (
+        kind == CROSSING
+        and state[TIED] == owner[i]
+        and state[TIED_UNTIL] >= a - _SHORT
+        and a - state[TIED_FROM] > _SHORT
+    ):
         kind, start = TANGENT, state[TIED_FROM]
     _mark(control, pieces, patch, owner, plane, k, i, start, a, kind, marks, state)
 
@@ -225,10 +249,14 @@ def _span(spans, i, a, b, state):  # type: ignore[no-untyped-def]
     state[COUNT] += 1.0
 
 
-@kernel(f"float64({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, {_INTS}, int64, float64, float64, boolean, {_MANY}, {_MANY}, {_MANY}, {_R})",
-        counts=False)  # fmt: skip
+@kernel(
+    f"float64({_NETS}, {_MANY}, {_INTS}, {_INTS}, {_R}, {_INTS}, int64, float64, float64, boolean, {_MANY}, {_MANY}, "
+    f"{_MANY}, {_R})",
+    counts=False,
+)
 def _stretch(  # type: ignore[no-untyped-def]
-    control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state):  # fmt: skip
+    control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state
+):
     """Write what is topmost from a to b; or return where that stretch must be split to know, if it may be; else NaN."""
     one = True
     for n in range(1, count):
@@ -253,7 +281,18 @@ def _stretch(  # type: ignore[no-untyped-def]
         if split == split:
             return split
     elif splits:
-        at = _equal(control, pieces, patch, plane, i, j, a, b, heights[0, first] - heights[0, stop], heights[2, first] - heights[2, stop])
+        at = _equal(
+            control,
+            pieces,
+            patch,
+            plane,
+            i,
+            j,
+            a,
+            b,
+            heights[0, first] - heights[0, stop],
+            heights[2, first] - heights[2, stop],
+        )
         met = True
         if at - a > _SHORT and b - at > _SHORT and _covered(control, pieces, patch, plane, chosen, count, i, j, at):
             return at
@@ -272,7 +311,8 @@ def _stretch(  # type: ignore[no-untyped-def]
 
 @kernel(f"UniTuple(int64, 2)({_MANY}, {_INTS}, {_INTS}, {_NETS}, {_R}, {_MANY}, {_MANY})")
 def envelope(pieces, patch, owner, control, plane, spans, marks):  # type: ignore[no-untyped-def]
-    """Set the spans of the topmost along a plane and the marks where surfaces change; return how many of both, -1 for no room.
+    """Set the spans of the topmost along a plane and the marks where surfaces change; return how many of both, -1 for
+    no room.
 
     Args:
         pieces: (m, 9) by where they begin. patch, owner: (m,) of each. plane: (4,) a place and the direction.
@@ -302,7 +342,9 @@ def envelope(pieces, patch, owner, control, plane, spans, marks):  # type: ignor
                 return -1, -1
             b = waiting[depth - 1]
             splits = depth < _DEEP and b - a > _SHORT
-            split = _stretch(control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state)
+            split = _stretch(
+                control, pieces, patch, owner, plane, chosen, count, a, b, splits, heights, spans, marks, state
+            )
             if split == split:
                 waiting[depth] = split
                 depth += 1

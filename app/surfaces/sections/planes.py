@@ -49,8 +49,10 @@ def even_planes(origin: tuple[float, float], angle: float, pitch: float, places:
     _, (low, high) = extent_on(bare, places)
     first, last = math.ceil(low / pitch - _NEAR), math.floor(high / pitch + _NEAR)
     if last - first >= MOST_PLANES:
-        raise ParameterError(f"A pitch of {pitch:g} mm makes {last - first + 1:,} passes, but {MOST_PLANES:,} are the most; "
-                             "use a larger one.")
+        raise ParameterError(
+            f"A pitch of {pitch:g} mm makes {last - first + 1:,} passes, but {MOST_PLANES:,} are the most; "
+            "use a larger one."
+        )
     offsets = [min(max(k * pitch, low), high) for k in range(first, last + 1)]
     return Planes(origin, angle, tuple(offsets) or ((low + high) / 2,))
 
@@ -71,11 +73,17 @@ def stretches(planes: Planes, plane: int, whole: Stretch, area: shapely.Geometry
 
 
 def widened(planes: Planes, places: Floats, far: float, step: float) -> Planes:
-    """Return planes with more of them on both sides, up to so far beyond places (n, 2), mm, one step from one another."""
+    """Return planes with more of them on both sides, up to so far beyond places (n, 2), mm, one step from one
+    another.
+    """
     _, (low, high) = extent_on(planes, places)
     first, last = planes.offsets[0], planes.offsets[-1]
     before, after = (max(0, math.floor((room + far) / step + _NEAR)) for room in (first - low, high - last))
     if before + after >= MOST_PLANES:
         raise ParameterError(f"An overrun of {far:g} mm makes more than {MOST_PLANES:,} passes; use a smaller one.")
-    offsets = (*(first - k * step for k in range(before, 0, -1)), *planes.offsets, *(last + k * step for k in range(1, after + 1)))
+    offsets = (
+        *(first - k * step for k in range(before, 0, -1)),
+        *planes.offsets,
+        *(last + k * step for k in range(1, after + 1)),
+    )
     return replace(planes, offsets=offsets)

@@ -40,12 +40,17 @@ class _Pieces:
     facet: Ints
 
 
-def compound_surface(facets: Facets, planes: Planes, tolerance: float, areas: Mapping[int, shapely.Geometry] | None = None,
-                     progress: Progress = NO_PROGRESS) -> Compound:  # fmt: skip
+def compound_surface(
+    facets: Facets,
+    planes: Planes,
+    tolerance: float,
+    areas: Mapping[int, shapely.Geometry] | None = None,
+    progress: Progress = NO_PROGRESS,
+) -> Compound:
     """Return the compound surface: on every plane the section curve of each surface, and the topmost of them.
 
-    Points lie on their surfaces; between two of them the curve is within the tolerance of the chord. Where the topmost passes
-    from one surface to another, the boundary point is solved for: there both are equally high, within 1e-9 mm.
+    Points lie on their surfaces; between two of them the curve is within the tolerance of the chord. Where the topmost
+    passes from one surface to another, the boundary point is solved for: there both are equally high, within 1e-9 mm.
 
     Args:
         tolerance: mm, > 0.
@@ -82,8 +87,21 @@ def _cut(facets: Facets, planes: Planes, near: float, progress: Progress) -> lis
         room = 8 * (stop - first) + 64
         while True:
             out, source = np.empty((room, kernels.COLUMNS)), np.empty(room, np.int64)
-            count = kernels.pieces(triangles, corners, facets.patch, facets.error, facets.patches.control, facet, places, plane, near,
-                                   first, stop, out, source)  # fmt: skip
+            count = kernels.pieces(
+                triangles,
+                corners,
+                facets.patch,
+                facets.error,
+                facets.patches.control,
+                facet,
+                places,
+                plane,
+                near,
+                first,
+                stop,
+                out,
+                source,
+            )
             if count <= room:
                 return out[:count], source[:count]
             room = count
@@ -124,7 +142,9 @@ def _line(planes: Planes, plane: int) -> Floats:
     return np.array([*planes.place(plane, 0.0), *planes.along])
 
 
-def _within(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, areas: Mapping[int, shapely.Geometry]) -> _Pieces:
+def _within(
+    facets: Facets, planes: Planes, plane: int, pieces: _Pieces, areas: Mapping[int, shapely.Geometry]
+) -> _Pieces:
     """Return what of pieces lies where their surfaces count, cut at the borders."""
     from .envelope_kernels import over
     from .planes import stretches
@@ -154,7 +174,9 @@ def _within(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, areas: 
     return _Pieces(every[order], numbers[order])
 
 
-def _topmost(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolerance: float) -> tuple[list[Run], Boundaries]:
+def _topmost(
+    facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolerance: float
+) -> tuple[list[Run], Boundaries]:
     """Return the runs of the topmost on one plane, and its boundary points."""
     from . import envelope_kernels as kernels
 
@@ -162,7 +184,9 @@ def _topmost(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolera
     room = 4 * len(pieces.rows) + 64
     while True:
         spans, marks = np.empty((room, kernels.SPANS)), np.empty((room, kernels.MARKS))
-        count, marked = kernels.envelope(pieces.rows, patch, owner, facets.patches.control, _line(planes, plane), spans, marks)
+        count, marked = kernels.envelope(
+            pieces.rows, patch, owner, facets.patches.control, _line(planes, plane), spans, marks
+        )
         if count >= 0:
             break
         room *= 4
@@ -171,7 +195,9 @@ def _topmost(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolera
 
 
 def _runs(planes: Planes, plane: int, spans: Floats, owner: Ints, tolerance: float) -> list[Run]:
-    """Return spans without a gap or a jump between them as runs; of points on one surface only those that the tolerance needs."""
+    """Return spans without a gap or a jump between them as runs; of points on one surface only those that the tolerance
+    needs.
+    """
     from .envelope_kernels import FROM, PIECE, TO, Z_FROM, Z_TO
 
     if not len(spans):
@@ -185,7 +211,9 @@ def _runs(planes: Planes, plane: int, spans: Floats, owner: Ints, tolerance: flo
         changes = first + 1 + np.flatnonzero(np.diff(number[first:stop]))
         for a, b in pairwise([first, *changes.tolist(), stop]):
             line = np.concatenate([parts[-1][-1:], spans[a:b, [TO, Z_TO]]])
-            kept = shapely.get_coordinates(shapely.simplify(shapely.LineString(line), tolerance / 2, preserve_topology=False))
+            kept = shapely.get_coordinates(
+                shapely.simplify(shapely.LineString(line), tolerance / 2, preserve_topology=False)
+            )
             parts.append(kept[1:])
             owners.append(np.full(len(kept) - 1, number[a]))
         runs.append(Run(plane, _places(planes, plane, np.concatenate(parts)), np.concatenate(owners)))
@@ -206,10 +234,15 @@ def _boundaries(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, mar
         return Boundaries.none()
     before, after = (pieces.facet[marks[:, column].astype(np.int64)] for column in (k.BEFORE, k.AFTER))
     return Boundaries(
-        np.full(len(marks), plane), facets.owner[before], facets.owner[after],
-        _places(planes, plane, marks[:, [k.AT, k.HERE]]), _places(planes, plane, marks[:, [k.UNTIL, k.THERE]]),
-        surface_parameters(facets, before, marks[:, [k.BU, k.BV]]), surface_parameters(facets, after, marks[:, [k.AU, k.AV]]),
-        marks[:, k.KIND].astype(np.uint8))  # fmt: skip
+        np.full(len(marks), plane),
+        facets.owner[before],
+        facets.owner[after],
+        _places(planes, plane, marks[:, [k.AT, k.HERE]]),
+        _places(planes, plane, marks[:, [k.UNTIL, k.THERE]]),
+        surface_parameters(facets, before, marks[:, [k.BU, k.BV]]),
+        surface_parameters(facets, after, marks[:, [k.AU, k.AV]]),
+        marks[:, k.KIND].astype(np.uint8),
+    )
 
 
 def _joined(parts: Sequence[Boundaries]) -> Boundaries:
@@ -219,7 +252,9 @@ def _joined(parts: Sequence[Boundaries]) -> Boundaries:
 
 
 def _curves(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolerance: float) -> list[Curve]:
-    """Return the section curve of each surface on one plane, in one part or several; points that the tolerance needs."""
+    """Return the section curve of each surface on one plane, in one part or several; points that the tolerance
+    needs.
+    """
     from .section_kernels import S0, S1, U0, V0, V1, Z0, Z1, chains
 
     owner = facets.owner[pieces.facet]
@@ -228,7 +263,9 @@ def _curves(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, toleran
         mine = np.flatnonzero(owner == number)
         rows = pieces.rows[mine]
         ends = np.concatenate([rows[:, [S0, Z0]], rows[:, [S1, Z1]]])
-        at = surface_parameters(facets, np.tile(pieces.facet[mine], 2), np.concatenate([rows[:, U0 : V0 + 1], rows[:, V1 - 1 : V1 + 1]]))
+        at = surface_parameters(
+            facets, np.tile(pieces.facet[mine], 2), np.concatenate([rows[:, U0 : V0 + 1], rows[:, V1 - 1 : V1 + 1]])
+        )
         along, up = np.ascontiguousarray(ends.T)
         out, starts = np.empty(len(ends), np.int64), np.empty(len(rows) + 1, np.int64)
         count = chains(along, up, np.argsort(along, kind="stable"), _GAP, out, starts)
@@ -242,6 +279,8 @@ def _curves(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, toleran
 def _needed(line: Floats, tolerance: float) -> Ints:
     """Return which points (n, 2) of a line keep it within a tolerance."""
     numbered = np.column_stack([line, np.arange(len(line))])
-    kept = shapely.get_coordinates(shapely.simplify(shapely.LineString(numbered), tolerance, preserve_topology=False), include_z=True)
+    kept = shapely.get_coordinates(
+        shapely.simplify(shapely.LineString(numbered), tolerance, preserve_topology=False), include_z=True
+    )
     found: Ints = kept[:, 2].astype(np.int64)
     return found

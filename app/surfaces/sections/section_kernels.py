@@ -9,7 +9,9 @@ from ..patches.patch_kernels import copy_row, place, quarter
 
 _R, _MANY, _NETS, _INTS = "float64[::1]", "float64[:, ::1]", "float64[:, :, :, ::1]", "int64[::1]"
 S0, Z0, U0, V0, S1, Z1, U1, V1, ERROR = range(9)
-"""Columns of pieces: along the plane, height and parameters on the patch of both ends, and how far off the chord the curve is."""
+"""Columns of pieces: along the plane, height and parameters on the patch of both ends, and how far off the chord the
+curve is.
+"""
 COLUMNS = 9
 _ROOM = 96
 _SAME = 1e-12
@@ -81,10 +83,15 @@ def _piece(control, patch, plane, work, row, off, piece):  # type: ignore[no-unt
     return True
 
 
-@kernel(f"int64({_MANY}, {_MANY}, {_INTS}, {_R}, {_NETS}, {_INTS}, {_MANY}, {_INTS}, float64, int64, int64, {_MANY}, {_INTS})")
+@kernel(
+    f"int64({_MANY}, {_MANY}, {_INTS}, {_R}, {_NETS}, {_INTS}, {_MANY}, {_INTS}, float64, int64, int64, {_MANY}, "
+    f"{_INTS})"
+)
 def pieces(  # type: ignore[no-untyped-def]
-    triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source):  # fmt: skip
-    """Cut pairs first to stop - 1 of facets and planes; return how many pieces that makes, more than there is room for if so.
+    triangles, corners, patch, error, control, facet, planes, plane, near, first, stop, out, source
+):
+    """Cut pairs first to stop - 1 of facets and planes; return how many pieces that makes, more than there is room for
+    if so.
 
     Args:
         facet, plane: (k,) numbers of both of each pair. planes: (m, 4) a place and the direction of each.

@@ -43,12 +43,13 @@ class RegionAdvice:
     Attributes:
         number: of the region.
         area_mm2: exact.
-        passage: the narrowest passage: its width, and its middle. A cutter that is wider parts the region, misses a way round an
-            island or does not get into a dead end. Without a narrower place it is the largest disc.
+        passage: the narrowest passage: its width, and its middle. A cutter that is wider parts the region, misses a way
+            round an island or does not get into a dead end. Without a narrower place it is the largest disc.
         disc: diameter and centre of the largest disc; no larger cutter fits anywhere.
-        clearing: diameter of the largest cutter that leaves nothing but sharp inner corners, and where it only just fits.
-        corners: how many sharp inner corners there are, and places where contours touch: every cutter leaves something in them.
-            Bends below 5 degrees are none.
+        clearing: diameter of the largest cutter that leaves nothing but sharp inner corners, and where it only just
+            fits.
+        corners: how many sharp inner corners there are, and places where contours touch: every cutter leaves something
+            in them. Bends below 5 degrees are none.
         corner: the sharpest inner corner; its size is the angle between the walls, radians; None = there is none.
         inner_radius: the smallest radius of an arc that a cutter has to follow from inside; None = there is none.
         reaches: what each tool reaches, in the order of the tools.
@@ -119,7 +120,9 @@ def standard_tools() -> tuple[Tool, ...]:
     return tuple(Tool(number, diameter) for number, diameter in enumerate(SERIES, 1))
 
 
-def advise(regions: Sequence[Region], tools: Sequence[Tool] = (), plan: Plan | None = None, progress: Progress = NO_PROGRESS) -> Advice:
+def advise(
+    regions: Sequence[Region], tools: Sequence[Tool] = (), plan: Plan | None = None, progress: Progress = NO_PROGRESS
+) -> Advice:
     """Return what some regions ask of their tools, and which of the tools to take.
 
     Args:
@@ -142,9 +145,13 @@ def advise(regions: Sequence[Region], tools: Sequence[Tool] = (), plan: Plan | N
     found = widths(walls, progress.part(0.0, 0.3))
     numbers = [region.number for region in regions]
     least = float(found.clearing.min())
-    contour = max((tool for tool in usable if tool.diameter <= least + FITS), key=lambda tool: tool.diameter, default=usable[0])
+    contour = max(
+        (tool for tool in usable if tool.diameter <= least + FITS), key=lambda tool: tool.diameter, default=usable[0]
+    )
     clearing = [tool for tool in usable if tool.diameter >= contour.diameter]
-    wanted = {tool.radius - FITS for tool in usable} | {distance for tool in clearing for distance in distances(tool, contour)}
+    wanted = {tool.radius - FITS for tool in usable} | {
+        distance for tool in clearing for distance in distances(tool, contour)
+    }
     where = centres(pack(regions), sorted(wanted), progress.part(0.3, 0.6))
     shapes = [shapely.union_all(region_shapes([region], _CHORD)) for region in regions]
     bare = [_region(walls, found, k, number) for k, number in enumerate(numbers)]
@@ -158,8 +165,12 @@ def advise(regions: Sequence[Region], tools: Sequence[Tool] = (), plan: Plan | N
     return Advice(advised, choices, pocket, contour, taken[pocket.number], _why((pocket, contour), advised, choices))
 
 
-def _with_reaches(regions: Sequence[RegionAdvice], shapes: Sequence[Shape], tools: tuple[Sequence[Tool], Mapping[float, Centres]],
-                  progress: Progress) -> tuple[RegionAdvice, ...]:
+def _with_reaches(
+    regions: Sequence[RegionAdvice],
+    shapes: Sequence[Shape],
+    tools: tuple[Sequence[Tool], Mapping[float, Centres]],
+    progress: Progress,
+) -> tuple[RegionAdvice, ...]:
     """Return the regions with what each tool reaches of them; where its centre can be comes with the tools."""
     found: list[list[Reach]] = [[] for _ in regions]
     for done, tool in enumerate(tools[0]):
@@ -169,7 +180,9 @@ def _with_reaches(regions: Sequence[RegionAdvice], shapes: Sequence[Shape], tool
             if region.number in at.shapes:
                 found[k].append(reach(shape, tool.diameter, at.shapes[region.number]))
             else:
-                found[k].append(Reach(tool.diameter, 0.0, 0, region.area_mm2, region.disc.size, region.disc.x, region.disc.y))
+                found[k].append(
+                    Reach(tool.diameter, 0.0, 0, region.area_mm2, region.disc.size, region.disc.x, region.disc.y)
+                )
     return tuple(replace(region, reaches=tuple(row)) for region, row in zip(regions, found, strict=True))
 
 
@@ -186,7 +199,9 @@ def _region(walls: Walls, found: Widths, k: int, number: int) -> RegionAdvice:
         radius = _spot(points_at(tightest[None], np.array([0.5]))[0], tightest[R])
     passage, disc = _spot(found.passage_at[k], found.passage[k]), _spot(found.disc_at[k], found.disc[k])
     clearing = _spot(found.clearing_at[k], found.clearing[k])
-    return RegionAdvice(number, signed_area(walls.rows[rows]), passage, disc, clearing, int(walls.sharp[rows].sum()), corner, radius, ())
+    return RegionAdvice(
+        number, signed_area(walls.rows[rows]), passage, disc, clearing, int(walls.sharp[rows].sum()), corner, radius, ()
+    )
 
 
 def _spot(place: Floats, size: float) -> Spot:
@@ -197,8 +212,14 @@ def _choice(tool: Tool, k: int, regions: Sequence[RegionAdvice], taken: Mapping[
     """Return what the k-th tool does in all regions."""
     reaches = [region.reaches[k] for region in regions]
     area, left = sum(region.area_mm2 for region in regions), sum(each.left_mm2 for each in reaches)
-    return Choice(tool, 1 - left / area if area > 0 else 1.0, sum(each.parts for each in reaches), left,
-                  max(each.left_disc for each in reaches), taken.get(tool.number))
+    return Choice(
+        tool,
+        1 - left / area if area > 0 else 1.0,
+        sum(each.parts for each in reaches),
+        left,
+        max(each.left_disc for each in reaches),
+        taken.get(tool.number),
+    )
 
 
 def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Sequence[Choice]) -> str:
@@ -209,10 +230,15 @@ def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Seq
         widest = max((region.disc for region in regions), key=lambda disc: disc.size)
         return f"No tool fits: {_named(contour.tool)} is the smallest, and the largest disc is {_measured(widest)}."
     if pocket is contour:
-        return (f"{_bounds(contour, regions)} It takes about {_clock(pocket.times.total)} min by itself; "
-                "a larger one before it saves no time.")
-    return (f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the job takes about "
-            f"{_clock(pocket.times.total)} min, with {_named(contour.tool)} alone {_clock(contour.times.total)} min.")
+        return (
+            f"{_bounds(contour, regions)} It takes about {_clock(pocket.times.total)} min by itself; "
+            "a larger one before it saves no time."
+        )
+    return (
+        f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the "
+        "job takes about "
+        f"{_clock(pocket.times.total)} min, with {_named(contour.tool)} alone {_clock(contour.times.total)} min."
+    )
 
 
 def _bounds(contour: Choice, regions: Sequence[RegionAdvice]) -> str:

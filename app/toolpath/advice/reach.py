@@ -1,7 +1,7 @@
 """What a cutter of some diameter reaches of each region: the opening by its disc, and what that leaves.
 
-Where the cutter's centre can be is an exact level of the drawing; what it covers from there and what is left are polygons whose chords
-stay within 1 um of the arcs.
+Where the cutter's centre can be is an exact level of the drawing; what it covers from there and what is left are
+polygons whose chords stay within 1 um of the arcs.
 """
 
 from __future__ import annotations
@@ -76,7 +76,9 @@ class Centres:
     rings: int
 
 
-def centres(primitives: Primitives, distances: Sequence[float], progress: Progress = NO_PROGRESS) -> dict[float, Centres]:
+def centres(
+    primitives: Primitives, distances: Sequence[float], progress: Progress = NO_PROGRESS
+) -> dict[float, Centres]:
     """Return where centres can be that keep some distances, mm, > 0, from the walls.
 
     Raises:
@@ -92,7 +94,9 @@ def _centres(level: Level) -> Centres:
     for ring in level.rings:
         rings.setdefault(ring.region, []).append(ring)
     shapes = {region: _shape(own) for region, own in rings.items()}
-    return Centres(level.distance, shapes, sum(r.area for r in level.rings), sum(r.length for r in level.rings), len(level.rings))
+    return Centres(
+        level.distance, shapes, sum(r.area for r in level.rings), sum(r.length for r in level.rings), len(level.rings)
+    )
 
 
 def _shape(rings: Sequence[Ring]) -> Shape:
@@ -107,7 +111,9 @@ def _shape(rings: Sequence[Ring]) -> Shape:
         found = shapely.STRtree(polygons).query(shapely.points([points[0] for points in holes]), predicate="within")
         for hole, polygon in found.T:
             inner[polygon].append(holes[hole])
-    return shapely.make_valid(shapely.MultiPolygon([shapely.Polygon(points, own) for points, own in zip(outer, inner, strict=True)]))
+    return shapely.make_valid(
+        shapely.MultiPolygon([shapely.Polygon(points, own) for points, own in zip(outer, inner, strict=True)])
+    )
 
 
 def covered(centres: Shape, radius: float) -> Shape:
@@ -123,8 +129,14 @@ def reach(region: Shape, diameter: float, centres: Shape) -> Reach:
         diameter: of the cutter, mm.
         centres: where its centre can be: polygons, one at least.
     """
-    area, cleared, parts = float(region.area), covered(centres, diameter / 2 - FITS), int(shapely.get_num_geometries(centres))
-    beyond = grown(centres, diameter / 2 - FITS + _BESIDE, _CHORD)  # walls that nearly coincide take the library very long
+    area, cleared, parts = (
+        float(region.area),
+        covered(centres, diameter / 2 - FITS),
+        int(shapely.get_num_geometries(centres)),
+    )
+    beyond = grown(
+        centres, diameter / 2 - FITS + _BESIDE, _CHORD
+    )  # walls that nearly coincide take the library very long
     x, y, disc = largest_left(shapely.difference(region, beyond))
     if disc < _DISC:
         return Reach(diameter, 1.0, parts, 0.0, 0.0, math.nan, math.nan)

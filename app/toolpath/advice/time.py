@@ -1,8 +1,8 @@
 """How long a pocket tool and a contour tool need for a drawing, from areas and lengths alone, before there is any path.
 
-Rings a stepover s apart in an area A whose outermost one is L long are A / s + L / 2 long in all (what one ring more or less makes is
-evened out), and L at least. What the pocket tool cannot reach and the contour tool's pass along the walls does not take with it is
-cleared by the contour tool, at its own stepover. Feeds are taken to be reached at once.
+Rings a stepover s apart in an area A whose outermost one is L long are A / s + L / 2 long in all (what one ring more or
+less makes is evened out), and L at least. What the pocket tool cannot reach and the contour tool's pass along the walls
+does not take with it is cleared by the contour tool, at its own stepover. Feeds are taken to be reached at once.
 """
 
 from __future__ import annotations
@@ -44,8 +44,11 @@ class Plan:
 
     def __post_init__(self) -> None:
         if not (self.depth > 0 and self.stepdown > 0 and 0 < self.stepover <= 1 and self.rapid > 0):
-            raise ParameterError(f"Depth {self.depth:g} mm, stepdown {self.stepdown:g} mm, stepover {self.stepover:g} of the diameter and "
-                                 f"rapids {self.rapid:g} mm/min must be greater than 0, and the stepover 1 at most.")
+            raise ParameterError(
+                f"Depth {self.depth:g} mm, stepdown {self.stepdown:g} mm, stepover {self.stepover:g} of the diameter "
+                "and "
+                f"rapids {self.rapid:g} mm/min must be greater than 0, and the stepover 1 at most."
+            )
 
     @property
     def passes(self) -> int:
@@ -78,7 +81,8 @@ class Times:
 def distances(pocket: Tool, contour: Tool) -> tuple[float, float, float]:
     """Return the distances from the walls, mm, that `times` asks of two tools.
 
-    They are those of the contour tool's centre, of the pocket tool's outermost frame, and of the far side of the contour pass.
+    They are those of the contour tool's centre, of the pocket tool's outermost frame, and of the far side of the
+    contour pass.
     """
     return contour.radius - FITS, contour.radius + pocket.radius - FITS, contour.diameter - FITS
 
@@ -110,7 +114,9 @@ def _areas(centres: Centres) -> int:
 
 
 def _rest(beyond: Centres, cleared: Mapping[int, Shape], contour: Tool) -> tuple[float, int, float]:
-    """Return (area, mm2, pieces, share of those that lie by themselves) of what neither the pocket tool nor the contour pass takes."""
+    """Return (area, mm2, pieces, share of those that lie by themselves) of what neither the pocket tool nor the contour
+    pass takes.
+    """
     area, pieces, alone = 0.0, 0, 0
     for region, shape in beyond.shapes.items():
         left = shapely.get_parts(shapely.difference(shape, cleared[region]) if region in cleared else shape)
@@ -129,7 +135,9 @@ def _cutting(tool: Tool, length: float, strokes: tuple[int, float], plan: Plan) 
         return 0.0
     count, metal = strokes
     step = plan.depth / plan.passes
-    above = plan.retract_z + plan.depth * (plan.passes - 1) / (2 * plan.passes)  # down to the metal of a pass, in the mean
+    above = plan.retract_z + plan.depth * (plan.passes - 1) / (
+        2 * plan.passes
+    )  # down to the metal of a pass, in the mean
     fast = 2 * plan.safe_z - plan.retract_z + step + above
     down = above / tool.plunge_rate + metal * _entry(tool, step, plan.entry) + (1 - metal) * step / tool.feed_rate
     return plan.passes * 60 * (length / tool.feed_rate + count * (down + fast / plan.rapid))

@@ -1,12 +1,13 @@
 """The walls of a drawing as a cutter meets them, and the largest discs that touch them.
 
-A wall is a run of lines and arcs that meet without a corner. At any of its points the largest disc in the free area that touches it
-there is the largest cutter that can stand there; its centre lies on the medial axis. It is found by letting a disc shrink
-until no wall reaches into it, each wall measured exactly, so that nothing depends on how finely the drawing is sampled: samples only
-tell where to look. What is found is then made precise along the wall.
+A wall is a run of lines and arcs that meet without a corner. At any of its points the largest disc in the free area
+that touches it there is the largest cutter that can stand there; its centre lies on the medial axis. It is found by
+letting a disc shrink until no wall reaches into it, each wall measured exactly, so that nothing depends on how finely
+the drawing is sampled: samples only tell where to look. What is found is then made precise along the wall.
 
 References:
-    Ma, Bae, Choi, 3D medial axis point approximation using nearest neighbors and the normal field (2012): the shrinking disc.
+    Ma, Bae, Choi, 3D medial axis point approximation using nearest neighbors and the normal field (2012): the shrinking
+    disc.
 """
 
 from __future__ import annotations
@@ -49,7 +50,8 @@ _ROUNDS = 60
 class Walls:
     """Lines and arcs in runs without corners; the free area is on their left.
 
-    Discs touch walls along tracks: the k walls come first, then the tips, corners that stand out, which a disc rolls round.
+    Discs touch walls along tracks: the k walls come first, then the tips, corners that stand out, which a disc rolls
+    round.
 
     Attributes:
         rows, region: as of `Primitives`.
@@ -101,8 +103,22 @@ class Walls:
         corners[:, 0] = sharp[begin]
         corners[wall[before[begin]], 1] = sharp[begin]
         kinked = np.bincount(wall, ~corner & (np.abs(turn) > 1e-4)) > 0
-        return Walls(rows, primitives.region, DistanceField.of(rows), before, turn, sharp, wall, along, start, size,
-                     np.flatnonzero(turn < -KINK), corners, kinked, _limits(primitives))
+        return Walls(
+            rows,
+            primitives.region,
+            DistanceField.of(rows),
+            before,
+            turn,
+            sharp,
+            wall,
+            along,
+            start,
+            size,
+            np.flatnonzero(turn < -KINK),
+            corners,
+            kinked,
+            _limits(primitives),
+        )
 
     @property
     def spans(self) -> Floats:
@@ -110,11 +126,15 @@ class Walls:
         return np.concatenate([self.size, np.ones(len(self.tips))])
 
     def normals(self, row: Indices, part: Floats) -> Floats:
-        """Return unit vectors (m, 2) into the free area at fractions of rows (m,); over small bends they turn evenly."""
+        """Return unit vectors (m, 2) into the free area at fractions of rows (m,); over small bends they turn
+        evenly.
+        """
         rows = self.rows[row]
         along = rows[:, 2:4] - rows[:, :2]
         left = np.column_stack([-along[:, 1], along[:, 0]])
-        normal = np.where((rows[:, TURN] == 0)[:, None], left, (rows[:, [CX, CY]] - points_at(rows, part)) * rows[:, [TURN]])
+        normal = np.where(
+            (rows[:, TURN] == 0)[:, None], left, (rows[:, [CX, CY]] - points_at(rows, part)) * rows[:, [TURN]]
+        )
         bend = np.where(np.abs(self.turn) > KINK, 0.0, self.turn / 2)
         at_end = np.empty(len(bend))
         at_end[self.before] = bend
@@ -191,8 +211,12 @@ def discs_at(walls: Walls, track: Indices, place: Floats, progress: Progress = N
     return Discs(row, track, place, point, radius, point + radius[:, None] * normal, other, far)
 
 
-def _shrunk(walls: Walls, row: Indices, touch: tuple[Floats, Floats], progress: Progress) -> tuple[Floats, Indices, Floats]:
-    """Return (radius (m,), other row (m,) or -1, where (m, 2)) of discs that touch rows at points (m, 2), centres in directions (m, 2)."""
+def _shrunk(
+    walls: Walls, row: Indices, touch: tuple[Floats, Floats], progress: Progress
+) -> tuple[Floats, Indices, Floats]:
+    """Return (radius (m,), other row (m,) or -1, where (m, 2)) of discs that touch rows at points (m, 2), centres in
+    directions (m, 2).
+    """
     point, normal = touch
     radius, other, far = walls.limit[row].copy(), np.full(len(row), -1), point.copy()
     active = np.arange(len(row))
@@ -205,7 +229,11 @@ def _shrunk(walls: Walls, row: Indices, touch: tuple[Floats, Floats], progress: 
         feet = feet_on(walls.rows[nearest], centre)
         way = feet - point[active]
         gap, depth = (way**2).sum(axis=1), (way * normal[active]).sum(axis=1)
-        mine = (walls.wall[nearest] == walls.wall[row[active]]) & walls.kinked[walls.wall[nearest]] & (gap < (radius[active] / 2) ** 2)
+        mine = (
+            (walls.wall[nearest] == walls.wall[row[active]])
+            & walls.kinked[walls.wall[nearest]]
+            & (gap < (radius[active] / 2) ** 2)
+        )
         room = np.maximum(np.where(mine, _KINK_DEPTH * radius[active], 0.0), 1e-9)
         with np.errstate(divide="ignore", invalid="ignore"):
             smaller = gap / (2 * depth)
@@ -222,7 +250,9 @@ def feet_on(rows: Rows, points: Floats) -> Floats:
     on_line = rows[:, :2] + share[:, None] * along
     arm, turn = points - rows[:, [CX, CY]], rows[:, TURN]
     a, b = rows[:, [X0, Y0]] - rows[:, [CX, CY]], rows[:, [X1, Y1]] - rows[:, [CX, CY]]
-    within = (turn * (a[:, 0] * arm[:, 1] - a[:, 1] * arm[:, 0]) >= 0) & (turn * (arm[:, 0] * b[:, 1] - arm[:, 1] * b[:, 0]) >= 0)
+    within = (turn * (a[:, 0] * arm[:, 1] - a[:, 1] * arm[:, 0]) >= 0) & (
+        turn * (arm[:, 0] * b[:, 1] - arm[:, 1] * b[:, 0]) >= 0
+    )
     size = np.hypot(*arm.T)
     on_arc = rows[:, [CX, CY]] + arm * (rows[:, R] / np.maximum(size, 1e-300))[:, None]
     nearer_a = ((points - rows[:, :2]) ** 2).sum(axis=1) <= ((points - rows[:, 2:4]) ** 2).sum(axis=1)
@@ -233,9 +263,11 @@ def feet_on(rows: Rows, points: Floats) -> Floats:
 
 def _headings(rows: Rows, at: int) -> Floats:
     """Return the direction (n,) in which each row leaves its begin (at = 0) or comes to its end (at = 2), radians."""
-    arm, turn = rows[:, at:at + 2] - rows[:, [CX, CY]], rows[:, TURN]
+    arm, turn = rows[:, at : at + 2] - rows[:, [CX, CY]], rows[:, TURN]
     along = rows[:, 2:4] - rows[:, :2]
-    angle: Floats = np.arctan2(np.where(turn == 0, along[:, 1], turn * arm[:, 0]), np.where(turn == 0, along[:, 0], -turn * arm[:, 1]))
+    angle: Floats = np.arctan2(
+        np.where(turn == 0, along[:, 1], turn * arm[:, 0]), np.where(turn == 0, along[:, 0], -turn * arm[:, 1])
+    )
     return angle
 
 
@@ -253,7 +285,9 @@ def _touched(rows: Rows) -> NDArray[np.bool_]:
 
 
 def _in_walls(before: Indices, corner: NDArray[np.bool_]) -> tuple[Indices, NDArray[np.bool_]]:
-    """Return rows (n,) in the order of walls, each contour from a corner on if it has one; and which of them (n,) begin a wall."""
+    """Return rows (n,) in the order of walls, each contour from a corner on if it has one; and which of them (n,) begin
+    a wall.
+    """
     count = len(before)
     contours = np.split(np.arange(count), np.flatnonzero(before != np.arange(count) - 1)[1:])
     turned = [np.roll(rows, -int(np.argmax(corner[rows]))) for rows in contours]

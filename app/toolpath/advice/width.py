@@ -1,9 +1,10 @@
-"""How wide a region is: its narrowest passage, its largest disc, and the largest cutter that leaves nothing but sharp corners.
+"""How wide a region is: its narrowest passage, its largest disc, and the largest cutter that leaves nothing but sharp
+corners.
 
-All from discs that touch the walls (`advise_walls`). A passage is a pair of points of two walls between which the disc over their
-distance is free; its ends are found in closed form. A cutter leaves nothing but sharp corners if it can touch all of every wall but
-what lies near inner corners: there the disc that touches the wall shrinks to nothing towards the corner, and what counts is how large
-it grows away from it.
+All from discs that touch the walls (`advise_walls`). A passage is a pair of points of two walls between which the disc
+over their distance is free; its ends are found in closed form. A cutter leaves nothing but sharp corners if it can
+touch all of every wall but what lies near inner corners: there the disc that touches the wall shrinks to nothing
+towards the corner, and what counts is how large it grows away from it.
 """
 
 from __future__ import annotations
@@ -52,7 +53,8 @@ class Widths:
     Attributes:
         passage, passage_at: diameter of the largest disc that passes everywhere, and the middle of the narrowest place.
         disc, disc_at: diameter and centre of the largest disc.
-        clearing, clearing_at: diameter of the largest cutter that leaves nothing but sharp corners, and where its centre would be
+        clearing, clearing_at: diameter of the largest cutter that leaves nothing but sharp corners, and where its
+        centre would be
             in the place that keeps it from being larger.
     """
 
@@ -95,7 +97,9 @@ def _largest(walls: Walls, discs: Discs, region: Indices, count: int) -> tuple[F
 
 
 def _first_of_each(region: Indices, track: Indices) -> Indices:
-    """Return indices of the first place on each track, for the first few tracks of each region; places come region by region."""
+    """Return indices of the first place on each track, for the first few tracks of each region; places come region by
+    region.
+    """
     _, first = np.unique(track, return_index=True)
     first = np.sort(first)
     begin = np.searchsorted(region[first], region[first], side="left")
@@ -113,7 +117,9 @@ def _best(size: Floats, at: Floats, region: Indices, count: int, largest: bool) 
 
 
 def _sharpened(walls: Walls, discs: Discs, places: Indices, largest: np.ndarray) -> Discs:
-    """Return the largest discs near some places (m,) along their tracks, or the least ones where `largest` (m,) is False."""
+    """Return the largest discs near some places (m,) along their tracks, or the least ones where `largest` (m,) is
+    False.
+    """
     track = discs.track[places]
     size = walls.spans[track]
     at = discs.place[places]
@@ -138,11 +144,13 @@ def _spacing(walls: Walls, discs: Discs) -> Floats:
 
 
 def _least_touch(walls: Walls, discs: Discs, region: Indices, count: int) -> tuple[Floats, Floats]:
-    """Return (diameter, centre) of the least disc that must fit so that every wall is touched but for its inner corners."""
+    """Return (diameter, centre) of the least disc that must fit so that every wall is touched but for its inner
+    corners.
+    """
     begin = np.searchsorted(discs.track, np.arange(len(walls.size) + 1))
     telling, peaks = np.full(len(walls.size), -1), np.zeros(len(walls.size), np.bool_)
     for k in np.flatnonzero(walls.size >= SHORTEST):
-        own = discs.radius[begin[k]:begin[k + 1]]
+        own = discs.radius[begin[k] : begin[k + 1]]
         at, peaks[k] = _telling(own, walls.corners[k], _FALL_KINKED if walls.kinked[k] else _FALL)
         telling[k] = begin[k] + at
     telling = telling[telling >= 0]
@@ -166,19 +174,21 @@ def _telling(radius: Floats, corners: np.ndarray, fall: float) -> tuple[int, boo
         last -= _rise(radius[::-1], fall)
     if first >= last:
         return int(np.argmax(radius)), True
-    least = first + int(np.argmin(radius[first:last + 1]))
+    least = first + int(np.argmin(radius[first : last + 1]))
     return least, (least == first and bool(corners[0])) or (least == last and bool(corners[1]))
 
 
 def _rise(radius: Floats, fall: float) -> int:
     """Return the index of the top that the discs grow to from the first one on."""
     falling = np.flatnonzero(radius[1:] < np.maximum.accumulate(radius)[:-1] * (1 - fall))
-    risen = radius[:falling[0] + 1] if len(falling) else radius
+    risen = radius[: falling[0] + 1] if len(falling) else radius
     return int(np.argmax(risen))
 
 
 def _narrowest(walls: Walls, discs: Discs, region: Indices, below: Floats, progress: Progress) -> tuple[Floats, Floats]:
-    """Return (width, middle) of the narrowest passage of each region that is narrower than `below`, mm; width inf where there is none."""
+    """Return (width, middle) of the narrowest passage of each region that is narrower than `below`, mm; width inf where
+    there is none.
+    """
     a, b = _pairs(walls, discs)
     ways = _across(walls.rows[a], walls.rows[b])
     p, q = (np.concatenate([way[end] for way in ways]) for end in (0, 1))
@@ -188,7 +198,7 @@ def _narrowest(walls: Walls, discs: Discs, region: Indices, below: Floats, progr
     found, at = np.full(len(below), np.inf), np.full((len(below), 2), np.nan)
     for first in range(0, len(order), _PORTION):  # the narrowest ones first
         progress.step(first / len(order), "Passages")
-        tried = order[first:first + _PORTION]
+        tried = order[first : first + _PORTION]
         tried = tried[np.isinf(found[owner[tried]])]
         middle = (p[tried] + q[tried]) / 2
         free = np.abs(walls.field.nearest(middle)[0] - width[tried] / 2) <= _PROVEN + 1e-9 * width[tried]
@@ -205,8 +215,13 @@ def _pairs(walls: Walls, discs: Discs) -> tuple[Indices, Indices]:
     here, there = (discs.point - discs.centre)[touching], (discs.far - discs.centre)[touching]
     opposite = touching[(here * there).sum(axis=1) < _OPPOSITE * discs.radius[touching] ** 2]
     pairs = np.sort(np.column_stack([discs.row[opposite], discs.other[opposite]]), axis=1)
-    beside = np.concatenate([pairs, np.column_stack([walls.before[pairs[:, 0]], pairs[:, 1]]),
-                             np.column_stack([pairs[:, 0], walls.before[pairs[:, 1]]])])
+    beside = np.concatenate(
+        [
+            pairs,
+            np.column_stack([walls.before[pairs[:, 0]], pairs[:, 1]]),
+            np.column_stack([pairs[:, 0], walls.before[pairs[:, 1]]]),
+        ]
+    )
     unique = np.unique(np.sort(beside, axis=1), axis=0)
     return np.ascontiguousarray(unique[:, 0]), np.ascontiguousarray(unique[:, 1])
 
@@ -214,9 +229,12 @@ def _pairs(walls: Walls, discs: Discs) -> tuple[Indices, Indices]:
 def _across(a: Rows, b: Rows) -> list[tuple[Floats, Floats]]:
     """Return all ways (p (m, 2), q (m, 2)) between rows a (m, 8) and b that can be shortest round about.
 
-    Where a passage is narrowest one of its walls at least ends, is straight or bends away from it, and the way goes through its centre.
+    Where a passage is narrowest one of its walls at least ends, is straight or bends away from it, and the way goes
+    through its centre.
     """
-    ways = [(a[:, k:k + 2], feet_on(b, a[:, k:k + 2])) for k in (0, 2)] + [(feet_on(a, b[:, k:k + 2]), b[:, k:k + 2]) for k in (0, 2)]
+    ways = [(a[:, k : k + 2], feet_on(b, a[:, k : k + 2])) for k in (0, 2)] + [
+        (feet_on(a, b[:, k : k + 2]), b[:, k : k + 2]) for k in (0, 2)
+    ]
     for one, two, turned in ((a, b, False), (b, a, True)):
         there = feet_on(two, one[:, CX:R])
         here = feet_on(one, there)

@@ -1,7 +1,8 @@
-"""Areas of many parts put together, cut and taken from one another: only parts whose boxes meet are brought to the library.
+"""Areas of many parts put together, cut and taken from one another: only parts whose boxes meet are brought to the
+library.
 
-An overlay takes what n log n takes for all edges of both its operands, though most parts of a drawing have nothing to do with most others.
-Parts of one area have no inside in common; they may touch.
+An overlay takes what n log n takes for all edges of both its operands, though most parts of a drawing have nothing to
+do with most others. Parts of one area have no inside in common; they may touch.
 """
 
 from __future__ import annotations
@@ -58,7 +59,9 @@ def _parts(shapes: Iterable[Shape] | Shapes | Shape) -> Shapes:
 def _polygons(shapes: Shapes) -> Shapes:
     """Return the polygons among shapes and their parts."""
     parts = shapely.get_parts(shapely.get_parts(shapes))
-    return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
+    return np.asarray(
+        parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object
+    )
 
 
 def _together(parts: Shapes) -> Shape:

@@ -1,11 +1,11 @@
 """What is left on the floor: measured from the moves themselves, not from what made them.
 
 Three areas are told apart on every floor: cleared; left although a tool of the job could cut it
-(must be 0); out of reach of every tool of the job (`wanted.py`). Of paths made from pixels, the skin that they leave along the walls
-so as to be nowhere too near is a fourth: what no tool reaches that keeps their allowance from the walls, next to floor
-that is cleared; a passage with no path in it is no skin. The swept area is the union of all cutting
-moves at full depth, each as wide as its tool. Method: polygons (shapely), arcs as chords within CHORD, wherever exact
-distances do not prove the floor cleared; strips thinner than STRIP are numeric and not counted.
+(must be 0); out of reach of every tool of the job (`wanted.py`). Of paths made from pixels, the skin that they leave
+along the walls so as to be nowhere too near is a fourth: what no tool reaches that keeps their allowance from the
+walls, next to floor that is cleared; a passage with no path in it is no skin. The swept area is the union of all
+cutting moves at full depth, each as wide as its tool. Method: polygons (shapely), arcs as chords within CHORD, wherever
+exact distances do not prove the floor cleared; strips thinner than STRIP are numeric and not counted.
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ class Coverage:
         area_mm2: all floors.
         floor_mm: depth of the deepest floor, mm.
         wanted: what was to be cleared, floor by floor.
-        given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not among the places.
+        given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not
+            among the places.
         given_up_mm: how thick it may be, mm; 0 for exact paths.
         on_pixels: the paths were made from pixels.
     """
@@ -120,8 +121,11 @@ class Coverage:
         return sum(place.area_mm2 for place in self.given_up)
 
 
-def measure_beside_clear(program: Program, job: Job, clear: NDArray[np.bool_], progress: Progress = NO_PROGRESS) -> Coverage:
-    """Measure what the moves of a program leave on the floor, without polygons for regions that clear moves cover all over.
+def measure_beside_clear(
+    program: Program, job: Job, clear: NDArray[np.bool_], progress: Progress = NO_PROGRESS
+) -> Coverage:
+    """Measure what the moves of a program leave on the floor, without polygons for regions that clear moves cover all
+    over.
 
     Args:
         program, job, progress: as of `measure`.
@@ -137,15 +141,21 @@ def measure_beside_clear(program: Program, job: Job, clear: NDArray[np.bool_], p
     return replace(rest, area_mm2=float(known.all.floor.area), floor_mm=known.all.depth, wanted=(known.all,))
 
 
-def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: float = _DEPTH,
-            found: tuple[Wanted, ...] | None = None) -> Coverage:  # fmt: skip
+def measure(
+    program: Program,
+    job: Job,
+    progress: Progress = NO_PROGRESS,
+    miss: float = _DEPTH,
+    found: tuple[Wanted, ...] | None = None,
+) -> Coverage:
     """Measure what the moves of a program leave on the floor.
 
     Args:
         program: moves and the regions they machine.
         job: tools and operations that the moves belong to.
         progress: looked at before every few boxes and every piece.
-        miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were read back.
+        miss: by which a move may miss the floor and still counts as on it, mm; more than nothing for moves that were
+            read back.
         found: what is to be cleared, where the caller knows it.
 
     Raises:
@@ -179,8 +189,11 @@ def measure(program: Program, job: Job, progress: Progress = NO_PROGRESS, miss: 
         places=(*left, *corners),
         area_mm2=sum(float(each.floor.area) for each in found),
         floor_mm=max((each.depth for each in found), default=0.0),
-        given_up=tuple(skins), given_up_mm=program.allowance_mm, wanted=found, on_pixels=program.given_up_mm is not None,
-    )  # fmt: skip
+        given_up=tuple(skins),
+        given_up_mm=program.allowance_mm,
+        wanted=found,
+        on_pixels=program.given_up_mm is not None,
+    )
 
 
 def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
@@ -196,7 +209,9 @@ def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
 
 
 def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, progress: Progress) -> Floor | None:
-    """Return the floor of a job that has but one, with the regions told apart that moves which keep off the walls clear all over."""
+    """Return the floor of a job that has but one, with the regions told apart that moves which keep off the walls clear
+    all over.
+    """
     area = one_floor(program, job)
     if area is None or len(area.regions) < _MANY:
         return None
@@ -211,7 +226,9 @@ def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = 
     drills = [tool.number for tool in job.tools if tool.kind is ToolKind.DRILL]  # their tips leave a cone
     chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills) & (True if of is None else of)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
-    return [_Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers]
+    return [
+        _Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers
+    ]
 
 
 def _left(wanted: Shape, paths: list[_Path], progress: Progress) -> Shape:
@@ -268,7 +285,8 @@ class _Path:
 class _Doubt:
     """Boxes of a wanted area that may not be cut all over.
 
-    It is decided in parts of a few boxes, with what is near them: the library takes more than twice the time for twice as much.
+    It is decided in parts of a few boxes, with what is near them: the library takes more than twice the time for twice
+    as much.
 
     Attributes:
         wanted: what of the area is near the boxes.
@@ -289,10 +307,12 @@ class _Doubt:
         wide = self.boxes[:, 2:].max(axis=0) - self.boxes[:, :2].min(axis=0)
         axis = int(wide[1] > wide[0])
         order = np.argsort(self.boxes[:, axis] + self.boxes[:, axis + 2], kind="stable")
-        for half in (order[:len(order) // 2], order[len(order) // 2:]):
+        for half in (order[: len(order) // 2], order[len(order) // 2 :]):
             box = np.concatenate([self.boxes[half, :2].min(axis=0), self.boxes[half, 2:].max(axis=0)])
             wanted = common(self.wanted, shapely.box(*box))
-            yield from _Doubt(wanted, self.tiles[half], self.boxes[half], [path.near(box) for path in self.paths]).parts()
+            yield from _Doubt(
+                wanted, self.tiles[half], self.boxes[half], [path.near(box) for path in self.paths]
+            ).parts()
 
     def left(self) -> Shape:
         """Return what of the wanted area no move has cut in the boxes."""
@@ -304,7 +324,9 @@ class _Doubt:
 
 
 def _between_reversals(points: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Return the parts of a path between places where it goes back the way it came: there the library rounds off no end."""
+    """Return the parts of a path between places where it goes back the way it came: there the library rounds off no
+    end.
+    """
     moved = np.any(np.diff(points, axis=0) != 0, axis=1)
     if not moved.any():
         return [points]
@@ -313,7 +335,7 @@ def _between_reversals(points: NDArray[np.float64]) -> list[NDArray[np.float64]]
     size = np.hypot(way[:, 0], way[:, 1])
     back = np.einsum("ij,ij->i", way[1:], way[:-1]) < _BACK * size[1:] * size[:-1]
     cuts = [0, *(np.flatnonzero(back) + 1).tolist(), len(points) - 1]
-    return [points[a:b + 1] for a, b in pairwise(cuts)]
+    return [points[a : b + 1] for a, b in pairwise(cuts)]
 
 
 def _widened(points: NDArray[np.float64], radius: float) -> list[Shape]:
@@ -327,7 +349,7 @@ def _widened(points: NDArray[np.float64], radius: float) -> list[Shape]:
     if shape.area <= (2 * radius * length + np.pi * radius**2) * (1 + 1e-9) or len(points) < 3:
         return [shape]
     middle = len(points) // 2
-    return _widened(points[:middle + 1], radius) + _widened(points[middle:], radius)
+    return _widened(points[: middle + 1], radius) + _widened(points[middle:], radius)
 
 
 def _runs(rows: Rows, chosen: NDArray[np.int64]) -> list[NDArray[np.float64]]:
@@ -385,12 +407,20 @@ def coverage_findings(coverage: Coverage) -> tuple[Finding, ...]:
         spots = "1 place" if count == 1 else f"{count} places"
         if reachable:
             pixels = coverage.on_pixels or coverage.given_up_mm
-            remedy = "use a smaller pocket tool or a larger bitmap" if pixels else "add rest machining, or use a smaller tool"
-            text = (f"{area:.3f} mm2 of material within reach is left in {spots}, the worst {worst.disc_mm:.3f} mm wide "
-                    f"at ({worst.x:.3f}, {worst.y:.3f}); {remedy}.")
+            remedy = (
+                "use a smaller pocket tool or a larger bitmap"
+                if pixels
+                else "add rest machining, or use a smaller tool"
+            )
+            text = (
+                f"{area:.3f} mm2 of material within reach is left in {spots}, the worst {worst.disc_mm:.3f} mm wide "
+                f"at ({worst.x:.3f}, {worst.y:.3f}); {remedy}."
+            )
         else:
-            text = (f"{area:.3f} mm2 in {spots} is out of reach of every tool; a disc of {worst.disc_mm:.3f} mm "
-                    f"would fit at ({worst.x:.3f}, {worst.y:.3f}); a smaller contour tool reaches farther.")
+            text = (
+                f"{area:.3f} mm2 in {spots} is out of reach of every tool; a disc of {worst.disc_mm:.3f} mm "
+                f"would fit at ({worst.x:.3f}, {worst.y:.3f}); a smaller contour tool reaches farther."
+            )
         kind = FindingKind.LEFT_REACHABLE if reachable else FindingKind.LEFT_UNREACHABLE
         findings.append(Finding(kind, text, worst.x, worst.y, counts=reachable, amount=area))
     return (*findings, *skin_findings(coverage))
@@ -401,7 +431,10 @@ def skin_findings(coverage: Coverage) -> tuple[Finding, ...]:
     if not coverage.given_up:
         return ()
     worst, area = coverage.given_up[0], coverage.given_up_mm2
-    text = (f"{area:.3f} mm2 of material is left along the walls, a skin up to about {coverage.given_up_mm:.3f} mm "
-            f"thick that paths made from pixels leave so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would fit at "
-            f"({worst.x:.3f}, {worst.y:.3f}); a larger bitmap leaves less.")
+    text = (
+        f"{area:.3f} mm2 of material is left along the walls, a skin up to about {coverage.given_up_mm:.3f} mm "
+        f"thick that paths made from pixels leave so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would "
+        "fit at "
+        f"({worst.x:.3f}, {worst.y:.3f}); a larger bitmap leaves less."
+    )
     return (Finding(FindingKind.SKIN, text, worst.x, worst.y, counts=False, amount=area),)

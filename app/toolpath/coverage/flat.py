@@ -26,7 +26,9 @@ def move_rows(moves: Moves) -> Rows:
 
 
 def flattened(rows: Rows, chord: float) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return (row index (m,), points (m, 2)): each row as chords that stay within `chord` mm of it, both ends included."""
+    """Return (row index (m,), points (m, 2)): each row as chords that stay within `chord` mm of it, both ends
+    included.
+    """
     radius = np.maximum(rows[:, R], chord)
     step = 2 * np.arccos(1 - chord / radius)
     turn = np.where(rows[:, TURN] != 0, np.abs(sweeps(rows)), 0.0)
@@ -59,7 +61,9 @@ def region_shapes(regions: Sequence[Region], chord: float) -> NDArray[np.object_
     outlines = Outlines.of([contour for region in regions for contour in region.contours])
     group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
     parts = shapely.get_parts(shapely.get_parts(polygons(outlines, group, chord)[1]))
-    return np.asarray(parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object)
+    return np.asarray(
+        parts[(shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)], dtype=object
+    )
 
 
 def quarter_chords(radius: float, chord: float) -> int:
@@ -70,5 +74,7 @@ def quarter_chords(radius: float, chord: float) -> int:
 
 
 def grown(shapes: Shape | NDArray[np.object_], distance: float, chord: float) -> Shape:
-    """Return for each shape all points within `distance` mm of it; a negative distance gives the points that deep inside."""
+    """Return for each shape all points within `distance` mm of it; a negative distance gives the points that deep
+    inside.
+    """
     return shapely.buffer(shapes, distance, quad_segs=quarter_chords(abs(distance), chord))

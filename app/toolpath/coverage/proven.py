@@ -2,9 +2,9 @@
 
 The distance from a path changes by no more than the way gone, so one exact distance, from a square's centre, can decide
 the whole square: covered, when the cutter reaches its farthest corner; untouched, when it does not reach its nearest
-point. What neither proves is divided in four, down to a fraction of the cutter's radius. There a square on a wall is left, which never
-lies within reach as a whole; it is covered where one stretch of the path covers all corners of what of it is wanted (`swath_kernels`).
-At joints of a path, where no one stretch does, still smaller squares are looked at.
+point. What neither proves is divided in four, down to a fraction of the cutter's radius. There a square on a wall is
+left, which never lies within reach as a whole; it is covered where one stretch of the path covers all corners of what
+of it is wanted (`swath_kernels`). At joints of a path, where no one stretch does, still smaller squares are looked at.
 """
 
 from __future__ import annotations
@@ -49,7 +49,9 @@ Floats = NDArray[np.float64]
 States = NDArray[np.uint8]
 
 
-def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Progress = NO_PROGRESS) -> NDArray[np.object_]:
+def uncertain(
+    wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Progress = NO_PROGRESS
+) -> NDArray[np.object_]:
     """Return boxes (n,) that hold every point of a wanted area that is not proven covered.
 
     Args:
@@ -69,7 +71,10 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
     while waiting:
         centres, half, within = waiting.pop()
         if len(centres) > (most := min(_AT_A_TIME, portion(_SQUARE_BYTES))):
-            waiting += [(centres[first : first + most], half, within[first : first + most]) for first in range(0, len(centres), most)]
+            waiting += [
+                (centres[first : first + most], half, within[first : first + most])
+                for first in range(0, len(centres), most)
+            ]
             continue
         progress.step(0.0, "Measuring what is left")
         q = half * math.sqrt(2)
@@ -77,9 +82,14 @@ def uncertain(wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Prog
         uncut = np.min([far - each.radius for (far, _), each in zip(beside, swaths, strict=True)], axis=0)
         doubtful = uncut > -q
         centres, within, uncut = centres[doubtful], within[doubtful], uncut[doubtful]
-        states = _states(area, [_Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)],
-                         _Squares(centres, half, within))  # fmt: skip
-        centres, within, uncut, states = (each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, within, uncut, states))
+        states = _states(
+            area,
+            [_Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)],
+            _Squares(centres, half, within),
+        )
+        centres, within, uncut, states = (
+            each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, within, uncut, states)
+        )
         left = (uncut >= q) | (half <= least / _SMALLEST)
         if half <= least / _FINEST:
             left |= states != OPEN
@@ -95,7 +105,8 @@ class _Swath:
 
     Attributes:
         field: its rows, arcs below half a turn. radius: of its cutter, mm.
-        sectors: (n, 2) from which angle, and how far round, each arc's circle is covered by it and the arcs next to it, radians.
+        sectors: (n, 2) from which angle, and how far round, each arc's circle is covered by it and the arcs next to it,
+            radians.
     """
 
     field: DistanceField
@@ -133,7 +144,9 @@ class _Beside:
 
 
 def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) -> States:
-    """Return what of squares is wanted and covered, by numbers of `swath_kernels`: UNCUT is what all paths leave something of."""
+    """Return what of squares is wanted and covered, by numbers of `swath_kernels`: UNCUT is what all paths leave
+    something of.
+    """
     from .swath_kernels import COVERED, OPEN, OUTSIDE, UNCUT
 
     states = np.full(len(squares.centres), UNCUT, np.uint8)
@@ -155,8 +168,22 @@ def _judged(area: DistanceField, path: _Beside, squares: _Squares) -> States:
 
     def look(ends: tuple[int, int]) -> None:
         band = slice(*ends)
-        judge(area.rows, area.order, area.nodes, field.rows, field.order, field.nodes, path.swath.sectors, reach,
-              squares.centres[band], squares.half, path.near[band], path.far[band], squares.within[band], found[band])  # fmt: skip
+        judge(
+            area.rows,
+            area.order,
+            area.nodes,
+            field.rows,
+            field.order,
+            field.nodes,
+            path.swath.sectors,
+            reach,
+            squares.centres[band],
+            squares.half,
+            path.near[band],
+            path.far[band],
+            squares.within[band],
+            found[band],
+        )
 
     bands = np.linspace(0, count, (_BANDS if count >= _WORTH_TWO_CORES else 1) + 1).astype(int)
     list(pool().map(look, pairwise(bands.tolist())))
@@ -174,10 +201,12 @@ def _edges(area: Shape) -> Rows:
 
 
 def _sectors(rows: Rows) -> Floats:
-    """Return (n, 2) in which sector each arc's circle is covered by the arc and those that go on from it; see `_Swath`."""
+    """Return (n, 2) in which sector each arc's circle is covered by the arc and those that go on from it; see
+    `_Swath`.
+    """
     arc, before = rows[1:, TURN] != 0, rows[:-1]
-    circle = np.abs(rows[1:, CX:R + 1] - before[:, CX:R + 1]).max(axis=1, initial=0.0) <= _SAME
-    meets = np.abs(rows[1:, X0:Y0 + 1] - before[:, X1:Y1 + 1]).max(axis=1, initial=0.0) <= _SAME
+    circle = np.abs(rows[1:, CX : R + 1] - before[:, CX : R + 1]).max(axis=1, initial=0.0) <= _SAME
+    meets = np.abs(rows[1:, X0 : Y0 + 1] - before[:, X1 : Y1 + 1]).max(axis=1, initial=0.0) <= _SAME
     run = np.concatenate([[0], np.cumsum(~(arc & circle & meets & (rows[1:, TURN] == before[:, TURN])))])
     first, last = np.searchsorted(run, run, "left"), np.searchsorted(run, run, "right") - 1
     spread = np.max([_by_run(rows[:, k], run) for k in (CX, CY, R)], axis=0)[run]
@@ -209,10 +238,15 @@ def _runs(centres: Floats, half: float) -> NDArray[np.object_]:
 
 
 def _grid(bounds: tuple[float, float, float, float]) -> tuple[Floats, float]:
-    """Return (centres (n, 2), half side): binary fractions, so that edges of squares of all sizes meet to the last digit."""
+    """Return (centres (n, 2), half side): binary fractions, so that edges of squares of all sizes meet to the last
+    digit.
+    """
     x0, y0, x1, y1 = bounds
     half = 2.0 ** math.ceil(math.log2(max(x1 - x0, y1 - y0) / _START / 2))
-    x, y = (np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half for low, high in ((x0, x1), (y0, y1)))
+    x, y = (
+        np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half
+        for low, high in ((x0, x1), (y0, y1))
+    )
     return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
 
 

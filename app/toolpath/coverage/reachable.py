@@ -1,7 +1,9 @@
-"""Can a cutter's centre be anywhere near a place? Decided by exact distances, in squares that are divided where it is doubtful.
+"""Can a cutter's centre be anywhere near a place? Decided by exact distances, in squares that are divided where it is
+doubtful.
 
-Polygons of chords let a cutter through gaps that are some micrometres too narrow for it; what they take to be within reach is asked
-here once more. The distance from the walls changes by no more than the way gone, so its value in a square's middle bounds it all over.
+Polygons of chords let a cutter through gaps that are some micrometres too narrow for it; what they take to be within
+reach is asked here once more. The distance from the walls changes by no more than the way gone, so its value in a
+square's middle bounds it all over.
 """
 
 from __future__ import annotations
@@ -26,7 +28,9 @@ _SLIVER = 0.25
 """Share of a cutter's radius below which a piece of metal is a sliver."""
 
 _NOMINAL = tolerances.NOMINAL - 2 * tolerances.FIT
-"""mm; a cutter that is too large by exactly `NOMINAL` does not fit, whatever rounding and doubt make of it: no path goes there."""
+"""mm; a cutter that is too large by exactly `NOMINAL` does not fit, whatever rounding and doubt make of it: no path
+goes there.
+"""
 
 _START = 8
 """Squares along a diameter at the beginning."""
@@ -89,10 +93,11 @@ class Fields:
 
 
 def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fields, size: float) -> bool:
-    """Tell whether some cutter reaches one of some points (n, 2) of a piece of metal whose largest disc has a diameter `size`, mm.
+    """Tell whether some cutter reaches one of some points (n, 2) of a piece of metal whose largest disc has a diameter
+    `size`, mm.
 
-    A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows narrow
-    slowly, a micrometre decides on tenths of a millimetre.
+    A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows
+    narrow slowly, a micrometre decides on tenths of a millimetre.
     """
     spare = -_NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
     return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)

@@ -1,7 +1,9 @@
-"""Regions that need no polygons: what is proven cleared all over by cutters that keep off the walls is within reach all over, too.
+"""Regions that need no polygons: what is proven cleared all over by cutters that keep off the walls is within reach all
+over, too.
 
-What a cutter covers whose centre stays its radius from the walls is within its reach by definition. So where such moves alone cover all
-squares of a region, nothing is left there and nothing out of reach; polygons are asked of the other regions only.
+What a cutter covers whose centre stays its radius from the walls is within its reach by definition. So where such moves
+alone cover all squares of a region, nothing is left there and nothing out of reach; polygons are asked of the other
+regions only.
 """
 
 from __future__ import annotations
@@ -45,15 +47,24 @@ class Floor:
 
 
 def one_floor(program: Program, job: Job) -> Area | None:
-    """Return the area of a job that clears all of one area down to one floor and its walls, by flat tools; None for any other job."""
+    """Return the area of a job that clears all of one area down to one floor and its walls, by flat tools; None for any
+    other job.
+    """
     areas = areas_of_operations(program, job)
-    works = [(each, area) for each, area in zip(job.operations, areas, strict=True) if each.cut.enabled and area.regions]
+    works = [
+        (each, area) for each, area in zip(job.operations, areas, strict=True) if each.cut.enabled and area.regions
+    ]
     if not works or program.tabs or program.dog_bones or program.allowance_mm:
         return None
     operation, first = works[0]
     for each, area in works:
         cut, outside = each.cut, each.wall_side is not Side.INSIDE
-        elsewhere = area.regions is not first.regions or area.lines or area.bare or abs(cut.floor - operation.cut.floor) >= _SAME
+        elsewhere = (
+            area.regions is not first.regions
+            or area.lines
+            or area.bare
+            or abs(cut.floor - operation.cut.floor) >= _SAME
+        )
         other = job.tool(cut.tool).kind is not ToolKind.FLAT
         if elsewhere or outside or other or cut.stock_to_leave:
             return None
@@ -61,7 +72,8 @@ def one_floor(program: Program, job: Job) -> Area | None:
 
 
 def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], progress: Progress) -> Floor | None:
-    """Return the floor of a job that has but one (`one_floor`), regions that are settled told apart; None where they cannot be.
+    """Return the floor of a job that has but one (`one_floor`), regions that are settled told apart; None where they
+    cannot be.
 
     Args:
         paths: (rows, radius, mm) of moves as deep as the floor that keep off the walls by at least their radius.
@@ -89,5 +101,8 @@ def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], pro
 
 def _with_regions(program: Program, job: Job, area: Area, regions: tuple[Region, ...]) -> Program:
     """Return a program whose area has other regions."""
-    areas = tuple(replace(each, regions=regions) if each.regions is area.regions else each for each in areas_of_operations(program, job))
+    areas = tuple(
+        replace(each, regions=regions) if each.regions is area.regions else each
+        for each in areas_of_operations(program, job)
+    )
     return replace(program, areas=areas)

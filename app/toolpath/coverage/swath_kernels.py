@@ -1,8 +1,9 @@
 """Compiled: squares of a wanted area that one stretch of a path covers all over.
 
-A cutter of radius R along a line covers all within R of it, along an arc of radius A all within R of that: in the sector of the arc what
-is between A - R and A + R from its centre. The first is convex, and so is the second but for its inner bound, which is asked apart. So
-what of an area lies within a square is covered if all its corners are: those of the area, those of the square, and where the two cross.
+A cutter of radius R along a line covers all within R of it, along an arc of radius A all within R of that: in the
+sector of the arc what is between A - R and A + R from its centre. The first is convex, and so is the second but for its
+inner bound, which is asked apart. So what of an area lies within a square is covered if all its corners are: those of
+the area, those of the square, and where the two cross.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ _BOX = "UniTuple(float64, 4)"
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, float64)", counts=False)
 def _between(start, way, low, high):
-    """Return from which part of a way to which a coordinate is between two others; the first is more than the second where it never is."""
+    """Return from which part of a way to which a coordinate is between two others; the first is more than the second
+    where it never is.
+    """
     if way == 0.0:
         return (0.0, 1.0) if low <= start <= high else (1.0, 0.0)
     a, b = (low - start) / way, (high - start) / way
@@ -38,7 +41,8 @@ def _cut_edges(edges, order, nodes, box, corners, stack):
     """Write the ends of what of each edge lies within a box into the corners.
 
     Returns:
-        How many; -1: there is no room. How often edges cross the box's lower side, and its upper one: as `kernels.inside` counts.
+        How many; -1: there is no room. How often edges cross the box's lower side, and its upper one: as
+        `kernels.inside` counts.
     """
     leaves, count, below, above = (len(nodes) + 1) // 2, 0, 0, 0
     stack[0], top = 0, 1
@@ -75,7 +79,9 @@ def _cut_edges(edges, order, nodes, box, corners, stack):
 
 @kernel("int64(float64[:, ::1], int64, float64, float64, float64)", counts=False)
 def _crosses_between(edges, i, y, low, high):
-    """Return 1 where an edge crosses a height between two places, the first included, else 0: half open, as rays are counted."""
+    """Return 1 where an edge crosses a height between two places, the first included, else 0: half open, as rays are
+    counted.
+    """
     a, b = edges[i, 1], edges[i, 3]
     if (a <= y) == (b <= y):
         return 0
@@ -87,8 +93,8 @@ def _crosses_between(edges, i, y, low, high):
 def corners_of(edges, order, nodes, box, within, corners, stack):
     """Write the corners of what of an area lies within a box.
 
-    Only where edges are near has a corner to be asked by itself, and of two at one height only one: the other differs from it by how
-    often edges cross the side between them.
+    Only where edges are near has a corner to be asked by itself, and of two at one height only one: the other differs
+    from it by how often edges cross the side between them.
 
     Args:
         edges, order, nodes: tree of the area's edges, even-odd.
@@ -116,7 +122,9 @@ def corners_of(edges, order, nodes, box, within, corners, stack):
 
 @kernel("float64(float64[:, ::1], int64, float64, float64)", counts=False)
 def _nearest_between(corners, count, x, y):
-    """Return how near to a place outside what lies between corners comes: the least of the ways from corner to corner."""
+    """Return how near to a place outside what lies between corners comes: the least of the ways from corner to
+    corner.
+    """
     least = math.inf
     for k in range(count):
         ax, ay = corners[k, 0] - x, corners[k, 1] - y
@@ -140,7 +148,10 @@ def _in_disc(corners, count, x, y, reach):
     return True
 
 
-@kernel("boolean(float64[:, ::1], float64[:, ::1], int64, float64, float64[:, ::1], int64, UniTuple(float64, 4))", counts=False)
+@kernel(
+    "boolean(float64[:, ::1], float64[:, ::1], int64, float64, float64[:, ::1], int64, UniTuple(float64, 4))",
+    counts=False,
+)
 def _holds(rows, sectors, j, reach, corners, count, box):
     """Return whether a cutter along row j covers all corners, and what lies between them."""
     if rows[j, 7] == 0.0:
@@ -148,7 +159,9 @@ def _holds(rows, sectors, j, reach, corners, count, box):
         for k in range(count):
             farthest = max(farthest, point_distance(rows, j, corners[k, 0], corners[k, 1]))
         return farthest <= reach
-    if _in_disc(corners, count, rows[j, 0], rows[j, 1], reach) or _in_disc(corners, count, rows[j, 2], rows[j, 3], reach):
+    if _in_disc(corners, count, rows[j, 0], rows[j, 1], reach) or _in_disc(
+        corners, count, rows[j, 2], rows[j, 3], reach
+    ):
         return True
     cx, cy, radius = rows[j, 4], rows[j, 5], rows[j, 6]
     dx, dy = max(box[0] - cx, cx - box[2], 0.0), max(box[1] - cy, cy - box[3], 0.0)
@@ -171,14 +184,18 @@ def _holds(rows, sectors, j, reach, corners, count, box):
     return whole or start + high - low <= sectors[j, 1]
 
 
-@kernel(f"void({_TREE}, {_TREE}, float64[:, ::1], float64, float64[:, ::1], float64, int64[::1], float64[::1], boolean[::1], uint8[::1])")
+@kernel(
+    f"void({_TREE}, {_TREE}, float64[:, ::1], float64, float64[:, ::1], float64, int64[::1], float64[::1], "
+    "boolean[::1], uint8[::1])"
+)
 def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, centres, half, near, far, within, states):
     """Write what of squares is wanted and covered.
 
     Args:
         edges, edge_order, edge_nodes: tree of the wanted area's edges, even-odd.
         rows, order, nodes: tree of a path's rows; arcs sweep less than pi.
-        sectors: (m, 2) of the rows: from which angle, and how far round, circles are covered by them and their neighbours, radians.
+        sectors: (m, 2) of the rows: from which angle, and how far round, circles are covered by them and their
+            neighbours, radians.
         reach: how far from the path counts as covered, mm.
         centres: (n, 2) of the squares. half: their half side, mm.
         near, far: (n,) the row nearest to each centre, -1 for none, and how far it is, mm.
@@ -203,6 +220,9 @@ def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, cen
                 states[i] = COVERED
                 break
         for k in range(count):
-            if states[i] == OPEN and point_distance(rows, row, corners[k, 0], corners[k, 1]) >= reach and \
-                    nearest(rows, order, nodes, corners[k, 0], corners[k, 1], reach)[1] < 0:
+            if (
+                states[i] == OPEN
+                and point_distance(rows, row, corners[k, 0], corners[k, 1]) >= reach
+                and nearest(rows, order, nodes, corners[k, 0], corners[k, 1], reach)[1] < 0
+            ):
                 states[i] = UNCUT

@@ -1,8 +1,9 @@
-"""What paths leave of the metal that a tool can reach, as squares decided by exact distances; everything else is proven cut.
+"""What paths leave of the metal that a tool can reach, as squares decided by exact distances; everything else is proven
+cut.
 
 The distance from a path changes by no more than the way gone, so one exact distance, from a square's centre, can decide
-the whole square: cut, when the cutter reaches its farthest corner; out of reach, when the tool does not reach its nearest
-point. What neither proves is divided in four, down to a fraction of the tool's radius.
+the whole square: cut, when the cutter reaches its farthest corner; out of reach, when the tool does not reach its
+nearest point. What neither proves is divided in four, down to a fraction of the tool's radius.
 """
 
 from __future__ import annotations
@@ -22,7 +23,9 @@ from ...geometry.primitives import Rows, boxes, within_half_turn
 from . import uncut_kernels
 
 FINEST = 32
-"""The smallest squares' half side goes so many times, or up to twice as many, into the smallest radius: sides are R/16 or less."""
+"""The smallest squares' half side goes so many times, or up to twice as many, into the smallest radius: sides are R/16
+or less.
+"""
 
 _START = 32
 """Squares along the area's longer side at the beginning."""
@@ -57,13 +60,20 @@ class Uncut:
         return sure
 
     def thicker(self, than: float) -> Uncut:
-        """Return the squares whose centres are farther than so many mm, >= 0, from what paths sweep, and within reach."""
+        """Return the squares whose centres are farther than so many mm, >= 0, from what paths sweep, and within
+        reach.
+        """
         keep = (self.beyond_cut > than) & (self.beyond_reach <= 0)
         return Uncut(self.centres[keep], self.halves[keep], self.beyond_cut[keep], self.beyond_reach[keep])
 
 
-def uncut(walls: DistanceField, frame: Level, radius: float, paths: Sequence[tuple[Rows, float]],
-          progress: Progress = NO_PROGRESS) -> Uncut:  # fmt: skip
+def uncut(
+    walls: DistanceField,
+    frame: Level,
+    radius: float,
+    paths: Sequence[tuple[Rows, float]],
+    progress: Progress = NO_PROGRESS,
+) -> Uncut:
     """Return what paths leave of all that a tool reaches.
 
     Args:
@@ -87,15 +97,30 @@ def uncut(walls: DistanceField, frame: Level, radius: float, paths: Sequence[tup
     found = []
     for first in range(0, len(squares), _AT_ONCE):
         progress.step(first / len(squares), "Measuring what is left")
-        part, count = uncut_kernels.undecided(walls.rows, walls.order, walls.nodes, outline.rows, outline.order, outline.nodes,
-                                              cut, order, nodes, radii, wide, limits, squares[first:first + _AT_ONCE])
+        part, count = uncut_kernels.undecided(
+            walls.rows,
+            walls.order,
+            walls.nodes,
+            outline.rows,
+            outline.order,
+            outline.nodes,
+            cut,
+            order,
+            nodes,
+            radii,
+            wide,
+            limits,
+            squares[first : first + _AT_ONCE],
+        )
         found.append(part[:count])
     left = np.concatenate(found)
     return Uncut(left[:, :2], left[:, 2], left[:, 3], left[:, 4])
 
 
 def _together(paths: Sequence[tuple[Rows, float]]) -> tuple[Rows, Floats]:
-    """Return (rows (n, 8), radius of the cutter of each (n,)) of all paths; n > 0: without paths one that cuts nothing."""
+    """Return (rows (n, 8), radius of the cutter of each (n,)) of all paths; n > 0: without paths one that cuts
+    nothing.
+    """
     cut = [within_half_turn(rows) for rows, _ in paths]
     radii = [np.full(len(rows), cutter) for rows, (_, cutter) in zip(cut, paths, strict=True)]
     if not cut:
@@ -104,9 +129,14 @@ def _together(paths: Sequence[tuple[Rows, float]]) -> tuple[Rows, Floats]:
 
 
 def _grid(around: Floats, margin: float) -> Floats:
-    """Return squares (n, 3) over all boxes (m, 4) and a margin; sides are binary fractions, so that edges meet to the last digit."""
+    """Return squares (n, 3) over all boxes (m, 4) and a margin; sides are binary fractions, so that edges meet to the
+    last digit.
+    """
     low, high = around[:, :2].min(axis=0) - margin, around[:, 2:].max(axis=0) + margin
     half = 2.0 ** math.ceil(math.log2(float((high - low).max()) / _START / 2))
-    x, y = (np.arange(math.floor(a / half / 2), math.ceil(b / half / 2)) * 2 * half + half for a, b in zip(low, high, strict=True))
+    x, y = (
+        np.arange(math.floor(a / half / 2), math.ceil(b / half / 2)) * 2 * half + half
+        for a, b in zip(low, high, strict=True)
+    )
     centres = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
     return np.column_stack([centres, np.full(len(centres), half)])

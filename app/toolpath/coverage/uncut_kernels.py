@@ -1,4 +1,6 @@
-"""Compiled inner loops for what paths leave: squares of a quad tree, each decided by exact distances from its centre."""
+"""Compiled inner loops for what paths leave: squares of a quad tree, each decided by exact distances from its
+centre.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,10 @@ def widest(radii, order, count):
     return wide
 
 
-@kernel("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], float64, float64, UniTuple(float64, 2))")
+@kernel(
+    "float64(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], float64, float64, "
+    "UniTuple(float64, 2))"
+)
 def beyond(rows, radii, order, nodes, wide, x, y, limits):
     """Return how far a point is from what cutters sweep along rows, mm: negative = that deep within.
 
@@ -59,9 +64,11 @@ _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
 
 @kernel(f"float64({_TREE}, {_TREE}, float64[::1], float64[::1])")
 def _beyond_reach(rows, order, nodes, frame, frame_order, frame_nodes, limits, square):
-    """Return how far a square's centre is beyond the reach, mm: negative = within; INF when all of the square is beyond it.
+    """Return how far a square's centre is beyond the reach, mm: negative = within; INF when all of the square is beyond
+    it.
 
-    limits: distance of the frame from the walls, radius. square: x, y, half side, side of the walls (written when found).
+    limits: distance of the frame from the walls, radius. square: x, y, half side, side of the walls (written when
+        found).
     """
     x, y = square[0], square[1]
     far = square[2] * math.sqrt(2.0)
@@ -80,8 +87,13 @@ def _beyond_reach(rows, order, nodes, frame, frame_order, frame_nodes, limits, s
     return nearest(frame, frame_order, frame_nodes, x, y, limits[1] + far + 1e-9)[0] - limits[1]
 
 
-@kernel(f"Tuple((float64[:, ::1], int64))({_TREE}, {_TREE}, {_TREE}, float64[::1], float64[::1], float64[::1], float64[:, ::1])")
-def undecided(rows, order, nodes, frame, frame_order, frame_nodes, path, path_order, path_nodes, radii, wide, limits, squares):
+@kernel(
+    f"Tuple((float64[:, ::1], int64))({_TREE}, {_TREE}, {_TREE}, float64[::1], float64[::1], float64[::1], float64[:, "
+    "::1])"
+)
+def undecided(
+    rows, order, nodes, frame, frame_order, frame_nodes, path, path_order, path_nodes, radii, wide, limits, squares
+):
     """Return (squares (n, 5): x, y, half side, beyond the cut, beyond the reach; how many) that may hold what is left.
 
     Args:

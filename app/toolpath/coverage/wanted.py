@@ -1,8 +1,8 @@
 """What a job is to clear, floor by floor: from its areas, its tools and their depths, before any path is looked at.
 
-A tool of radius r that keeps a stock to leave reaches the opening of an area by its disc. Pockets and rest machining want all that any
-tool reaches that goes as deep; a contour what its path along the walls covers; a path on a line what lies within its cutter's radius.
-Operations whose floors lie at one height are asked together.
+A tool of radius r that keeps a stock to leave reaches the opening of an area by its disc. Pockets and rest machining
+want all that any tool reaches that goes as deep; a contour what its path along the walls covers; a path on a line what
+lies within its cutter's radius. Operations whose floors lie at one height are asked together.
 """
 
 from __future__ import annotations
@@ -30,7 +30,9 @@ CHORD = 1e-3
 """mm; arcs are measured as chords that stay within this of them."""
 
 FITS = 2e-3
-"""mm by which a gap may be narrower than a tool that still counts as fitting: chords make it so by up to 1 um a side."""
+"""mm by which a gap may be narrower than a tool that still counts as fitting: chords make it so by up to 1 um a
+side.
+"""
 
 _SAME = 1e-9
 """mm between floors that are one."""
@@ -113,8 +115,11 @@ class _Work:
 
 def _cutting(program: Program, job: Job) -> list[_Work]:
     areas = areas_of_operations(program, job)
-    return [_Work(operation, area) for operation, area in zip(job.operations, areas, strict=True)
-            if operation.cut.enabled and area.regions and not operation.DRILLS]  # fmt: skip
+    return [
+        _Work(operation, area)
+        for operation, area in zip(job.operations, areas, strict=True)
+        if operation.cut.enabled and area.regions and not operation.DRILLS
+    ]
 
 
 @dataclass
@@ -145,7 +150,9 @@ class _Shapes:
 
     def reach(self, work: _Work) -> Shape:
         """Return what the operation's tool can cut without touching a wall: the opening by its disc."""
-        return united(self._once(work.area, self.wall(work) - FITS, self.job.tool(work.operation.cut.tool).radius - FITS))
+        return united(
+            self._once(work.area, self.wall(work) - FITS, self.job.tool(work.operation.cut.tool).radius - FITS)
+        )
 
     def wall(self, work: _Work) -> float:
         """Return how far the centre of the operation's tool stays from walls, mm."""
@@ -168,9 +175,13 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
     """Return what the operations of one floor want."""
     depth = max(each.depth for each in group)
     farthest = _farthest([each for each in cutting if each.depth > depth - _SAME and each.covers], made.job)
-    cutters = tuple(Cutter(each.area.regions, made.wall(each), made.job.tool(each.operation.cut.tool).radius) for each in farthest)
+    cutters = tuple(
+        Cutter(each.area.regions, made.wall(each), made.job.tool(each.operation.cut.tool).radius) for each in farthest
+    )
     reach = united([made.reach(each) for each in farthest])
-    within: dict[int, tuple[Shape, Shape]] = {}  # floors by their identity, and what of each is reached: operations often share one
+    within: dict[
+        int, tuple[Shape, Shape]
+    ] = {}  # floors by their identity, and what of each is reached: operations often share one
     wanted, lines = [], []
     for work in group:
         if work.area.lines:
@@ -189,15 +200,19 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
 
 
 def _farthest(works: Sequence[_Work], job: Job) -> list[_Work]:
-    """Return the operations whose tools reach farthest in their areas: what any other one reaches, one of these does."""
+    """Return the operations whose tools reach farthest in their areas: what any other one reaches, one of these
+    does.
+    """
 
     def size(work: _Work) -> tuple[float, float]:
         return job.tool(work.operation.cut.tool).radius, work.operation.cut.stock_to_leave
 
     kept: list[_Work] = []
     for work in sorted(works, key=size):
-        if not any(each.area.regions is work.area.regions and all(a <= b for a, b in zip(size(each), size(work), strict=True))
-                   for each in kept):  # fmt: skip
+        if not any(
+            each.area.regions is work.area.regions and all(a <= b for a, b in zip(size(each), size(work), strict=True))
+            for each in kept
+        ):
             kept.append(work)
     return kept
 
@@ -224,11 +239,15 @@ def _beside_bare(shapes: NDArray[np.object_], work: _Work, distance: float) -> N
 
 
 def _on_lines(work: _Work, made: _Shapes) -> Shape:
-    """Return what the tool covers when its centre is on lines, where no clamp is in the way; nothing for tools that are not flat."""
+    """Return what the tool covers when its centre is on lines, where no clamp is in the way; nothing for tools that are
+    not flat.
+    """
     tool = made.job.tool(work.operation.cut.tool)
     if tool.kind is not ToolKind.FLAT:
         return shapely.Polygon()
-    lines = shapely.intersection(shapely.union_all([_line(contour) for contour in work.area.lines]), shapely.union_all(made.inner(work)))
+    lines = shapely.intersection(
+        shapely.union_all([_line(contour) for contour in work.area.lines]), shapely.union_all(made.inner(work))
+    )
     return shapely.buffer(lines, tool.radius - FITS, quad_segs=64)
 
 
@@ -241,7 +260,9 @@ def _line(contour: Contour) -> Shape:
 def _without_tabs(found: Wanted, tabs: Sequence[Tab], dog_bones: Sequence[DogBone]) -> Wanted:
     """Return what is wanted without the metal that stands in tabs, and with what dog-bones cut into walls."""
     deep = [tab for tab in tabs if tab.top > -found.depth + _SAME]
-    reach = [tab.width / 2 + tab.diameter for tab in deep]  # half the way over it, and the cutter's radius: also where the path is bent
+    reach = [
+        tab.width / 2 + tab.diameter for tab in deep
+    ]  # half the way over it, and the cutter's radius: also where the path is bent
     held = united([shapely.Point(tab.x, tab.y).buffer(radius) for tab, radius in zip(deep, reach, strict=True)])
     bones = united([bone_shape(bone) for bone in dog_bones])
     floor = without(found.floor, without(bones, found.reach)) if dog_bones else found.floor

@@ -1,4 +1,6 @@
-"""Depth passes: every stroke at one height after the other, with the tool kept down where that is quicker than to lift it."""
+"""Depth passes: every stroke at one height after the other, with the tool kept down where that is quicker than to lift
+it.
+"""
 
 from __future__ import annotations
 
@@ -103,7 +105,9 @@ class DepthPasses:
                 self._last = begun, z
 
     def _enter(self, stroke: Stroke, z: float) -> Stroke:
-        """Bring the tool to where a stroke begins, down to its height there; return the stroke as it is to be cut from there."""
+        """Bring the tool to where a stroke begins, down to its height there; return the stroke as it is to be cut from
+        there.
+        """
         first = float(stroke.heights(z)[0])
         drilled = in_hole(stroke.start, self.holes)
         if not drilled and id(stroke) not in self._slotted and self._floor(stroke) > first + _SAME:
@@ -141,7 +145,9 @@ class DepthPasses:
         return self.ground.cleared.floor(self.ground.tool, stroke.start)
 
     def _go_to_height(self, stroke: Stroke, z: float, slow: float) -> None:
-        """Go straight to a height over a stroke's beginning: up quickly; down at feed rate to `slow`, then at plunge rate."""
+        """Go straight to a height over a stroke's beginning: up quickly; down at feed rate to `slow`, then at plunge
+        rate.
+        """
         x, y = stroke.start
         height = self.builder.at[2]
         if height < z - _SAME:
@@ -153,7 +159,9 @@ class DepthPasses:
             self.builder.straight((x, y, z), Purpose.PLUNGE, self.label, stroke.region)
 
     def _come_to(self, stroke: Stroke) -> None:
-        """Bring the tool over a stroke's beginning: along the ground where there is a way that is quicker, else through the air."""
+        """Bring the tool over a stroke's beginning: along the ground where there is a way that is quicker, else through
+        the air.
+        """
         if self._last is not None:
             ways = self._ways_to(stroke, *self._last)
             for way in ways:
@@ -167,7 +175,9 @@ class DepthPasses:
             self.builder.straight((x, y, self.levels.retract), Purpose.RAPID, self.label)
 
     def _ways_to(self, stroke: Stroke, last: Stroke, z: float) -> tuple[Way, ...]:
-        """Return the ways one after the other: straight, or first back along what was cut last; none where the air is quicker."""
+        """Return the ways one after the other: straight, or first back along what was cut last; none where the air is
+        quicker.
+        """
         x, y, height = self.builder.at
         if math.dist((x, y), stroke.start) < _SAME:
             return (Way(stroke.part(0, 0), height),)

@@ -1,12 +1,13 @@
 """How much of the cutter is engaged in standing metal, move by move, in the order of cutting.
 
-Engaged is the part of the rim of the cutter's front half, as seen along the path, that lies in metal nobody has removed at that depth yet.
-Of an engaged angle phi the engaged share of the diameter is (1 - cos phi) / 2: what a run along the standing side takes with a stepover of
-as much; 1 = a full slot. How thick the metal is along the axis plays no part, and what goes straight down is not engaged.
+Engaged is the part of the rim of the cutter's front half, as seen along the path, that lies in metal nobody has removed
+at that depth yet. Of an engaged angle phi the engaged share of the diameter is (1 - cos phi) / 2: what a run along the
+standing side takes with a stepover of as much; 1 = a full slot. How thick the metal is along the axis plays no part,
+and what goes straight down is not engaged.
 
-The metal is a field of heights in square cells (`engagement_field`): the job's stock box, cut by every cutting move as a flat cutter
-would, as wide as its tool is at the stock's top. The cells' centres decide, so a share may be off by `Engagement.bounds` for each straight
-edge of the metal, somewhat more where it is curved as sharply as the cutter.
+The metal is a field of heights in square cells (`engagement_field`): the job's stock box, cut by every cutting move as
+a flat cutter would, as wide as its tool is at the stock's top. The cells' centres decide, so a share may be off by
+`Engagement.bounds` for each straight edge of the metal, somewhat more where it is curved as sharply as the cutter.
 """
 
 from __future__ import annotations
@@ -39,8 +40,10 @@ class Engagement:
     """How far the cutter is engaged along a program of n moves.
 
     Attributes:
-        shares: (n,) the largest engaged share of the diameter along each move, in [0, 1]; 0 for rapids and what goes straight down.
-        lengths: (operations, STEPS) mm of path in the plane whose share lies within each step, the last one with 1 itself.
+        shares: (n,) the largest engaged share of the diameter along each move, in [0, 1]; 0 for rapids and what goes
+            straight down.
+        lengths: (operations, STEPS) mm of path in the plane whose share lies within each step, the last one with 1
+            itself.
         largest: (operations,) the largest share of each operation's moves, 0 where it has none.
         bounds: (operations,) by how much these shares may be off: one and a half cells over the diameter.
     """
@@ -56,7 +59,8 @@ class Engagement:
         return float(self.largest.max(initial=0.0))
 
     def above(self, share: float, operation: int | None = None) -> float:
-        """Return the part of the length, in [0, 1], of one operation or of all, along which more than a share is engaged.
+        """Return the part of the length, in [0, 1], of one operation or of all, along which more than a share is
+        engaged.
 
         Args:
             share: in [0, 1]; counts in whole steps.
@@ -64,7 +68,7 @@ class Engagement:
         """
         lengths = self.lengths.sum(axis=0) if operation is None else self.lengths[operation]
         total = float(lengths.sum())
-        return float(lengths[math.ceil(share * STEPS - 1e-9):].sum()) / total if total > 0 else 0.0
+        return float(lengths[math.ceil(share * STEPS - 1e-9) :].sum()) / total if total > 0 else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,8 +98,8 @@ class Seen:
     def bound(self, tool: int) -> float:
         """Return by how much the shares of a tool may be off.
 
-        Half a cell's diagonal by which the rim that is looked at lies inside the true one, and as much from a cell's centre to
-        where in it metal ends, over the diameter.
+        Half a cell's diagonal by which the rim that is looked at lies inside the true one, and as much from a cell's
+        centre to where in it metal ends, over the diameter.
         """
         return 1.5 * self.pitches[tool] / (2 * self.radii[tool])
 
@@ -138,7 +142,9 @@ def look(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Seen:
         return Seen(begin, end, none, none, none, no, no, {}, {})
     lowest = np.minimum(moves.start[:, 2], moves.end[:, 2])
     numbers = np.unique(moves.tool[cutting]).tolist()
-    radii = {number: _radius(job.tool(number), -float(lowest[cutting & (moves.tool == number)].min())) for number in numbers}
+    radii = {
+        number: _radius(job.tool(number), -float(lowest[cutting & (moves.tool == number)].min())) for number in numbers
+    }
     path = _Path(moves, radii, stock_box(job, program.regions, program.lines))
     found: dict[int, tuple[Places, Floats]] = {}
     pitches = {}
@@ -172,7 +178,7 @@ class _Path:
         own = [k for k, tool in enumerate(self._tools) if tool == number]
         radii = self._radii[number], max(self._radii.values())
         metal = Field.along(self._moves, radii, self._stock, lambda: (self._places(k, progress).rows[:-1] for k in own))
-        for k, tool in enumerate(self._tools[:own[-1] + 1]):
+        for k, tool in enumerate(self._tools[: own[-1] + 1]):
             here = progress.part(k / (own[-1] + 1), (k + 1) / (own[-1] + 1))
             run = self._places(k, here)
             if tool == number:
@@ -193,14 +199,18 @@ class _Path:
 
 
 def _own(seen: Seen, going: Indices) -> tuple[Indices, Indices]:
-    """Return (first, behind the last) of the cells whose middles lie on each move, or else of one that the move lies in."""
+    """Return (first, behind the last) of the cells whose middles lie on each move, or else of one that the move lies
+    in.
+    """
     low, high = spans(seen.begin[going], seen.end[going], seen.first, seen.last)
     low = low + ((seen.owner[low] != going) & (high - low > 1))
     return low, high - ((seen.owner[high - 1] != going) & (high - low > 1))
 
 
 def spans(begin: Floats, end: Floats, first: Floats, last: Floats) -> tuple[Indices, Indices]:
-    """Return (first, behind the last) of the pieces first … last that lie in begin … end; those that only touch do not, but one does."""
+    """Return (first, behind the last) of the pieces first … last that lie in begin … end; those that only touch do not,
+    but one does.
+    """
     hair = np.minimum((end - begin) / 4, 1e-9 + 1e-6 * (last - first).max(initial=0.0))
     low = np.searchsorted(last, begin + hair, side="right")
     high = np.searchsorted(first, end - hair, side="left")

@@ -1,7 +1,8 @@
 """The metal round a cutter, as it stands before each place of a path: heights in square cells, in tiles along the path.
 
-A frame is (x, y of the corner of cell 0, 0; side of a cell), mm. Cell (row, column) lies in tile (row >> SHIFT, column >> SHIFT);
-`index` tells the tile's slot in `heights`, -1 where nobody looks. Callers choose frames in which every cutter lies wholly within the index.
+A frame is (x, y of the corner of cell 0, 0; side of a cell), mm. Cell (row, column) lies in tile (row >> SHIFT, column
+>> SHIFT); `index` tells the tile's slot in `heights`, -1 where nobody looks. Callers choose frames in which every
+cutter lies wholly within the index.
 """
 
 from __future__ import annotations
@@ -66,7 +67,8 @@ def cut_disc(heights, index, frame, disc, before):
 
     Args:
         disc: x, y, z, radius, mm.
-        before: x, y, radius of a disc that was cut at least as deep and need not be looked at again; radius 0: there is none.
+        before: x, y, radius of a disc that was cut at least as deep and need not be looked at again; radius 0: there is
+            none.
     """
     cell = 1.0 / frame[2]
     cx, cy, reach = (disc[0] - frame[0]) * cell - 0.5, (disc[1] - frame[1]) * cell - 0.5, disc[3] * cell
@@ -107,11 +109,12 @@ def standing(heights, index, frame, place, inner, rim):
 def sweep(heights, index, frame, places, rim, cutter, span, share):
     """Lead a cutter through places of its path: tell how far it is engaged, and cut.
 
-    A place is cut only when the path has gone on by the lag, so that the rim, which is looked at a little inside the true one, is not
-    taken for cut by the very move that it is to cut on.
+    A place is cut only when the path has gone on by the lag, so that the rim, which is looked at a little inside the
+    true one, is not taken for cut by the very move that it is to cut on.
 
     Args:
-        places: (n, 6) x, y, z, position along the path (not falling), mm, and direction of travel; no direction: only cut there.
+        places: (n, 6) x, y, z, position along the path (not falling), mm, and direction of travel; no direction: only
+            cut there.
         rim: as `standing` has it; none: the cutter is not looked at, and need not lie where anybody looks.
         cutter: radius, radius of the rim that is looked at, lag, mm.
         span: first place, behind the last place, first place that is not cut yet.

@@ -1,4 +1,6 @@
-"""The feed follows the engagement: where more of the cutter is engaged than its operation allows, the move is cut and slowed there."""
+"""The feed follows the engagement: where more of the cutter is engaged than its operation allows, the move is cut and
+slowed there.
+"""
 
 from __future__ import annotations
 
@@ -32,10 +34,11 @@ _SLACK = 1e-6
 def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Program:
     """Return the program with its feed slowed where more of the cutter is engaged than the operation allows.
 
-    There the feed is the tool's times allowed / engaged, in steps of 5 % rounded down, so that no more metal is cut in a time
-    than at the limit; never below LEAST_FEED of the tool's feed nor below LEAST_RATE, and never faster than it was. What is over the limit
-    by less than the measure may be off (`Engagement.bounds`) is not slowed. A move that is over it in part is cut in pieces
-    of half a radius or more where that saves time; the path stays the same, and following it once more changes nothing.
+    There the feed is the tool's times allowed / engaged, in steps of 5 % rounded down, so that no more metal is cut in
+    a time than at the limit; never below LEAST_FEED of the tool's feed nor below LEAST_RATE, and never faster than it
+    was. What is over the limit by less than the measure may be off (`Engagement.bounds`) is not slowed. A move that is
+    over it in part is cut in pieces of half a radius or more where that saves time; the path stays the same, and
+    following it once more changes nothing.
 
     Raises:
         ParameterError: the job has no such tool.
@@ -57,15 +60,17 @@ def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Pr
     feed = moves.feed.copy()
     feed[going] = np.minimum.reduceat(allowed, offsets)
     least = BLOCK * np.array([seen.radii.get(int(number), 0.0) for number in moves.tool])
-    mixed = np.flatnonzero((np.maximum.reduceat(allowed, offsets) > feed[going])
-                           & (seen.end[going] - seen.begin[going] >= 2 * least[going] * (1 - _SLACK)))
+    mixed = np.flatnonzero(
+        (np.maximum.reduceat(allowed, offsets) > feed[going])
+        & (seen.end[going] - seen.begin[going] >= 2 * least[going] * (1 - _SLACK))
+    )
     cuts: dict[int, list[tuple[float, float]]] = {}
     for k in mixed.tolist():
         progress.step(0.9 + 0.1 * k / len(going), "Slowing the feed")
         move = int(going[k])
-        bounds = np.concatenate([[seen.begin[move]], blocks.first[low[k] + 1:high[k]], [seen.end[move]]])
+        bounds = np.concatenate([[seen.begin[move]], blocks.first[low[k] + 1 : high[k]], [seen.end[move]]])
         saves = 2 * float(least[move]) / job.tool(int(moves.tool[move])).feed_rate
-        pieces = _pieces(bounds, allowed[offsets[k]:offsets[k] + count[k]], float(least[move]), saves)
+        pieces = _pieces(bounds, allowed[offsets[k] : offsets[k] + count[k]], float(least[move]), saves)
         cuts[move] = [((at - bounds[0]) / (bounds[-1] - bounds[0]), rate) for at, rate in pieces]
     return replace(program, moves=_divided(replace(moves, feed=feed), cuts))
 
@@ -111,8 +116,8 @@ def _allowed(moves: Moves, owner: Indices, shares: tuple[Floats, Floats], ground
 def _pieces(bounds: Floats, feeds: Floats, least: float, least_gain: float) -> list[tuple[float, float]]:
     """Return the pieces into which a move is cut: (where each ends, its feed).
 
-    The stretch that gains most from a faster feed is cut out, and so on within what is left of the move and within the stretch.
-    Whether and where a piece is cut depends on nothing but itself, so its pieces are not cut again.
+    The stretch that gains most from a faster feed is cut out, and so on within what is left of the move and within the
+    stretch. Whether and where a piece is cut depends on nothing but itself, so its pieces are not cut again.
 
     Args:
         bounds: (k + 1,) begin of the move, where its feed may change, its end, mm.
@@ -123,19 +128,25 @@ def _pieces(bounds: Floats, feeds: Floats, least: float, least_gain: float) -> l
     slowest = float(feeds.min())
     gain, first, last = max(
         ((bounds[last] - bounds[first]) * (1 / slowest - 1 / feed), first, last)
-        for feed in np.unique(feeds).tolist() for first, last in _stretches(bounds, feeds >= feed, least)
-    )  # fmt: skip
+        for feed in np.unique(feeds).tolist()
+        for first, last in _stretches(bounds, feeds >= feed, least)
+    )
     if gain <= max(_GAIN * (bounds[-1] - bounds[0]) / slowest, least_gain):
         return [(float(bounds[-1]), slowest)]
     parts = [(k, n) for k, n in ((0, first), (first, last), (last, len(feeds))) if n > k]
-    return [piece for k, n in parts for piece in _pieces(bounds[k:n + 1], feeds[k:n], least, least_gain)]
+    return [piece for k, n in parts for piece in _pieces(bounds[k : n + 1], feeds[k:n], least, least_gain)]
 
 
 def _stretches(bounds: Floats, fast: NDArray[np.bool_], least: float) -> list[tuple[int, int]]:
-    """Return the runs first … last - 1 of blocks that are fast, none of them shorter than `least`, nor what is left beside them."""
+    """Return the runs first … last - 1 of blocks that are fast, none of them shorter than `least`, nor what is left
+    beside them.
+    """
     edges = np.flatnonzero(np.diff(fast, prepend=False, append=False))
     least, found = least * (1 - _SLACK), []
-    low, high = np.searchsorted(bounds, bounds[0] + least), np.searchsorted(bounds, bounds[-1] - least, side="right") - 1
+    low, high = (
+        np.searchsorted(bounds, bounds[0] + least),
+        np.searchsorted(bounds, bounds[-1] - least, side="right") - 1,
+    )
     for first, last in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
         first, last = max(first, int(low)) if first else 0, min(last, int(high)) if last < len(fast) else last
         if last > first and bounds[last] - bounds[first] >= least:

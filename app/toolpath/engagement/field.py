@@ -1,4 +1,6 @@
-"""The metal that the engagement of one tool is measured in: heights of square cells along its path, cut in the order of the moves."""
+"""The metal that the engagement of one tool is measured in: heights of square cells along its path, cut in the order of
+the moves.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ _MOST_INDEXED = 1 << 24
 """Tiles in the rectangle round all moves."""
 
 _INSIDE = math.sqrt(0.5) + 1e-6
-"""Cells by which the rim that is looked at lies inside the true one: what the cutter has gone over counts as cut up to there."""
+"""Cells by which the rim that is looked at lies inside the true one: what the cutter has gone over counts as cut up to
+there.
+"""
 
 _SLICE = 1 << 13
 """Places between two looks at whether to stop."""
@@ -58,7 +62,9 @@ class Field:
     index: NDArray[np.int32]
 
     @staticmethod
-    def along(moves: Moves, radii: tuple[float, float], stock: StockBox, places: Callable[[], Iterable[Floats]]) -> Field:
+    def along(
+        moves: Moves, radii: tuple[float, float], stock: StockBox, places: Callable[[], Iterable[Floats]]
+    ) -> Field:
         """Return the uncut field along the path of a tool.
 
         Args:
@@ -98,7 +104,9 @@ class Field:
     def engaged(self, rows: Floats, progress: Progress) -> Floats:
         """Return the engaged share (n,) of the tool's diameter at places (n, 6) of its path, which is cut."""
         inner = max(self.radius - _INSIDE * self.pitch, 0.25 * self.radius)
-        lag = math.sqrt((2 * self.radius - inner) ** 2 - inner * inner)  # no cell under the front half is cut from farther behind
+        lag = math.sqrt(
+            (2 * self.radius - inner) ** 2 - inner * inner
+        )  # no cell under the front half is cut from farther behind
         count = max(32, math.ceil(2 * math.pi * self.radius / self.pitch))
         angle = (np.arange(count) + 0.5) / count * np.pi - np.pi / 2
         return self._led(rows, (self.radius, inner, lag), np.column_stack([np.cos(angle), np.sin(angle)]), progress)

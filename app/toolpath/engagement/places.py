@@ -1,8 +1,9 @@
-"""Where along its path a cutter is looked at: places in the order of cutting, and the cells of path that they stand for.
+"""Where along its path a cutter is looked at: places in the order of cutting, and the cells of path that they stand
+for.
 
-A chain is a run of cutting moves that go somewhere in the plane, without a lift between them. It is divided by its own length,
-wherever its moves begin and end: into blocks, and these into cells, each looked at in its middle. So a path that is cut into more
-moves is looked at in the same places.
+A chain is a run of cutting moves that go somewhere in the plane, without a lift between them. It is divided by its own
+length, wherever its moves begin and end: into blocks, and these into cells, each looked at in its middle. So a path
+that is cut into more moves is looked at in the same places.
 """
 
 from __future__ import annotations
@@ -45,8 +46,8 @@ class Places:
     Attributes:
         moves: (k,) indices of the moves.
         begin, end: (k,) their positions; alike for those that go straight down.
-        rows: (n, 6) x, y, z, position, direction of travel (0, 0 = only cut there), in the order of cutting, and one at the end
-            that lies behind all others, so that these are all cut.
+        rows: (n, 6) x, y, z, position, direction of travel (0, 0 = only cut there), in the order of cutting, and one at
+            the end that lies behind all others, so that these are all cut.
         seen: (m,) rows that have a direction, one a cell.
         first, last: (m,) positions between which each cell lies.
         block: (m,) number of its block, from 0, not falling.
@@ -100,7 +101,9 @@ def runs(moves: Moves, cell: dict[int, float]) -> Iterator[Indices]:
 
 
 def chain_begins(chosen: Indices, flat: Floats) -> NDArray[np.bool_]:
-    """Tell which of some cutting moves (indices in order, lengths in the plane) begin a chain; one straight down is alone."""
+    """Tell which of some cutting moves (indices in order, lengths in the plane) begin a chain; one straight down is
+    alone.
+    """
     still = flat <= 0
     apart = np.diff(chosen) != 1
     return np.concatenate([[True], apart | still[1:] | still[:-1]])
@@ -124,7 +127,11 @@ def places(moves: Moves, chosen: Indices, radius: float) -> Places:
     first, size, block = _cells(begin[starts], end[stops] - begin[starts], radius)
     middle = first + size / 2
     going = np.flatnonzero(flat > 0)
-    own = going[np.minimum(np.searchsorted(end[going], middle), max(len(going) - 1, 0))] if len(going) else np.zeros(0, np.int64)
+    own = (
+        going[np.minimum(np.searchsorted(end[going], middle), max(len(going) - 1, 0))]
+        if len(going)
+        else np.zeros(0, np.int64)
+    )
     at = np.clip((middle - begin[own]) / flat[own], 0.0, 1.0) if len(own) else np.zeros(0)
     looks = _looks(rows[own], at, _heights(moves, chosen[own], at), middle)
     stamps = _stamps(moves, chosen, (rows, flat, begins), (begin, end))
@@ -133,7 +140,17 @@ def places(moves: Moves, chosen: Indices, radius: float) -> Places:
     tail = np.array([[0.0, 0.0, 0.0, math.inf, 0.0, 0.0]])
     seen = np.empty(len(order), np.int64)
     seen[order] = np.arange(len(order))
-    return Places(chosen, begin, end, np.concatenate([every[order], tail]), seen[:len(looks)], first, first + size, block, chosen[own])
+    return Places(
+        chosen,
+        begin,
+        end,
+        np.concatenate([every[order], tail]),
+        seen[: len(looks)],
+        first,
+        first + size,
+        block,
+        chosen[own],
+    )
 
 
 def _cells(begin: Floats, length: Floats, radius: float) -> tuple[Floats, Floats, Indices]:
@@ -168,20 +185,30 @@ def _ahead(rows: Rows, points: Floats) -> Floats:
     return np.asarray(ahead / np.maximum(np.hypot(*ahead.T), 1e-300)[:, None])
 
 
-def _stamps(moves: Moves, chosen: Indices, path: tuple[Rows, Floats, NDArray[np.bool_]], positions: tuple[Floats, Floats]) -> Floats:
+def _stamps(
+    moves: Moves, chosen: Indices, path: tuple[Rows, Floats, NDArray[np.bool_]], positions: tuple[Floats, Floats]
+) -> Floats:
     """Return the places that are only cut: ends of chains, corners, and what goes straight down."""
     (rows, flat, begins), (begin, end) = path, positions
     last = np.append(begins[1:], True)
     setting_out, arriving = _ahead(rows, rows[:, :2]), _ahead(rows, rows[:, 2:4])
-    turn = np.abs(np.arctan2(arriving[:-1, 0] * setting_out[1:, 1] - arriving[:-1, 1] * setting_out[1:, 0],
-                             np.sum(arriving[:-1] * setting_out[1:], axis=1)))
+    turn = np.abs(
+        np.arctan2(
+            arriving[:-1, 0] * setting_out[1:, 1] - arriving[:-1, 1] * setting_out[1:, 0],
+            np.sum(arriving[:-1] * setting_out[1:], axis=1),
+        )
+    )
     corner = np.append(turn > _CORNER, False) & ~last
     going = flat > 0
     at_start, at_end = begins & going, (last & going) | corner | ~going
     z0, z1 = moves.start[chosen, 2], moves.end[chosen, 2]
     lowest = np.where(going, z1, np.minimum(z0, z1))
     count = int(at_start.sum() + at_end.sum())
-    return np.column_stack([
-        np.concatenate([rows[at_start, :2], rows[at_end, 2:4]]), np.concatenate([z0[at_start], lowest[at_end]]),
-        np.concatenate([begin[at_start], end[at_end]]), np.zeros((count, 2)),
-    ])  # fmt: skip
+    return np.column_stack(
+        [
+            np.concatenate([rows[at_start, :2], rows[at_end, 2:4]]),
+            np.concatenate([z0[at_start], lowest[at_end]]),
+            np.concatenate([begin[at_start], end[at_end]]),
+            np.zeros((count, 2)),
+        ]
+    )

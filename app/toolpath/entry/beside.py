@@ -1,4 +1,6 @@
-"""Entries from the side: straight down on ground that is cut as deep near a path's beginning, and on to it from there."""
+"""Entries from the side: straight down on ground that is cut as deep near a path's beginning, and on to it from
+there.
+"""
 
 from __future__ import annotations
 
@@ -39,13 +41,17 @@ def from_cleared(stroke: Stroke, z: float, ground: Ground) -> Stroke:
 
 
 def _places(start: Point, z: float, ground: Ground) -> list[Point]:
-    """Return places round a path's beginning, the nearest first, and the nearest one of all that were cut along; none if all are far."""
+    """Return places round a path's beginning, the nearest first, and the nearest one of all that were cut along; none
+    if all are far.
+    """
     radius = ground.tool.radius
     gap, row = ground.cleared.nearest(start, z)
     if row is None or gap > (_AWAY[-1] - 1) * radius:
         return []
     angles = [math.tau * k / _DIRECTIONS for k in range(_DIRECTIONS)]
     x, y = start
-    places = [(x + part * radius * math.cos(angle), y + part * radius * math.sin(angle)) for part in _AWAY for angle in angles]
+    places = [
+        (x + part * radius * math.cos(angle), y + part * radius * math.sin(angle)) for part in _AWAY for angle in angles
+    ]
     fx, fy = foot(row[None], np.array([start]))[0].tolist()
     return sorted([*places, (fx, fy)], key=lambda place: math.dist(place, start))

@@ -26,10 +26,14 @@ _ABOVE = 0.2
 """mm above the stock's top at which helix and ramp begin."""
 
 _HELIX = (0.9, 0.7, 0.5)
-"""Radii of a helix that are tried, in cutter's radii: wide enough for a cutter that does not cut at its centre, and no post stands."""
+"""Radii of a helix that are tried, in cutter's radii: wide enough for a cutter that does not cut at its centre, and no
+post stands.
+"""
 
 _SHORTEST = 1.0
-"""Cutter's radii that a ramp reaches at least from where it begins; over less a cutter's centre stays over one place."""
+"""Cutter's radii that a ramp reaches at least from where it begins; over less a cutter's centre stays over one
+place.
+"""
 
 _MOST_ROWS = 20_000
 """Rows of one way down; a path so short that it takes more has no ramp."""
@@ -66,7 +70,9 @@ class Ground:
     tabs: Sequence[Tab] = ()
 
     def allowed(self, place: Point) -> float:
-        """Return how near to walls an entry at the beginning of a path may come: no nearer than the path does there, mm."""
+        """Return how near to walls an entry at the beginning of a path may come: no nearer than the path does there,
+        mm.
+        """
         here = float(self.walls.nearest(np.array([place]))[0][0])
         return max(min(self.keep, here), self.keep - tolerances.LEVEL) - _EXACT
 
@@ -93,7 +99,9 @@ class Descent:
 
 
 def descent(stroke: Stroke, z: float, kind: EntryKind, ground: Ground) -> Descent:
-    """Return the way down to the beginning of a stroke that is cut at z: of the kind that is wanted, or the next best that fits."""
+    """Return the way down to the beginning of a stroke that is cut at z: of the kind that is wanted, or the next best
+    that fits.
+    """
     found = _helix(stroke, z, ground) if kind in (EntryKind.HELIX, EntryKind.PREDRILLED) else None
     if found is None and kind is not EntryKind.PLUNGE:
         found = _ramp(stroke, z, ground)
@@ -104,7 +112,9 @@ def descent(stroke: Stroke, z: float, kind: EntryKind, ground: Ground) -> Descen
 
 
 def _above(metal: float) -> float:
-    """Return from which height an entry goes into metal that is so high: ground that was cut is where it is said to be."""
+    """Return from which height an entry goes into metal that is so high: ground that was cut is where it is said to
+    be.
+    """
     return _ABOVE if metal >= 0 else metal
 
 
@@ -141,7 +151,11 @@ def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground
     radius, side, centre = circle
     x, y = centre.tolist()
     disc = (x, y, radius + ground.tool.radius)
-    metal = ground.cleared.wells[disc] if disc in ground.cleared.wells else ground.cleared.floor(ground.tool, (x, y), radius)
+    metal = (
+        ground.cleared.wells[disc]
+        if disc in ground.cleared.wells
+        else ground.cleared.floor(ground.tool, (x, y), radius)
+    )
     top = _above(metal)
     count = max(1, math.ceil((top - z) / (math.tau * radius * math.tan(ground.entry.angle)) - 1e-9))
     across = 2 * centre - np.array(stroke.start)
@@ -185,8 +199,11 @@ def _round(stroke: Stroke, z: float, top: float, long: float) -> Descent | None:
     if (turns + 1) * len(stroke.rows) > _MOST_ROWS:
         return None
     first, rest = _at(stroke, long - turns * whole)
-    path = replace(stroke, rows=np.concatenate([np.tile(stroke.rows, (turns, 1)), first.rows]),
-                   purpose=np.zeros(turns * len(stroke.rows) + len(first.rows), np.uint8))
+    path = replace(
+        stroke,
+        rows=np.concatenate([np.tile(stroke.rows, (turns, 1)), first.rows]),
+        purpose=np.zeros(turns * len(stroke.rows) + len(first.rows), np.uint8),
+    )
     return Descent(EntryKind.RAMP, top, path, _falling(path.rows, top, z), rest.and_then(first))
 
 
@@ -199,7 +216,9 @@ def _free_head(stroke: Stroke, z: float) -> Stroke:
 
 
 def _at(stroke: Stroke, long: float) -> tuple[Stroke, Stroke]:
-    """Return a stroke's beginning of a length, or a little more where that spares a crumb of a row, and the rest of it."""
+    """Return a stroke's beginning of a length, or a little more where that spares a crumb of a row, and the rest of
+    it.
+    """
     size = lengths(stroke.rows)
     ends = np.cumsum(size)
     row = min(int(np.searchsorted(ends, long - 1e-9)), len(ends) - 1)

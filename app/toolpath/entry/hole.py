@@ -56,11 +56,15 @@ def drilled(moves: Moves, tools: Mapping[int, Tool]) -> tuple[Hole, ...]:
 
 def usable(holes: Sequence[Hole], ground: Ground, floor: float) -> tuple[Hole, ...]:
     """Return the holes that a cutter can go straight down in to a height, mm."""
-    return tuple(hole for hole in holes if hole.radius >= _WIDE * ground.tool.radius - _SAME and hole.bottom <= floor + _SAME)
+    return tuple(
+        hole for hole in holes if hole.radius >= _WIDE * ground.tool.radius - _SAME and hole.bottom <= floor + _SAME
+    )
 
 
 def from_hole(stroke: Stroke, holes: Sequence[Hole], ground: Ground) -> Stroke:
-    """Return a stroke that begins in a hole and goes straight to where it began before, or the stroke itself where that cannot be."""
+    """Return a stroke that begins in a hole and goes straight to where it began before, or the stroke itself where that
+    cannot be.
+    """
     if not holes:
         return stroke
     places = np.array([hole.place for hole in holes])
@@ -79,8 +83,12 @@ def from_hole(stroke: Stroke, holes: Sequence[Hole], ground: Ground) -> Stroke:
         if away[k] < _SAME:
             return begun
         if ground.beside and keeps_off_walls(holes[k].place, begun.start, ground):
-            slot = replace(begun, rows=np.array([[*holes[k].place, *begun.start, 0.0, 0.0, 0.0, 0.0]]),
-                           purpose=np.array([Purpose.LINK], np.uint8), least_z=None)
+            slot = replace(
+                begun,
+                rows=np.array([[*holes[k].place, *begun.start, 0.0, 0.0, 0.0, 0.0]]),
+                purpose=np.array([Purpose.LINK], np.uint8),
+                least_z=None,
+            )
             return slot.and_then(begun)
     return stroke
 

@@ -30,7 +30,9 @@ class Entries:
         said = [_said(kind, *self.others[kind], _reason(asked, kind)) for kind in kinds]
         x, y = self.others[kinds[0]][1]
         text = f"T{tool.number} {tool.label}: {'; '.join(said)}."
-        return (Finding(FindingKind.ENTRY, text, x, y, counts=False, amount=float(sum(n for n, _ in self.others.values()))),)
+        return (
+            Finding(FindingKind.ENTRY, text, x, y, counts=False, amount=float(sum(n for n, _ in self.others.values()))),
+        )
 
 
 _WORDS = {EntryKind.PLUNGE: "straight down", EntryKind.RAMP: "a ramp along the path", EntryKind.HELIX: "a helix"}

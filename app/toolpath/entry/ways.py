@@ -37,7 +37,9 @@ Place = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """A path over ground that is cut, and the height of the pass at which it goes, mm; no rows = straight up or nothing."""
+    """A path over ground that is cut, and the height of the pass at which it goes, mm; no rows = straight up or
+    nothing.
+    """
 
     path: Stroke
     height: float
@@ -46,7 +48,8 @@ class Way:
 def way_straight(stroke: Stroke, here: Place, air: tuple[float, float], ground: Ground, feed: float) -> Way | None:
     """Return the straight way to where a stroke begins, if it is clear, and quicker than through the air.
 
-    All of it lies on ground that is cut as deep, and nowhere is it nearer to a wall than its ends or than a path may be.
+    All of it lies on ground that is cut as deep, and nowhere is it nearer to a wall than its ends or than a path may
+    be.
 
     Args:
         here: where the tool is, mm.
@@ -72,11 +75,14 @@ def keeps_off_walls(a: Point, b: Point, ground: Ground) -> bool:
     walls = ground.walls
     ends = float(walls.nearest(np.array([a, b]))[0].min())
     keep = max(min(ground.keep, ends), ground.keep - tolerances.LEVEL)
-    return bool(kernels.keeps_off(walls.rows, walls.order, walls.nodes, np.array([*a, *b], np.float64), keep, _SLACK, _STEPS))
+    return bool(
+        kernels.keeps_off(walls.rows, walls.order, walls.nodes, np.array([*a, *b], np.float64), keep, _SLACK, _STEPS)
+    )
 
 
 def way_back(stroke: Stroke, z: float, air: tuple[float, float], feed: float) -> Way | None:
-    """Return the way from the end of a stroke that was just cut at z to its beginning along itself, if quicker than through the air.
+    """Return the way from the end of a stroke that was just cut at z to its beginning along itself, if quicker than
+    through the air.
 
     Where it passes its beginning again, behind its lead-in, that is the end of it and the lead-in alone.
     """
@@ -84,7 +90,9 @@ def way_back(stroke: Stroke, z: float, air: tuple[float, float], feed: float) ->
     found = _tail(stroke, lead)
     back = stroke.backwards() if found is None else found.backwards().and_then(stroke.part(0, lead).backwards())
     seconds = float(lengths(back.rows).sum()) / feed * 60
-    if not len(back.rows) or seconds > _lift_seconds((*stroke.end, float(stroke.heights(z)[-1])), stroke.start, air, feed):
+    if not len(back.rows) or seconds > _lift_seconds(
+        (*stroke.end, float(stroke.heights(z)[-1])), stroke.start, air, feed
+    ):
         return None
     return Way(replace(back, purpose=np.full(len(back.rows), Purpose.LINK, np.uint8)), z)
 

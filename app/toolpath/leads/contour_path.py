@@ -20,7 +20,9 @@ _SNAP = 1e-6
 """mm; a break this near to the end of a row is the end of the row."""
 
 _STEP = 1e-3
-"""mm; the shortest step of the proof that a move keeps clear: between such places clearance cannot fall by more than 1e-6 mm unseen."""
+"""mm; the shortest step of the proof that a move keeps clear: between such places clearance cannot fall by more than
+1e-6 mm unseen.
+"""
 
 _MISS = 1e-6
 """mm by which a computed clearance may fall short."""
@@ -35,7 +37,8 @@ class Path:
         closed: True when it ends where it begins.
         region: number of its region, 0 = none.
         rank: how many other contours lie round it; what lies inside is cut first.
-        area: that it encloses, or the ring that it was cut out of, mm2; negative when the area to machine lies round it; 0 of open lines.
+        area: that it encloses, or the ring that it was cut out of, mm2; negative when the area to machine lies round
+            it; 0 of open lines.
         loop: number of the drawn loop that it follows or was cut out of; 0 of rings and open lines.
     """
 
@@ -135,7 +138,9 @@ class Paths:
     @staticmethod
     def of(paths: Sequence[Path]) -> Paths:
         """Return some paths as one."""
-        return Paths(Outlines.joined([path.rows for path in paths]), np.array([path.closed for path in paths], np.bool_))
+        return Paths(
+            Outlines.joined([path.rows for path in paths]), np.array([path.closed for path in paths], np.bool_)
+        )
 
     @cached_property
     def ends(self) -> Floats:

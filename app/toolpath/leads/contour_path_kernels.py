@@ -15,7 +15,8 @@ def running_sums(values, first, out):
 
 @kernel("void(float64[::1], int64[::1], int64[::1], float64[::1], boolean, int64[::1])")
 def counts_below(values, first, run, asked, equal, out):
-    """Write for each number (m,) that is asked for how many values of a run, in rising order, are less than it, or equal.
+    """Write for each number (m,) that is asked for how many values of a run, in rising order, are less than it, or
+    equal.
 
     Args:
         run: (m,) number of the run, from first[run] up to first[run + 1], of each that is asked for.

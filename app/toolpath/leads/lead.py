@@ -65,8 +65,8 @@ class Run:
     """A path with its beginning, its end and its leads.
 
     Attributes:
-        start, stop: where it begins and ends, mm along the path; a closed one goes on past its beginning by the overlap.
-        way_in, way_out: (0 or 1, 8) rows to the wall and away from it.
+        start, stop: where it begins and ends, mm along the path; a closed one goes on past its beginning by the
+        overlap. way_in, way_out: (0 or 1, 8) rows to the wall and away from it.
         share: how large the leads are against what was wanted; 0 = there are none.
         bent: True for arcs.
     """
@@ -80,15 +80,20 @@ class Run:
     bent: bool
 
 
-def runs(paths: Sequence[Path], taken: Sequence[Sequence[tuple[float, float]]], around: Around,
-         wished: Sequence[Sequence[float]] = ()) -> tuple[Run, ...]:
+def runs(
+    paths: Sequence[Path],
+    taken: Sequence[Sequence[tuple[float, float]]],
+    around: Around,
+    wished: Sequence[Sequence[float]] = (),
+) -> tuple[Run, ...]:
     """Return each path with its beginning and its leads.
 
-    A lead is tried at several beginnings of a closed path, the best first, then smaller, then as a straight line; every one is
-    proven clear along all of its length. What does not fit is left out.
+    A lead is tried at several beginnings of a closed path, the best first, then smaller, then as a straight line; every
+    one is proven clear along all of its length. What does not fit is left out.
 
     Args:
-        taken: for each path (from, to) that its beginning, its end and its leads keep out of, mm along it, such as tabs.
+        taken: for each path (from, to) that its beginning, its end and its leads keep out of, mm along it, such as
+            tabs.
         wished: for each path beginnings that are better than all others, mm along it; () = none.
     """
     starts = _starts(paths, around, taken)
@@ -99,17 +104,24 @@ def runs(paths: Sequence[Path], taken: Sequence[Sequence[tuple[float, float]]], 
     for bent, share in _tries(around):
         if share * around.size < _LEAST:
             continue
-        for turn in range(max(map(len, starts), default=0)):  # the best beginning of every path, then the next of those still without
+        for turn in range(
+            max(map(len, starts), default=0)
+        ):  # the best beginning of every path, then the next of those still without
             asked = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
             for k, start, way in _fitting(joined, asked, around, (bent, share)):
                 made[k] = Run(paths[k], start, _stop(paths[k], start, around), way[:1], way[1:], share, bent)
     none = np.zeros((0, 8))
-    return tuple(made.get(k) or Run(path, starts[k][0], _stop(path, starts[k][0], around), none, none, 0.0, False)
-                 for k, path in enumerate(paths))  # fmt: skip
+    return tuple(
+        made.get(k) or Run(path, starts[k][0], _stop(path, starts[k][0], around), none, none, 0.0, False)
+        for k, path in enumerate(paths)
+    )
 
 
-def _fitting(paths: Paths, asked: Sequence[tuple[int, float]], around: Around, how: tuple[bool, float]) -> list[tuple[int, float, Rows]]:
-    """Return the beginnings (path, mm along it) both of whose leads are clear all along, and their rows (2, 8): to the wall, away from it.
+def _fitting(
+    paths: Paths, asked: Sequence[tuple[int, float]], around: Around, how: tuple[bool, float]
+) -> list[tuple[int, float, Rows]]:
+    """Return the beginnings (path, mm along it) both of whose leads are clear all along, and their rows (2, 8): to the
+    wall, away from it.
 
     Leads keep off as the path does: where it lies nearer itself, by what it may miss its distance, as near as it.
 
@@ -122,12 +134,18 @@ def _fitting(paths: Paths, asked: Sequence[tuple[int, float]], around: Around, h
     points, ahead = _spots(paths, number, start, around)
     ways = _ways(points, ahead, around, how)
     near = around.field.nearest(points.reshape(-1, 2))[0].reshape(-1, 2).min(axis=1)
-    good = keep_clear(around.field, ways.reshape(-1, 8), np.repeat(np.minimum(around.need, near), 2)).reshape(-1, 2).all(axis=1)
+    good = (
+        keep_clear(around.field, ways.reshape(-1, 8), np.repeat(np.minimum(around.need, near), 2))
+        .reshape(-1, 2)
+        .all(axis=1)
+    )
     return [(*asked[k], ways[k]) for k in np.flatnonzero(good).tolist()]
 
 
 def _spots(paths: Paths, number: Indices, start: Floats, around: Around) -> tuple[Floats, Floats]:
-    """Return beginning and end (k, 2, 2) of paths that begin at places (k,), mm along them, and the directions there."""
+    """Return beginning and end (k, 2, 2) of paths that begin at places (k,), mm along them, and the directions
+    there.
+    """
     length, closed, rows = paths.lengths[number], paths.closed[number], paths.outlines.rows
     stop = np.where(closed, start + length + np.minimum(_overlap(around), length / 2), length)
     both, ends = np.repeat(number, 2), np.stack([start, stop], 1).ravel()
@@ -137,7 +155,9 @@ def _spots(paths: Paths, number: Indices, start: Floats, around: Around) -> tupl
 
 
 def _ways(points: Floats, ahead: Floats, around: Around, how: tuple[bool, float]) -> Rows:
-    """Return the rows (k, 2, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes them."""
+    """Return the rows (k, 2, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes
+    them.
+    """
     aside = left_of(ahead.reshape(-1, 2)).reshape(ahead.shape) * around.away
     bent, share = how
     size = share * around.size
@@ -177,7 +197,9 @@ def _overlap(around: Around) -> float:
 
 
 def _starts(paths: Sequence[Path], around: Around, taken: Sequence[Sequence[tuple[float, float]]]) -> list[list[float]]:
-    """Return places where each path may begin, the best first: far from corners, on straight rows, where there is room."""
+    """Return places where each path may begin, the best first: far from corners, on straight rows, where there is
+    room.
+    """
     found = [[0.0] for _ in paths]
     number = [k for k, path in enumerate(paths) if path.closed]
     closed = Paths.of([paths[k] for k in number])
@@ -193,16 +215,18 @@ def _starts(paths: Sequence[Path], around: Around, taken: Sequence[Sequence[tupl
     order = np.lexsort((-_score(closed, owner, places, corners, around), owner))
     places, bounds = places[order], np.searchsorted(owner, np.arange(len(number) + 1))
     for k, own in enumerate(number):
-        best = places[bounds[k]:bounds[k + 1]][:_TRIED].tolist()
+        best = places[bounds[k] : bounds[k + 1]][:_TRIED].tolist()
         found[own] = best or [_freest(paths[own], taken[own])]
     return found
 
 
 def _middles(paths: Paths, corners: tuple[Floats, Indices]) -> tuple[Indices, Floats]:
-    """Return (path, mm along it), path by path, of the middles of all rows, and of what lies between one corner and the next."""
+    """Return (path, mm along it), path by path, of the middles of all rows, and of what lies between one corner and the
+    next.
+    """
     at, first = corners
     owner = np.repeat(np.arange(len(first) - 1), np.diff(first))
-    following = np.append(at[1:], 0.0)[:len(at)]
+    following = np.append(at[1:], 0.0)[: len(at)]
     last = first[1:][np.diff(first) > 0] - 1
     following[last] = at[first[:-1][np.diff(first) > 0]] + paths.lengths[owner[last]]
     between = (at + (following - at) / 2) % paths.lengths[owner]
@@ -212,7 +236,9 @@ def _middles(paths: Paths, corners: tuple[Floats, Indices]) -> tuple[Indices, Fl
 
 
 def _score(paths: Paths, path: Indices, places: Floats, corners: tuple[Floats, Indices], around: Around) -> Floats:
-    """Return how good places are to begin at: up to 1 for the way to the next corner, as much for room, a little for straight rows."""
+    """Return how good places are to begin at: up to 1 for the way to the next corner, as much for room, a little for
+    straight rows.
+    """
     row, _ = paths.rows_at(path, places)
     length = paths.lengths[path]
     far = _to_corners(path, places, corners, length)
@@ -225,7 +251,9 @@ def _score(paths: Paths, path: Indices, places: Floats, corners: tuple[Floats, I
 
 
 def _to_corners(path: Indices, places: Floats, corners: tuple[Floats, Indices], length: Floats) -> Floats:
-    """Return how far it is from places to the nearest corner along their path, mm; all of the path where it has none."""
+    """Return how far it is from places to the nearest corner along their path, mm; all of the path where it has
+    none.
+    """
     at, first = corners
     count = np.diff(first)[path]
     after = np.empty(len(places), np.int64)
@@ -238,7 +266,8 @@ def _to_corners(path: Indices, places: Floats, corners: tuple[Floats, Indices], 
 
 
 def corners_of(path: Path, around: Around, least: float) -> Floats:
-    """Return where the corners of a closed path are, in order, mm along it: joints that turn, and where it goes round corners of the wall.
+    """Return where the corners of a closed path are, in order, mm along it: joints that turn, and where it goes round
+    corners of the wall.
 
     Args:
         least: a joint that turns less is none, radians.
@@ -247,7 +276,9 @@ def corners_of(path: Path, around: Around, least: float) -> Floats:
 
 
 def _corners(paths: Paths, around: Around, least: float) -> tuple[Floats, Indices]:
-    """Return the corners of all of some closed paths, one path after the other, and (m + 1,) where those of each begin."""
+    """Return the corners of all of some closed paths, one path after the other, and (m + 1,) where those of each
+    begin.
+    """
     rows, size, owner = paths.outlines.rows, paths.outlines.sizes, paths.outlines.owner
     begin = paths.ends - size
     rounding = (rows[:, TURN] == -around.away) & (np.abs(rows[:, R] - around.need) < _SAME)
@@ -297,10 +328,16 @@ def about_leads(made: Sequence[Run], around: Around) -> list[Finding]:
     if not none and not other:
         return []
     x, y = points_at((none or other)[0].path.rows[:1], np.zeros(1))[0]
-    said = [f"{len(some)} {'has' if len(some) == 1 else 'have'} {what}"
-            for some, what in ((other, "smaller or straight leads"), (none, "no leads")) if some]  # fmt: skip
-    text = (f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, {' and '.join(said)}, "
-            f"because walls and clamps leave no room for more; the first is at ({x:.3f}, {y:.3f}).")
+    said = [
+        f"{len(some)} {'has' if len(some) == 1 else 'have'} {what}"
+        for some, what in ((other, "smaller or straight leads"), (none, "no leads"))
+        if some
+    ]
+    text = (
+        f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
+        f"{' and '.join(said)}, "
+        f"because walls and clamps leave no room for more; the first is at ({x:.3f}, {y:.3f})."
+    )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(none) + len(other)))]
 
 
@@ -311,7 +348,11 @@ def about_overlaps(made: Sequence[Run], around: Around) -> list[Finding]:
     if not short:
         return []
     x, y = points_at(short[0].path.rows[:1], np.zeros(1))[0]
-    text = (f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, {len(short)} "
-            f"{'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the {wanted:g} mm asked for; "
-            f"the first is at ({x:.3f}, {y:.3f}).")
+    text = (
+        f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
+        f"{len(short)} "
+        f"{'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the {wanted:g} mm "
+        "asked for; "
+        f"the first is at ({x:.3f}, {y:.3f})."
+    )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(short)))]

@@ -57,9 +57,11 @@ class TabShape:
         return (self.wanted.width + self.tool.diameter) / 2
 
 
-def by_hand(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point],
-            walls: DistanceField | None) -> tuple[list[list[float]], list[Finding]]:  # fmt: skip
-    """Return for each path where tabs are put by hand, mm along it, at what is nearest to each place, on every copy; and which are not.
+def by_hand(
+    paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point], walls: DistanceField | None
+) -> tuple[list[list[float]], list[Finding]]:
+    """Return for each path where tabs are put by hand, mm along it, at what is nearest to each place, on every copy;
+    and which are not.
 
     A path that is too short for a tab gets none; it counts where a part comes loose there.
 
@@ -81,18 +83,22 @@ def by_hand(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point],
             found[path].append(float(near[path][0][k]))
             continue
         x, y = places[k].tolist()
-        text = (f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} nearest to it is "
-                f"{paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm.")
+        text = (
+            f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} "
+            "nearest to it is "
+            f"{paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm."
+        )
         told.append(Finding(FindingKind.LEFT_OUT, text, x, y, counts=paths[path].area < 0, amount=paths[path].length))
     return found, told
 
 
 def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> list[float]:
-    """Return where an operation's tabs go on a path that goes round something, mm along it, besides those that are put there by hand.
+    """Return where an operation's tabs go on a path that goes round something, mm along it, besides those that are put
+    there by hand.
 
-    A path that clamps cut open gets as many as a whole one; open lines get none. They are spread evenly over what the leads leave, then
-    each is moved off corners as little as possible. Between two tabs at least a cutter's width is cut; where that leaves no room for all
-    of them there are fewer.
+    A path that clamps cut open gets as many as a whole one; open lines get none. They are spread evenly over what the
+    leads leave, then each is moved off corners as little as possible. Between two tabs at least a cutter's width is
+    cut; where that leaves no room for all of them there are fewer.
 
     Args:
         own: where tabs by hand are.
@@ -139,7 +145,9 @@ def _in_spans(places: Floats, spans: Sequence[tuple[float, float]], length: floa
 
 
 def _off_corners(path: Path, half: float, corners: Floats) -> list[tuple[float, float]]:
-    """Return (from, to), mm along a closed path, where a tab's middle may be with no corner under it; all of it where there is none."""
+    """Return (from, to), mm along a closed path, where a tab's middle may be with no corner under it; all of it where
+    there is none.
+    """
     edges = zip(corners, np.append(corners[1:], corners[:1] + path.length), strict=True)
     return [(float(a) + half, float(b) - half) for a, b in edges if b - a >= 2 * half] or [(0.0, path.length)]
 
@@ -150,33 +158,56 @@ def tabs_at(path: Path, places: Sequence[float], shape: TabShape) -> list[Tab]:
     return [Tab(float(x), float(y), shape.wanted.width, shape.top, shape.tool.diameter) for x, y in points]
 
 
-def about_tabs(made: Sequence[Run], tabs: Sequence[Sequence[float]], shape: TabShape, operation: ContourOperation) -> list[Finding]:
-    """Return what there is to say about tabs: which paths have fewer than asked for, and tabs that are as high as the cut is deep.
+def about_tabs(
+    made: Sequence[Run], tabs: Sequence[Sequence[float]], shape: TabShape, operation: ContourOperation
+) -> list[Finding]:
+    """Return what there is to say about tabs: which paths have fewer than asked for, and tabs that are as high as the
+    cut is deep.
 
-    It counts where a path round a part, from which it comes loose, has none at all; of one that clamps cut open, where no piece has any.
+    It counts where a path round a part, from which it comes loose, has none at all; of one that clamps cut open, where
+    no piece has any.
     """
     findings = []
     held = {run.path.ring for run, places in zip(made, tabs, strict=True) if places and not run.path.closed}
-    few = [(run.path, len(places)) for run, places in zip(made, tabs, strict=True)
-           if goes_round(run.path) and len(places) < shape.wanted.count]  # fmt: skip
+    few = [
+        (run.path, len(places))
+        for run, places in zip(made, tabs, strict=True)
+        if goes_round(run.path) and len(places) < shape.wanted.count
+    ]
     for loose in (True, False):
-        which = [path for path, count in few
-                 if (count == 0 and path.area < 0 and (path.closed or path.ring not in held)) == loose]  # fmt: skip
+        which = [
+            path
+            for path, count in few
+            if (count == 0 and path.area < 0 and (path.closed or path.ring not in held)) == loose
+        ]
         if which:
             x, y = which[0].rows[0, :2]
             what = "no tab though a part comes loose there" if loose else f"fewer than {shape.wanted.count} tabs"
             who = f"of T{shape.tool.number} {shape.tool.label}"
-            text = (f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})." if len(which) == 1 else
-                    f"{len(which)} paths {who} have {what}, because they are too short for them; the first begins at ({x:.3f}, {y:.3f}).")
-            findings.append(Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(which))))
+            text = (
+                f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})."
+                if len(which) == 1
+                else f"{len(which)} paths {who} have {what}, because they are too short for them; the first begins at "
+                f"({x:.3f}, {y:.3f})."
+            )
+            findings.append(
+                Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(which)))
+            )
     if shape.wanted.wanted and shape.wanted.height >= operation.cut.floor:
-        findings.append(Finding(FindingKind.LEFT_OUT, f"Tabs of {shape.wanted.height:g} mm are as high as the cut is deep "
-                                f"({operation.cut.floor:g} mm), so there the whole metal stays.", counts=False))
+        findings.append(
+            Finding(
+                FindingKind.LEFT_OUT,
+                f"Tabs of {shape.wanted.height:g} mm are as high as the cut is deep "
+                f"({operation.cut.floor:g} mm), so there the whole metal stays.",
+                counts=False,
+            )
+        )
     return findings
 
 
 def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -> list[Finding]:
-    """Return a finding for each place by hand that is far from every path, where it may not be what was meant; on copies too.
+    """Return a finding for each place by hand that is far from every path, where it may not be what was meant; on
+    copies too.
 
     The tab is made all the same, on what is nearest, since one too many holds and one too few does not.
     """
@@ -189,8 +220,11 @@ def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -
         worst = int(np.argmax(far))
         if far[worst] > _FAR * shape.tool.diameter:
             px, py = points[worst].tolist()
-            text = (f"The tab by hand at ({px:.3f}, {py:.3f}) is {far[worst]:.1f} mm from the nearest path of T{shape.tool.number} "
-                    f"{shape.tool.label}; it goes onto that, if it is long enough. Check its place.")
+            text = (
+                f"The tab by hand at ({px:.3f}, {py:.3f}) is {far[worst]:.1f} mm from the nearest path of "
+                f"T{shape.tool.number} "
+                f"{shape.tool.label}; it goes onto that, if it is long enough. Check its place."
+            )
             findings.append(Finding(FindingKind.LEFT_OUT, text, px, py, amount=float(far[worst])))
     return findings
 

@@ -49,11 +49,11 @@ def inward_bridges(levels: Sequence[Level], halves: Sequence[Level], field: Dist
             break
         target = RingField.of(outer.rings, first)
         first += len(outer.rings)
-        for number, some in ((first, levels[k + 1:k + 2]), (half_first, halves[k:k + 1])):
+        for number, some in ((first, levels[k + 1 : k + 2]), (half_first, halves[k : k + 1])):
             for inner in some:
                 for at, ring in enumerate(inner.rings, number):
                     bridges.extend(_from_ring(ring, at, target, field, inner.distance - outer.distance))
-        half_first += sum(len(half.rings) for half in halves[k:k + 1])
+        half_first += sum(len(half.rings) for half in halves[k : k + 1])
     return bridges
 
 
@@ -73,17 +73,23 @@ class RingField:
     @staticmethod
     def of(rings: Sequence[Ring], first: int) -> RingField:
         """Return the field of rings, one or more, numbered from `first`."""
-        return RingField(DistanceField.of(np.concatenate([r.rows for r in rings])),
-                         np.repeat(np.arange(first, first + len(rings)), [len(r.rows) for r in rings]),
-                         np.concatenate([np.arange(len(r.rows)) for r in rings]))
+        return RingField(
+            DistanceField.of(np.concatenate([r.rows for r in rings])),
+            np.repeat(np.arange(first, first + len(rings)), [len(r.rows) for r in rings]),
+            np.concatenate([np.arange(len(r.rows)) for r in rings]),
+        )
 
     def nearest(self, point: NDArray[np.float64]) -> tuple[float, Place, NDArray[np.float64]]:
         """Return (distance, place, point there) of the nearest point (2,) of any ring."""
         distance, rows, parts, places = self.nearest_of(point[None])
         return float(distance[0]), self.place(int(rows[0]), float(parts[0])), places[0]
 
-    def nearest_of(self, points: NDArray[np.float64]) -> tuple[NDArray[np.float64], Indices, NDArray[np.float64], NDArray[np.float64]]:
-        """Return for points (n, 2) (distances (n,), rows of the field (n,), fractions of these (n,), points there (n, 2))."""
+    def nearest_of(
+        self, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], Indices, NDArray[np.float64], NDArray[np.float64]]:
+        """Return for points (n, 2) (distances (n,), rows of the field (n,), fractions of these (n,), points there (n,
+        2)).
+        """
         distance, found = self.field.nearest(points)
         rows = self.field.rows[found]
         parts = fractions_at(rows, points)
@@ -114,9 +120,11 @@ def _from_ring(ring: Ring, number: int, target: RingField, field: DistanceField,
 
 
 def outward(ring: Ring, number: int, targets: Sequence[tuple[float, RingField]], field: DistanceField) -> list[Bridge]:
-    """Return bridges in one straight line from a ring out to the outermost level, the innermost first; none if there is no such line.
+    """Return bridges in one straight line from a ring out to the outermost level, the innermost first; none if there is
+    no such line.
 
-    The way from a point to its nearest point on the drawing crosses all levels outside it, each as far from the next as they are.
+    The way from a point to its nearest point on the drawing crosses all levels outside it, each as far from the next as
+    they are.
 
     Args:
         number: the ring's.
@@ -155,8 +163,10 @@ def fractions_at(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]
     parts = np.clip((arm[:, 0] * along[:, 0] + arm[:, 1] * along[:, 1]) / np.where(square > 0, square, 1.0), 0.0, 1.0)
     if arc.any():
         rows, points = rows[arc], points[arc]
-        start, end, at = (np.arctan2(y - rows[:, CY], x - rows[:, CX]) for x, y in
-                          ((rows[:, X0], rows[:, Y0]), (rows[:, X1], rows[:, Y1]), (points[:, 0], points[:, 1])))  # fmt: skip
+        start, end, at = (
+            np.arctan2(y - rows[:, CY], x - rows[:, CX])
+            for x, y in ((rows[:, X0], rows[:, Y0]), (rows[:, X1], rows[:, Y1]), (points[:, 0], points[:, 1]))
+        )
         sweep, turn = ((angle - start) * rows[:, TURN] % math.tau for angle in (end, at))
         beyond = np.where(turn - sweep < math.tau - turn, 1.0, 0.0)
         parts[arc] = np.where(turn <= sweep, turn / np.where(sweep > 0, sweep, 1.0), beyond)
@@ -168,8 +178,9 @@ def fraction_at(row: Rows, point: NDArray[np.float64]) -> float:
     return float(fractions_at(row[None], point[None])[0])
 
 
-def level_bridges(rings: Sequence[Ring], some: Sequence[int], groups: Sequence[int], spacing: float,
-                  most: int | None = None) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
+def level_bridges(
+    rings: Sequence[Ring], some: Sequence[int], groups: Sequence[int], spacing: float, most: int | None = None
+) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
     """Yield candidates between some rings with their ends (2, 2), shortest first; clearance is not checked.
 
     The shortest tree through all rings is part of the Delaunay triangulation of points along them.

@@ -19,7 +19,9 @@ def clear_ways(rows, order, nodes, ways, distance, slack, budget, out):
         out[k] = keeps_off(rows, order, nodes, ways[k], distance, slack, budget)
 
 
-@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64, float64, boolean[::1])")
+@kernel(
+    "void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64[::1], float64, float64, boolean[::1])"
+)
 def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
     """Write for each row of a path (n, 8) whether it keeps `distance` - `slack` from all rows of a tree.
 
@@ -49,7 +51,10 @@ def clear_rows(rows, order, nodes, path, turn, distance, slack, out):
             at = min(at + spare, length)
 
 
-@kernel("int64(int64[::1], int64[::1], float64[::1], int64[::1], int64[:, ::1], float64, int64, int64[:, ::1], float64[::1])")
+@kernel(
+    "int64(int64[::1], int64[::1], float64[::1], int64[::1], int64[:, ::1], float64, int64, int64[:, ::1], "
+    "float64[::1])"
+)
 def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
     """Write (source, goal) and the cost of the way for the goals nearest to each source; return how many.
 
@@ -90,7 +95,9 @@ def nearest_goals(first, to, cost, label, sources, limit, most, found, costs):
 
 @kernel("int64(int64[::1], int64[::1], float64[::1], int64, int64, float64, int64[::1])")
 def cheapest_way(first, to, cost, start, goal, limit, out):
-    """Write the edges of the cheapest way from a node to another, last first; return how many (0 where there is none)."""
+    """Write the edges of the cheapest way from a node to another, last first; return how many (0 where there is
+    none).
+    """
     way = {start: 0.0}
     came = {start: np.int64(-1)}
     origin = {start: start}

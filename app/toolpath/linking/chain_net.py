@@ -51,15 +51,31 @@ class Corridor:
     def clear(self, ways: Floats) -> NDArray[np.bool_]:
         """Return whether straight ways (n, 4) keep off the walls."""
         out = np.empty(len(ways), np.bool_)
-        chain_kernels.clear_ways(self.walls.rows, self.walls.order, self.walls.nodes, np.ascontiguousarray(ways), self.closest,
-                                 SLACK, _STEPS, out)
+        chain_kernels.clear_ways(
+            self.walls.rows,
+            self.walls.order,
+            self.walls.nodes,
+            np.ascontiguousarray(ways),
+            self.closest,
+            SLACK,
+            _STEPS,
+            out,
+        )
         return out
 
     def clear_rows(self, path: Rows) -> NDArray[np.bool_]:
         """Return for each row (n, 8) of a path whether it keeps off the walls, within the tolerance of rings."""
         out = np.empty(len(path), np.bool_)
-        chain_kernels.clear_rows(self.walls.rows, self.walls.order, self.walls.nodes, np.ascontiguousarray(path), sweeps(path),
-                                 self.closest, tolerances.LEVEL, out)
+        chain_kernels.clear_rows(
+            self.walls.rows,
+            self.walls.order,
+            self.walls.nodes,
+            np.ascontiguousarray(path),
+            sweeps(path),
+            self.closest,
+            tolerances.LEVEL,
+            out,
+        )
         return out
 
     def in_air(self, ways: Floats) -> NDArray[np.bool_]:
@@ -167,12 +183,18 @@ def _along(chunks: Chunks, spots: Indices) -> tuple[Indices, Indices, Indices, I
     real = after != number
     a, b, count, size = number[real], after[real], count[real], size[real]
     kind = np.full(len(a), ALONG)
-    return (np.concatenate([a, b]), np.concatenate([b, a]), np.concatenate([kind, np.full(len(a), BACK)]),
-            np.concatenate([count, count]), np.concatenate([size, size]))
+    return (
+        np.concatenate([a, b]),
+        np.concatenate([b, a]),
+        np.concatenate([kind, np.full(len(a), BACK)]),
+        np.concatenate([count, count]),
+        np.concatenate([size, size]),
+    )
 
 
 def _across(spots: tuple[Floats, Indices], corridor: Corridor, longest: float) -> tuple[Indices, Indices]:
-    """Return (from, to) of straight ways between places near one another that are clear: edges of a Delaunay triangulation.
+    """Return (from, to) of straight ways between places near one another that are clear: edges of a Delaunay
+    triangulation.
 
     Args:
         spots: places (n, 2) and the ring of each; those that follow one another round a ring have their way along it.

@@ -1,8 +1,10 @@
-"""Chains: open runs joined to as few strokes as can be, over ground that is cut or along the rings, so that the tool seldom lifts.
+"""Chains: open runs joined to as few strokes as can be, over ground that is cut or along the rings, so that the tool
+seldom lifts.
 
-Always the two ends that are nearest to one another on the net of ways are joined, the end of one run to the beginning of another where
-runs have a sense. Ways become longer than else where that leaves more chains than if all runs went either way. A chain begins on ground
-that is cut, where there is any within its reach, so that the tool goes straight down there.
+Always the two ends that are nearest to one another on the net of ways are joined, the end of one run to the beginning
+of another where runs have a sense. Ways become longer than else where that leaves more chains than if all runs went
+either way. A chain begins on ground that is cut, where there is any within its reach, so that the tool goes straight
+down there.
 """
 
 from __future__ import annotations
@@ -29,12 +31,15 @@ _FAR = 24
 Floats = NDArray[np.float64]
 
 
-def chains(chunks: Chunks, runs: list[Run], corridor: Corridor, longest: float, progress: Progress = NO_PROGRESS) -> tuple[Stroke, ...]:
+def chains(
+    chunks: Chunks, runs: list[Run], corridor: Corridor, longest: float, progress: Progress = NO_PROGRESS
+) -> tuple[Stroke, ...]:
     """Return strokes that run through all runs.
 
     Args:
         chunks: the rings that runs are on.
-        longest: way from one run to the next, mm; where there is none as short the tool lifts. Metal counts half as much again.
+        longest: way from one run to the next, mm; where there is none as short the tool lifts. Metal counts half as
+            much again.
     """
     if not runs:
         return ()
@@ -103,7 +108,8 @@ class _Ties:
         return run
 
     def add(self, pairs: Indices, fewest: int) -> bool:
-        """Join pairs (n, 2) of ends, the last of a chain and the first of another one, where both are free; tell whether any was.
+        """Join pairs (n, 2) of ends, the last of a chain and the first of another one, where both are free; tell
+        whether any was.
 
         Args:
             pairs: the first ones first.
@@ -113,7 +119,14 @@ class _Ties:
         any_new = False
         for a, b in pairs.tolist():
             one, other = self.find(a // 2), self.find(b // 2)
-            if one == other or self.mate[a] >= 0 or self.mate[b] >= 0 or self.role[a] > 0 or self.role[b] < 0 or count == fewest:
+            if (
+                one == other
+                or self.mate[a] >= 0
+                or self.mate[b] >= 0
+                or self.role[a] > 0
+                or self.role[b] < 0
+                or count == fewest
+            ):
                 continue
             sense = min(self.role[a], -self.role[b])
             ends = self.other[a], self.other[b]
@@ -141,7 +154,9 @@ class _Ties:
 
 
 def _candidates(net: Net, tied: _Ties, longest: float) -> Indices:
-    """Return pairs of free ends, the last of a chain and the first of another, those with the cheapest ways between them first."""
+    """Return pairs of free ends, the last of a chain and the first of another, those with the cheapest ways between
+    them first.
+    """
     free = np.flatnonzero(tied.mate < 0)
     goals, free = free[tied.role[free] >= 0], free[tied.role[free] <= 0]
     chain = np.array([tied.find(end // 2) for end in free.tolist()], np.int64)
@@ -150,7 +165,9 @@ def _candidates(net: Net, tied: _Ties, longest: float) -> Indices:
     label[place[goals]] = [tied.find(end // 2) for end in goals.tolist()]
     first = np.full(len(net.places), -1)
     first[place[goals]] = goals
-    here = np.stack([free, first[place[free]], np.zeros(len(free), np.int64)], 1)  # ends that share a place with another one
+    here = np.stack(
+        [free, first[place[free]], np.zeros(len(free), np.int64)], 1
+    )  # ends that share a place with another one
     here = here[(here[:, 1] >= 0) & (here[:, 0] != here[:, 1])]
     sources = np.ascontiguousarray(np.stack([place[free], chain], 1))
     found, costs = np.empty((_MOST * len(free), 2), np.int64), np.empty(_MOST * len(free))
@@ -174,7 +191,8 @@ class _Thread:
         """Return the stroke through runs, each given by the end at which it begins.
 
         Args:
-            sense: False: it may as well be cut the other way. Otherwise it is only where it begins on cut ground that way alone.
+            sense: False: it may as well be cut the other way. Otherwise it is only where it begins on cut ground that
+                way alone.
         """
         back = [end ^ 1 for end in reversed(chain)]
         (way, cost), other = self._way_down(chain[0]), self._way_down(back[0])
@@ -201,14 +219,17 @@ class _Thread:
         return int(self.net.ends[end // 2, end % 2])
 
     def _way_down(self, end: int) -> tuple[Indices, float]:
-        """Return the edges from the nearest place on ground that is cut to an end of a run, and what they cost; inf where there is none."""
+        """Return the edges from the nearest place on ground that is cut to an end of a run, and what they cost; inf
+        where there is none.
+        """
         start, none = self._place(end), np.zeros(0, np.int64)
         found, costs = np.empty((1, 2), np.int64), np.empty(1)
         if self.net.air[start]:
             return none, 0.0
         label = np.where(self.net.air, 0, -1)
-        count = chain_kernels.nearest_goals(self.net.first, self.net.to, self.net.cost, label, np.array([[start, -1]]), self.longest, 1,
-                                            found, costs)
+        count = chain_kernels.nearest_goals(
+            self.net.first, self.net.to, self.net.cost, label, np.array([[start, -1]]), self.longest, 1, found, costs
+        )
         return (self.net.way(int(found[0, 1]), start, np.inf), float(costs[0])) if count else (none, np.inf)
 
     def _pulled(self, edges: Indices) -> Rows:

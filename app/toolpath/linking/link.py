@@ -1,8 +1,9 @@
 """One stroke: rings joined by a tree of bridges, and walked so that the tool never lifts (step 143).
 
-The walk starts on the innermost ring and goes outwards where it can, so the tool widens what is already cut; or the other
-way round, from the outermost frame inwards. A ring that is reached from inside has its metal on the wall side, one reached
-from outside has it inside: climb milling takes the first in the ring's own direction and the second the other way round.
+The walk starts on the innermost ring and goes outwards where it can, so the tool widens what is already cut; or the
+other way round, from the outermost frame inwards. A ring that is reached from inside has its metal on the wall side,
+one reached from outside has it inside: climb milling takes the first in the ring's own direction and the second the
+other way round.
 """
 
 from __future__ import annotations
@@ -37,15 +38,17 @@ class Manner:
     outside_in: bool = False
 
 
-def link(levels: Sequence[Level], field: DistanceField, manner: Manner, filling: Filling = NOTHING,
-         step: float = 0.0) -> tuple[Stroke, ...]:  # fmt: skip
+def link(
+    levels: Sequence[Level], field: DistanceField, manner: Manner, filling: Filling = NOTHING, step: float = 0.0
+) -> tuple[Stroke, ...]:
     """Return as few strokes as there are connected areas that the tool's centre can be in.
 
     Args:
         levels: rings of the pocket tool, outermost first.
         field: distances from the drawing.
         filling: what cuts all that the levels leave.
-        step: between levels, mm, where it is no more than the tool's radius: then ways between rings save pieces of them; 0 = none is.
+        step: between levels, mm, where it is no more than the tool's radius: then ways between rings save pieces of
+            them; 0 = none is.
     """
     if not levels:
         return ()
@@ -68,21 +71,28 @@ def _grown(apart: _Apart, bridges: Sequence[Bridge], levels: Sequence[Level], fi
     return apart.tree
 
 
-def _lines_out(roots: Sequence[int], walked: _Numbered, levels: Sequence[Level], field: DistanceField) -> dict[int, list[Bridge]]:
-    """Return the straight line of bridges from each root out to the outermost level, innermost first; roots without one have none."""
+def _lines_out(
+    roots: Sequence[int], walked: _Numbered, levels: Sequence[Level], field: DistanceField
+) -> dict[int, list[Bridge]]:
+    """Return the straight line of bridges from each root out to the outermost level, innermost first; roots without one
+    have none.
+    """
     deep = max((walked.depth[root] for root in roots), default=0.0)
     first, targets = 0, []
     for k, level in enumerate(levels):
         if k < deep:
             targets.append((level.distance, RingField.of(level.rings, first)))
         first += len(level.rings)
-    return {root: outward(walked.rings[root], root, targets[:math.ceil(walked.depth[root])], field) for root in roots}
+    return {root: outward(walked.rings[root], root, targets[: math.ceil(walked.depth[root])], field) for root in roots}
 
 
-def link_by_proof(levels: Sequence[Level], field: DistanceField, direction: Direction, spacing: float) -> tuple[Stroke, ...]:
+def link_by_proof(
+    levels: Sequence[Level], field: DistanceField, direction: Direction, spacing: float
+) -> tuple[Stroke, ...]:
     """Return few strokes through rings that are no exact levels, such as those of pixels.
 
-    Between such rings no bridge is clear by construction, so every bridge, shortest first, is proven clear step by step.
+    Between such rings no bridge is clear by construction, so every bridge, shortest first, is proven clear step by
+    step.
 
     Args:
         levels: rings of the pocket tool, outermost first; bridges keep the outermost one's distance.
@@ -95,7 +105,9 @@ def link_by_proof(levels: Sequence[Level], field: DistanceField, direction: Dire
         apart = _Apart(rings, tree, sum(ring.area > 0 for ring in levels[0].rings))
         _join(range(len(rings)), apart, (field, levels[0].distance), (spacing, _TRIED))
     depth = [float(k) for k, level in enumerate(levels) for _ in level.rings]
-    return _strokes(Walked(rings, depth, tree, (), (field, levels[0].distance if levels else 0.0)), Manner(direction), {})
+    return _strokes(
+        Walked(rings, depth, tree, (), (field, levels[0].distance if levels else 0.0)), Manner(direction), {}
+    )
 
 
 def _strokes(walked: Walked, manner: Manner, lines: Mapping[int, Sequence[Bridge]]) -> tuple[Stroke, ...]:
@@ -141,16 +153,24 @@ class _Apart:
 
 
 def _join_across(levels: Sequence[Level], apart: _Apart, field: DistanceField) -> None:
-    """Join what bridges from level to level left apart, over ridges: between rings with nothing inside, outermost ones, or any."""
+    """Join what bridges from level to level left apart, over ridges: between rings with nothing inside, outermost ones,
+    or any.
+    """
     depth = [k for k, level in enumerate(levels) for _ in level.rings]
-    tops = [k for k in range(len(depth)) if all(there.ring >= len(depth) or depth[there.ring] <= depth[k]
-                                                for _, there, _ in apart.tree.neighbours[k])]  # fmt: skip
+    tops = [
+        k
+        for k in range(len(depth))
+        if all(there.ring >= len(depth) or depth[there.ring] <= depth[k] for _, there, _ in apart.tree.neighbours[k])
+    ]
     for some in (tops, range(len(levels[0].rings)), range(len(apart.rings))):
         _join(some, apart, (field, levels[0].distance), (levels[0].distance / 4, None))
 
 
-def _join(some: Sequence[int], apart: _Apart, clear: tuple[DistanceField, float], spacing: tuple[float, int | None]) -> None:
-    """Join groups of rings by the shortest bridges between some of them that are clear, until there are no more than areas.
+def _join(
+    some: Sequence[int], apart: _Apart, clear: tuple[DistanceField, float], spacing: tuple[float, int | None]
+) -> None:
+    """Join groups of rings by the shortest bridges between some of them that are clear, until there are no more than
+    areas.
 
     Args:
         clear: distances from the walls, and which of them bridges keep, mm.

@@ -23,7 +23,9 @@ _TO_GET_THERE = 6.0
 """Radii of way that a run costs besides its own."""
 
 _AS_NEAR = 2e-3
-"""mm; rows no farther from a cell than this and the nearest one clear it as well: both sides of a ring there and back do."""
+"""mm; rows no farther from a cell than this and the nearest one clear it as well: both sides of a ring there and back
+do.
+"""
 
 _MOST_BUCKETS = 1_000_000
 
@@ -117,7 +119,8 @@ class Cells:
 
     @staticmethod
     def of(centres: Floats, cutting: Rows, within: float) -> Cells:
-        """Return cells that are cleared by runs within a distance, mm, or by the row nearest to them if none is as near.
+        """Return cells that are cleared by runs within a distance, mm, or by the row nearest to them if none is as
+        near.
 
         Args:
             cutting: (n, 8) all rows that there are to choose from, n > 0.
@@ -154,12 +157,16 @@ def all_runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Re
     seen = np.empty(len(kept), np.bool_)
     rest_kernels.sees_any(np.ascontiguousarray(chunks.rows[kept]), *buckets.arrays, seen)
     order, group = _in_order(chunks, kept[seen])
-    edges = np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]])) if len(order) else np.zeros(1, np.int64)
+    edges = (
+        np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]])) if len(order) else np.zeros(1, np.int64)
+    )
     return [Run(int(order[a]), b - a) for a, b in pairwise(edges.tolist())]
 
 
 def _in_order(chunks: Chunks, kept: Indices) -> tuple[Indices, Indices]:
-    """Return (rows, number of the group of each): groups of rows that follow one another round a ring, in their order."""
+    """Return (rows, number of the group of each): groups of rows that follow one another round a ring, in their
+    order.
+    """
     if not len(kept):
         return kept, kept
     ring = chunks.ring[kept]
@@ -170,8 +177,10 @@ def _in_order(chunks: Chunks, kept: Indices) -> tuple[Indices, Indices]:
     whole = (kept[begins] == chunks.first[ring[begins]]) & (kept[stops - 1] == chunks.first[ring[begins] + 1] - 1)
     broken = group[begins] != group[stops - 1]
     for a, b in zip(begins[whole & broken].tolist(), stops[whole & broken].tolist(), strict=True):
-        turn = int(np.count_nonzero(group[a:b] == group[b - 1]))  # the last group of such a ring goes on into its first one
-        group[b - turn:b] = group[a]
+        turn = int(
+            np.count_nonzero(group[a:b] == group[b - 1])
+        )  # the last group of such a ring goes on into its first one
+        group[b - turn : b] = group[a]
         order[a:b], group[a:b] = np.roll(order[a:b], turn), np.roll(group[a:b], turn)
     return order, group
 
@@ -184,7 +193,9 @@ def _spans(group: Indices, size: Floats, longest: float) -> Indices:
     of = np.repeat(np.arange(len(pieces)), pieces)
     number = np.arange(len(of)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     low, high = (np.round(k * (count / pieces)[of]).astype(np.int64) for k in (number, number + 1))
-    return np.ascontiguousarray(first[of, None] + np.stack([low, np.where(number + 1 == pieces[of], count[of], high)], 1))
+    return np.ascontiguousarray(
+        first[of, None] + np.stack([low, np.where(number + 1 == pieces[of], count[of], high)], 1)
+    )
 
 
 def _joined(chosen: Indices, order: Indices, group: Indices) -> list[Run]:

@@ -41,7 +41,9 @@ def point_at(rows: Rows, at: float) -> Rows:
 
 
 def along(rows: Rows, start: float, distance: float) -> float:
-    """Return the position so many mm on from another one along a closed ring, or back if less than 0; at most once round."""
+    """Return the position so many mm on from another one along a closed ring, or back if less than 0; at most once
+    round.
+    """
     ends = np.append(0.0, np.cumsum(lengths(rows)))
     row = math.floor(start)
     lap = row // len(rows)
@@ -57,7 +59,10 @@ def along(rows: Rows, start: float, distance: float) -> float:
 def span(rows: Rows, start: float, end: float) -> Rows:
     """Return a closed ring's rows from one position to another, going on past its beginning."""
     count = len(rows)
-    parts = [part_of(rows[k % count], max(start - k, 0.0), min(end - k, 1.0)) for k in range(math.floor(start), math.ceil(end))]
+    parts = [
+        part_of(rows[k % count], max(start - k, 0.0), min(end - k, 1.0))
+        for k in range(math.floor(start), math.ceil(end))
+    ]
     return np.concatenate(parts) if parts else rows[:0]
 
 

@@ -3,14 +3,14 @@
 Let A(d) be all points at distance d or more from the walls, L the distance of a ring and s the stepover. Rings at L and
 L + s leave U = {L + R < D < L + s} without what the tool sweeps round A(L + s). Be h = L + s - a with
 a = max(s - R, R²/(L + s)): from a point p of U the way to its nearest wall meets level h at a point q not farther than
-a <= R. If a point x of A(L + s) were within R of q it would be within R of p: x is L + s or more from the wall's point w, so
-(x - q) n >= ((L + s)² - R² - h²) / 2h >= a/2 with n the direction from w to q and p, and |x - p| <= |x - q| for every p
-between q and q + a n. So q is on a part of level h that rings leave uncovered, and a run along those parts cuts all of U:
-total cover for every s <= 2R, proven along lines and arcs in closed form, nothing sampled.
+a <= R. If a point x of A(L + s) were within R of q it would be within R of p: x is L + s or more from the wall's point
+w, so (x - q) n >= ((L + s)² - R² - h²) / 2h >= a/2 with n the direction from w to q and p, and |x - p| <= |x - q| for
+every p between q and q + a n. So q is on a part of level h that rings leave uncovered, and a run along those parts cuts
+all of U: total cover for every s <= 2R, proven along lines and arcs in closed form, nothing sampled.
 
-A part need not be run along: a straight way covers U where it comes within R of the corners of squares that hold all of U, since
-the swath of a straight way is convex. The squares are those of a quad tree that rings are not proven to cover and from which a
-part of level h is no farther than they are inside of it.
+A part need not be run along: a straight way covers U where it comes within R of the corners of squares that hold all of
+U, since the swath of a straight way is convex. The squares are those of a quad tree that rings are not proven to cover
+and from which a part of level h is no farther than they are inside of it.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def fill(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField,
     rings: list[Level] = []
     trips: list[Trip] = []
     first, clear = 0, (field, levels[0].distance if levels else 0.0)
-    for level, half, inner in zip(levels, halves[:len(levels)], [*levels[1:], None], strict=True):
+    for level, half, inner in zip(levels, halves[: len(levels)], [*levels[1:], None], strict=True):
         count = len(level.rings)
         sides = [RingField.of(level.rings, first)] if count else []
         if inner is not None and inner.rings:
@@ -141,8 +141,9 @@ def gaps_of(half: Level, inner: Level | None, radius: float) -> list[_Gap]:
     path = DistanceField.of(np.concatenate([ring.rows for ring in inner.rings]))
     gaps: list[_Gap] = []
     for ring in half.rings:
-        found, count = runs_kernels.uncovered(np.ascontiguousarray(ring.rows), path.rows, path.order, path.nodes, path.boxes,
-                                              radius + TOUCH)
+        found, count = runs_kernels.uncovered(
+            np.ascontiguousarray(ring.rows), path.rows, path.order, path.nodes, path.boxes, radius + TOUCH
+        )
         gaps += _connected(ring, found[:count])
     return gaps
 
@@ -159,8 +160,10 @@ def _connected(ring: Ring, parts: Floats) -> list[_Gap]:
     turned = -int(np.argmin(follows))
     parts, follows = np.roll(parts, turned, axis=0), np.roll(follows, turned)
     starts = np.append(np.flatnonzero(~follows), len(parts))
-    return [_Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), False, ring)
-            for a, b in pairwise(starts)]
+    return [
+        _Gap(np.concatenate([part_of(ring.rows[int(row)], u, v) for row, u, v in parts[a:b]]), False, ring)
+        for a, b in pairwise(starts)
+    ]
 
 
 class _Space:
@@ -175,8 +178,10 @@ class _Space:
         trips: list[Trip] = []
         reach = 2 * (inner.distance - half.distance if inner else self._radius)
         groups = self._groups(gaps_of(half, inner, self._radius), reach)
-        points = [np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
-                  for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True)]
+        points = [
+            np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
+            for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True)
+        ]
         corners = [shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(each))) for each in points]
         for group, spur in zip(groups, self._spurs(corners), strict=True):
             if spur is not None:
@@ -199,18 +204,40 @@ class _Space:
         path = DistanceField.of(np.concatenate([ring.rows for ring in inner.rings]))
         radii = np.full(len(path.rows), self._radius)
         found, count = runs_kernels.squares_beyond(
-            walls.rows, walls.order, walls.nodes, beside.rows, beside.order, beside.nodes, path.rows, path.order, path.nodes, radii,
-            uncut_kernels.widest(radii, path.order, len(path.nodes)), np.array([half.distance, self._radius / _FINEST]),
-            self._squares(np.concatenate([_along(gap, self._radius / 4) for gap in gaps]), inner.distance - half.distance))  # fmt: skip
-        corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])
+            walls.rows,
+            walls.order,
+            walls.nodes,
+            beside.rows,
+            beside.order,
+            beside.nodes,
+            path.rows,
+            path.order,
+            path.nodes,
+            radii,
+            uncut_kernels.widest(radii, path.order, len(path.nodes)),
+            np.array([half.distance, self._radius / _FINEST]),
+            self._squares(
+                np.concatenate([_along(gap, self._radius / 4) for gap in gaps]), inner.distance - half.distance
+            ),
+        )
+        corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array(
+            [[-1, -1], [-1, 1], [1, -1], [1, 1]]
+        )
         of = owner[found[:count, 3].astype(np.int64)]
         order = np.argsort(of, kind="stable")
-        return [each.reshape(-1, 2) for each in np.split(corners[order], np.searchsorted(of[order], np.arange(1, len(groups))))]
+        return [
+            each.reshape(-1, 2)
+            for each in np.split(corners[order], np.searchsorted(of[order], np.arange(1, len(groups))))
+        ]
 
     def _squares(self, points: Floats, reach: float) -> Floats:
-        """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points (m, 2)."""
+        """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points
+        (m, 2).
+        """
         size = self._radius / 2
-        steps = np.arange(-int(np.ceil((reach + self._radius / 4) / size)), int(np.ceil((reach + self._radius / 4) / size)) + 1)
+        steps = np.arange(
+            -int(np.ceil((reach + self._radius / 4) / size)), int(np.ceil((reach + self._radius / 4) / size)) + 1
+        )
         around = np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)
         near = (np.floor(points / size).astype(np.int64)[:, None] + around).reshape(-1, 2)
         first, high = near.min(axis=0), int(near[:, 1].max() - near[:, 1].min()) + 1
@@ -232,7 +259,9 @@ class _Space:
         return list(found.values())
 
     def _spurs(self, places: Sequence[Floats]) -> list[Trip | None]:
-        """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of all of them."""
+        """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of
+        all of them.
+        """
         if not places:
             return []
         counts = np.array([len(each) for each in places])
@@ -240,8 +269,13 @@ class _Space:
         asked = [side.nearest_of(probes) for side in self._sides]
         starts = np.concatenate([each[3].reshape(len(places), -1, 2) for each in asked], axis=1)
         ways = np.empty((len(places), 2 * starts.shape[1], 3))
-        runs_kernels.tips(np.concatenate(places), np.append(0, np.cumsum(counts)), np.ascontiguousarray(starts),
-                          self._radius * (1 - 2 * _CHORD), ways)  # fmt: skip
+        runs_kernels.tips(
+            np.concatenate(places),
+            np.append(0, np.cumsum(counts)),
+            np.ascontiguousarray(starts),
+            self._radius * (1 - 2 * _CHORD),
+            ways,
+        )
         spurs: list[Trip | None] = []
         for k in range(len(places)):
             mine = slice(3 * k, 3 * k + 3)
@@ -253,7 +287,8 @@ class _Space:
         """Return the shortest of ways there and back that is clear.
 
         Args:
-            starts: (n, 2) where they begin, three a side. ways: (2 n, 3) length, infinite where there is none, and where each ends.
+            starts: (n, 2) where they begin, three a side. ways: (2 n, 3) length, infinite where there is none, and
+                where each ends.
             sides: rings, rows of theirs (3,) and fractions (3,) where ways begin.
         """
         for way in np.argsort(ways[:, 0], kind="stable").tolist():
@@ -264,7 +299,11 @@ class _Space:
                 side, rows, parts = sides[way // 6]
                 probe = way // 2 % 3
                 out, back = straight(start, np.array(tip)), straight(np.array(tip), start)
-                return Trip(side.place(int(rows[probe]), float(parts[probe])), np.concatenate([out, back]), np.array([True, False]))
+                return Trip(
+                    side.place(int(rows[probe]), float(parts[probe])),
+                    np.concatenate([out, back]),
+                    np.array([True, False]),
+                )
         return None
 
     def _run(self, rows: Rows) -> Trip:
@@ -279,7 +318,9 @@ class _Space:
                 home = straight(run[-1, 2:4], start)
                 ways.append((away + length + float(np.hypot(*(run[-1, 2:4] - start))), place, ways[-1][2], home))
         ways.sort(key=lambda way: way[0])
-        _, place, out, back = next(way for way in ways if self._clear(way[2][0]) and (len(way[3]) > 1 or self._clear(way[3][0])))
+        _, place, out, back = next(
+            way for way in ways if self._clear(way[2][0]) and (len(way[3]) > 1 or self._clear(way[3][0]))
+        )
         cuts = np.arange(len(out) + len(back)) < len(out)
         cuts[0] = False
         return Trip(place, np.concatenate([out, back]), cuts)
@@ -291,11 +332,17 @@ class _Space:
             for one in (runs[0], reversed_rows(runs[0])):
                 _, place, start = side.nearest(one[0, :2])
                 for two in (runs[1], reversed_rows(runs[1])):
-                    across, out, home = straight(one[-1, 2:4], two[0, :2]), straight(start, one[0, :2]), straight(two[-1, 2:4], start)
+                    across, out, home = (
+                        straight(one[-1, 2:4], two[0, :2]),
+                        straight(start, one[0, :2]),
+                        straight(two[-1, 2:4], start),
+                    )
                     cuts = np.ones(len(one) + len(two) + 3, np.bool_)
                     cuts[[0, len(one) + 1, -1]] = False
                     trip = Trip(place, np.concatenate([out, one, across, two, home]), cuts)
-                    if (best is None or trip.length < best.length) and all(self._clear(way[0]) for way in (out, across, home)):
+                    if (best is None or trip.length < best.length) and all(
+                        self._clear(way[0]) for way in (out, across, home)
+                    ):
                         best = trip
         return best
 
@@ -312,7 +359,9 @@ def _along(rows: Rows, step: float) -> Floats:
 
 
 def _far_apart(points: Floats) -> Floats:
-    """Return three places (3, 2): the middle of the box of points, the one farthest from that, the one farthest from the last."""
+    """Return three places (3, 2): the middle of the box of points, the one farthest from that, the one farthest from
+    the last.
+    """
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     one = points[np.argmax(np.hypot(*(points - middle).T))]
     other = points[np.argmax(np.hypot(*(points - one).T))]

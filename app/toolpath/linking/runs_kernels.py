@@ -16,7 +16,9 @@ SHORTEST = 1e-5  # mm; what is shorter is rounding
 
 @kernel("void(float64[:, ::1], int64, float64[::1])")
 def _shape(rows, k, shape):
-    """Write row k as `offset_kernels` takes shapes: a line (0, ax, ay, bx, by) or an arc (1, cx, cy, radius, start, sweep)."""
+    """Write row k as `offset_kernels` takes shapes: a line (0, ax, ay, bx, by) or an arc (1, cx, cy, radius, start,
+    sweep).
+    """
     if rows[k, 7] == 0.0:
         shape[0] = 0.0
         shape[1], shape[2], shape[3], shape[4] = rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3]
@@ -28,14 +30,19 @@ def _shape(rows, k, shape):
     shape[5] = (turn * rows[k, 7]) % (2 * math.pi) * rows[k, 7]
 
 
-@kernel("Tuple((float64[:, ::1], int64))(float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64)")
+@kernel(
+    "Tuple((float64[:, ::1], int64))(float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], "
+    "float64)"
+)
 def uncovered(rows, paths, order, nodes, around, reach):
-    """Return (parts (m, 3): row and fractions from and to, in order; how many) that are farther than `reach` from some paths.
+    """Return (parts (m, 3): row and fractions from and to, in order; how many) that are farther than `reach` from some
+    paths.
 
     Args:
         rows: (n, 8); each sweeps less than pi.
         paths, order, nodes, around: rows that a cutter follows, their tree and their boxes.
-        reach: mm; a little more than the radius of the cutter, since parallels just that far apart do not cross its edge in one place.
+        reach: mm; a little more than the radius of the cutter, since parallels just that far apart do not cross its
+            edge in one place.
     """
     found, count = np.empty((2 * len(rows) + 16, 3)), 0
     shape, box, limits = np.empty(6), np.empty(4), np.empty(6)
@@ -69,14 +76,21 @@ def uncovered(rows, paths, order, nodes, around, reach):
 _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
 
 
-@kernel(f"Tuple((float64[:, ::1], int64))({_TREE}, {_TREE}, {_TREE}, float64[::1], float64[::1], float64[::1], float64[:, ::1])")
-def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_order, path_nodes, radii, wide, limits, squares):
-    """Return (squares (n, 4): x, y, half side, nearest gap; how many) that hold all that a path leaves beyond the gaps of a level.
+@kernel(
+    f"Tuple((float64[:, ::1], int64))({_TREE}, {_TREE}, {_TREE}, float64[::1], float64[::1], float64[::1], float64[:, "
+    "::1])"
+)
+def squares_beyond(
+    rows, order, nodes, gaps, gap_order, gap_nodes, path, path_order, path_nodes, radii, wide, limits, squares
+):
+    """Return (squares (n, 4): x, y, half side, nearest gap; how many) that hold all that a path leaves beyond the gaps
+    of a level.
 
     A point beyond a gap is no farther from it than it is inside of the level.
 
     Args:
-        rows...: the walls. gaps...: parts of the level. path...: what is cut. radii, wide: of its cutters, by row and by node.
+        rows...: the walls. gaps...: parts of the level. path...: what is cut. radii, wide: of its cutters, by row and
+        by node.
         limits: distance of the level from the walls, half side of the smallest squares.
         squares: (m, 3) to begin with.
     """
@@ -87,7 +101,9 @@ def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_or
         top -= 1
         x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
         far = half * math.sqrt(2.0)
-        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, (-far, far))  # first: it decides most squares, and is soon found
+        cut = beyond(
+            path, radii, path_order, path_nodes, wide, x, y, (-far, far)
+        )  # first: it decides most squares, and is soon found
         if cut <= -far:
             continue
         inside = nearest(rows, order, nodes, x, y, math.inf)[0] - limits[0]
@@ -112,7 +128,9 @@ def squares_beyond(rows, order, nodes, gaps, gap_order, gap_nodes, path, path_or
 
 @kernel("void(float64[:, ::1], int64, int64, float64, float64, float64, float64, float64, float64[::1])")
 def _tip(points, first, last, x, y, to_x, to_y, reach, way):
-    """Write length and end of the shortest straight way from a place towards another that comes within `reach` of all points."""
+    """Write length and end of the shortest straight way from a place towards another that comes within `reach` of all
+    points.
+    """
     way[0], way[1], way[2] = math.inf, x, y
     ux, uy = to_x - x, to_y - y
     size = math.hypot(ux, uy)
@@ -131,7 +149,8 @@ def _tip(points, first, last, x, y, to_x, to_y, reach, way):
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, :, ::1], float64, float64[:, :, ::1])")
 def tips(points, first, starts, reach, ways):
-    """Write the shortest straight ways that come within a distance of all points of a set, from places towards its middle and its far end.
+    """Write the shortest straight ways that come within a distance of all points of a set, from places towards its
+    middle and its far end.
 
     Args:
         points: (m, 2) of all sets; those of set k are first[k] ... first[k + 1] - 1.

@@ -1,10 +1,10 @@
 """Slants: ways there and back between two rings that leave out a piece of the outer one and cut what it would have cut.
 
-Where levels are no farther apart than the tool's radius, every point between two levels is cut by the outer one: by the ring's
-point y on the way to the nearest wall. So when a piece of a ring is left out, only what lies within a step inwards of it is
-still to be cut, and its rows, moved inwards by the step, bound all of that. A straight way cuts whatever it comes within the
-radius of, which is convex: it cuts a row's whole strip when it comes as near to the strip's corners. The outermost level's
-rings have nothing outside them that cuts their walls' side, and stay whole.
+Where levels are no farther apart than the tool's radius, every point between two levels is cut by the outer one: by the
+ring's point y on the way to the nearest wall. So when a piece of a ring is left out, only what lies within a step
+inwards of it is still to be cut, and its rows, moved inwards by the step, bound all of that. A straight way cuts
+whatever it comes within the radius of, which is convex: it cuts a row's whole strip when it comes as near to the
+strip's corners. The outermost level's rings have nothing outside them that cuts their walls' side, and stay whole.
 """
 
 from __future__ import annotations
@@ -32,8 +32,9 @@ _WIDEST = 0.5 * np.pi
 Floats = NDArray[np.float64]
 
 
-def left_out(rows: Rows, place: Place, apex: Floats, room: tuple[float, float],
-             keep: tuple[DistanceField, float, float]) -> tuple[float, float]:  # fmt: skip
+def left_out(
+    rows: Rows, place: Place, apex: Floats, room: tuple[float, float], keep: tuple[DistanceField, float, float]
+) -> tuple[float, float]:
     """Return how much of a ring before and after a place slants to a point of the ring inside it leave out, in rows.
 
     Args:
@@ -58,7 +59,9 @@ def left_out(rows: Rows, place: Place, apex: Floats, room: tuple[float, float],
 
 
 def covers(a: Floats, b: Floats, rows: Rows, step: float) -> bool:
-    """Tell whether a straight way cuts all that some rows cut within a step to their left, by a tool of a radius of that or more."""
+    """Tell whether a straight way cuts all that some rows cut within a step to their left, by a tool of a radius of
+    that or more.
+    """
     if np.any(np.abs(sweeps(rows)) > _WIDEST):
         return False
     corners = _corners(rows, step)
@@ -68,10 +71,12 @@ def covers(a: Floats, b: Floats, rows: Rows, step: float) -> bool:
 
 
 def _corners(rows: Rows, step: float) -> Floats:
-    """Return points whose hull holds the strip of a step to the left of each row; no arc's strip goes past its centre."""
+    """Return points whose hull holds the strip of a step to the left of each row; no arc's strip goes past its
+    centre.
+    """
     bent = rows[:, TURN] != 0
     wide = np.where(bent & (rows[:, TURN] > 0), np.minimum(step, rows[:, R]), step)[:, None]
-    ends = [(rows[:, 2 * k:2 * k + 2], left_of(headings_at(rows, np.full(len(rows), float(k))))) for k in (0, 1)]
+    ends = [(rows[:, 2 * k : 2 * k + 2], left_of(headings_at(rows, np.full(len(rows), float(k))))) for k in (0, 1)]
     corners = [point + width * aside for point, aside in ends for width in (0.0, wide)]
     arcs, half = rows[bent], np.abs(sweeps(rows[bent])) / 2
     middle = -arcs[:, [TURN]] * left_of(headings_at(arcs, np.full(len(arcs), 0.5)))
@@ -80,7 +85,9 @@ def _corners(rows: Rows, step: float) -> Floats:
 
 
 def room_beside(rows: Rows, place: Place, others: Sequence[Place]) -> tuple[float, float]:
-    """Return how much of a ring before and after a place is its own, mm: half the way to the next other place, at most a quarter round."""
+    """Return how much of a ring before and after a place is its own, mm: half the way to the next other place, at most
+    a quarter round.
+    """
     size = lengths(rows)
     ends = np.append(0.0, np.cumsum(size))
     total = float(ends[-1])

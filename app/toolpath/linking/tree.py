@@ -52,7 +52,9 @@ class Tree:
         return list(best.values())
 
     def longest_way(self, root: int) -> list[tuple[int, Edge | None]]:
-        """Return the rings from a root to the one farthest from it over bridges, each with the bridge to the next; the last with none."""
+        """Return the rings from a root to the one farthest from it over bridges, each with the bridge to the next; the
+        last with none.
+        """
         before: dict[int, tuple[int, Edge] | None] = {root: None}
         far = {root: 0.0}
         waiting = [root]

@@ -1,8 +1,9 @@
 """The walk through a tree of rings: each ring once, the bridges of the longest way once, all others there and back.
 
-From the first ring the walk goes along the longest way of the tree: round a ring back to where it was entered, then straight
-on to the next. What hangs beside is an excursion from where its bridge begins: there, all of it, and back. Where rings cover twice
-what lies between them such a way there and back is two slants, which leave a piece of the outer ring out (`link_slant.py`).
+From the first ring the walk goes along the longest way of the tree: round a ring back to where it was entered, then
+straight on to the next. What hangs beside is an excursion from where its bridge begins: there, all of it, and back.
+Where rings cover twice what lies between them such a way there and back is two slants, which leave a piece of the outer
+ring out (`link_slant.py`).
 """
 
 from __future__ import annotations
@@ -117,14 +118,19 @@ class Walk:
         path = joined(np.concatenate(self._rows)[:last])
         purpose = np.where(cuts[:last], Purpose.POCKET, Purpose.LINK).astype(np.uint8)
         region = self._walked.rings[root].region
-        return Stroke(reversed_rows(path), purpose[::-1].copy(), region) if self._outside_in else Stroke(path, purpose, region)
+        return (
+            Stroke(reversed_rows(path), purpose[::-1].copy(), region)
+            if self._outside_in
+            else Stroke(path, purpose, region)
+        )
 
     def _append(self, rows: Rows, cuts: NDArray[np.bool_]) -> None:
         self._rows.append(rows)
         self._cuts.append(cuts)
 
     def _leave(self, entry: Place, edge: Edge, ahead: float) -> tuple[Rows, Place] | None:
-        """Return (the shortest way from a place of a ring to the next one, where it comes to), None if back and forth is shorter.
+        """Return (the shortest way from a place of a ring to the next one, where it comes to), None if back and forth
+        is shorter.
 
         Args:
             edge: the bridge to the next ring.
@@ -135,11 +141,16 @@ class Walk:
         away, place, end = RingField.of([self._walked.rings[there.ring]], there.ring).nearest(start)
         count = len(ring)
         gone = span(ring, *sorted((position(entry, count, True), position(here, count, True))))
-        other = span(ring, max(position(entry, count, True), position(here, count, True)),
-                     min(position(entry, count, True), position(here, count, True)) + count)
+        other = span(
+            ring,
+            max(position(entry, count, True), position(here, count, True)),
+            min(position(entry, count, True), position(here, count, True)) + count,
+        )
         along = min((gone, other), key=lambda rows: float(lengths(rows).sum()))
         again = float(lengths(along).sum())
-        if away <= min(again + length, ahead) + LEVEL and is_clear(self._walked.walls[0], start, end, self._walked.walls[1]):
+        if away <= min(again + length, ahead) + LEVEL and is_clear(
+            self._walked.walls[0], start, end, self._walked.walls[1]
+        ):
             return straight(start, end), place
         if again > ahead:
             return None
@@ -162,24 +173,32 @@ class Walk:
             self._append(piece, np.ones(len(piece), np.bool_))
             if isinstance(excursion, Trip):
                 backwards = self._outside_in
-                self._append(reversed_rows(excursion.rows) if backwards else excursion.rows,
-                             (excursion.cuts[::-1] if backwards else excursion.cuts))
+                self._append(
+                    reversed_rows(excursion.rows) if backwards else excursion.rows,
+                    (excursion.cuts[::-1] if backwards else excursion.cuts),
+                )
             elif excursion is not None:
                 stack.append(self._visit(excursion.there, excursion.here, None, excursion.left))
                 stack[-1].way_back = straight(stack[-1].last, excursion.back), excursion.slants
                 self._append(straight(excursion.leave, stack[-1].first), np.full(1, excursion.slants))
 
-    def _visit(self, entry: Place, came_from: Place | None, after: Edge | None, left: tuple[float, float] | None = None) -> _Visit:
+    def _visit(
+        self, entry: Place, came_from: Place | None, after: Edge | None, left: tuple[float, float] | None = None
+    ) -> _Visit:
         """Cut a ring into pieces between its bridges, all round from `entry`; a bridge at the entry comes last.
 
         Args:
-            left: before and after the entry, what an excursion leaves out, in rows of the ring's own direction; None on the main way.
+            left: before and after the entry, what an excursion leaves out, in rows of the ring's own direction; None on
+                the main way.
         """
         number = entry.ring
         rows, count = self._walked.rings[number].rows, len(self._walked.rings[number].rows)
         forward = self._forward(number, came_from, after, main=left is None)
-        edges = [(a, b) for a, b, _ in self._walked.tree.neighbours[number]
-                 if (came_from is None or b.ring != came_from.ring) and (after is None or b.ring != after[1].ring)]
+        edges = [
+            (a, b)
+            for a, b, _ in self._walked.tree.neighbours[number]
+            if (came_from is None or b.ring != came_from.ring) and (after is None or b.ring != after[1].ring)
+        ]
         trips = self._trips.get(number, [])
         taken = [entry, *(a for a, _ in edges), *(trip.place for trip in trips)]
         if not forward:
@@ -188,7 +207,7 @@ class Walk:
         stops: list[tuple[float, float, float, _Excursion | Trip]] = []
         for k, (a, b) in enumerate(edges):
             at = (position(a, count, forward) - start) % count or count
-            here, there = self._left_out(a, b, [*taken[:k + 1], *taken[k + 2:]])
+            here, there = self._left_out(a, b, [*taken[: k + 1], *taken[k + 2 :]])
             before, beyond = here if forward else here[::-1]
             leave, back = point_at(rows, start + at - before), point_at(rows, start + at + beyond)
             stops.append((at, before, beyond, _Excursion(a, b, leave, back, there, here != there)))
@@ -201,8 +220,12 @@ class Walk:
         visit.pieces.append((span(rows, start + done, start + count - before), None))
         return visit
 
-    def _left_out(self, here: Place, there: Place, taken: Sequence[Place]) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return what an excursion leaves out before and after each end of its bridge, in rows of the rings' own directions."""
+    def _left_out(
+        self, here: Place, there: Place, taken: Sequence[Place]
+    ) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return what an excursion leaves out before and after each end of its bridge, in rows of the rings' own
+        directions.
+        """
         walked, none = self._walked, (0.0, 0.0)
         outer, inner = (here, there) if walked.depth[here.ring] < walked.depth[there.ring] else (there, here)
         if not walked.step or walked.depth[inner.ring] - walked.depth[outer.ring] != 1 or walked.depth[outer.ring] < 1:
@@ -217,8 +240,8 @@ class Walk:
     def _forward(self, ring: int, came_from: Place | None, after: Edge | None, main: bool) -> bool:
         """Tell whether a ring is walked in its own direction, in which the walls' side is to the right.
 
-        Metal stands on the walls' side where a ring is come to from inside, else inside it. Outside-in the walk is turned
-        round at the end, so along the longest way a ring is come to from where this walk goes on to.
+        Metal stands on the walls' side where a ring is come to from inside, else inside it. Outside-in the walk is
+        turned round at the end, so along the longest way a ring is come to from where this walk goes on to.
         """
         depth = self._walked.depth
         before = came_from.ring if came_from else None

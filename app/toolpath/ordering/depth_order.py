@@ -36,7 +36,9 @@ def in_order(strokes: Sequence[Stroke], start: Point, progress: Progress = NO_PR
         members = list(some)
         whole = [_as_one(group) for group in members]
         place = {id(one): group for one, group in zip(whole, members, strict=True)}
-        ordered.extend(place[id(one)] for one in in_short_order(whole, ordered[-1][-1].end if ordered else start, progress))
+        ordered.extend(
+            place[id(one)] for one in in_short_order(whole, ordered[-1][-1].end if ordered else start, progress)
+        )
     return ordered
 
 

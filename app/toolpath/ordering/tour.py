@@ -1,9 +1,9 @@
 """In which order strokes are cut, so that the tool travels little between them.
 
-Greedy at first: always on to the stroke that begins nearest. Then 2-opt (a run of strokes the other way round) and Or-opt (up to
-three strokes elsewhere) among strokes near one another, and in the end kicks: two runs somewhere are swapped, the tour settles
-again, and what is no better is taken back. The work is counted, not timed, so that the same strokes always give the same order.
-Few strokes are put into the shortest order of all.
+Greedy at first: always on to the stroke that begins nearest. Then 2-opt (a run of strokes the other way round) and
+Or-opt (up to three strokes elsewhere) among strokes near one another, and in the end kicks: two runs somewhere are
+swapped, the tour settles again, and what is no better is taken back. The work is counted, not timed, so that the same
+strokes always give the same order. Few strokes are put into the shortest order of all.
 
 References:
     Lin, Kernighan: 2-opt; Or: moving runs of up to three; Bentley: neighbour lists and queues; Held, Karp: few strokes.
@@ -44,11 +44,18 @@ _WAITING, _WORK = 2, 4
 """Places in the state of a tour, see `tour_kernels`."""
 
 
-def in_short_order(strokes: Sequence[Stroke], start: Point = (0.0, 0.0), progress: Progress = NO_PROGRESS, *,
-                   before: Sequence[tuple[int, int]] = (), reversible: bool = False) -> tuple[Stroke, ...]:
+def in_short_order(
+    strokes: Sequence[Stroke],
+    start: Point = (0.0, 0.0),
+    progress: Progress = NO_PROGRESS,
+    *,
+    before: Sequence[tuple[int, int]] = (),
+    reversible: bool = False,
+) -> tuple[Stroke, ...]:
     """Return the strokes in an order of short travel from the end of each to the beginning of the next.
 
-    It is never longer than the greedy order, and the shortest of all for up to nine strokes. The way back is not counted.
+    It is never longer than the greedy order, and the shortest of all for up to nine strokes. The way back is not
+    counted.
 
     Args:
         strokes: each is cut without a lift, from its beginning to its end.
@@ -94,7 +101,9 @@ def _other_way(stroke: Stroke) -> Stroke:
 class _Tour:
     """An order of strokes 1 … n behind the start, stroke 0, as the kernels want it."""
 
-    def __init__(self, strokes: Sequence[Stroke], start: Point, before: Sequence[tuple[int, int]], mirrored: bool) -> None:
+    def __init__(
+        self, strokes: Sequence[Stroke], start: Point, before: Sequence[tuple[int, int]], mirrored: bool
+    ) -> None:
         places = [(*start, *start), *((*stroke.rows[0, :2], *stroke.rows[-1, 2:4]) for stroke in strokes)]
         self._count = len(places)
         self._ends = np.array(places, np.float64).reshape(-1, 4)
@@ -104,7 +113,9 @@ class _Tour:
         self._mirrored = mirrored
         self._pairs = np.unique(np.array(before, np.int64).reshape(-1, 2) + 1, axis=0)
         if len(self._pairs) and not 1 <= self._pairs.min() <= self._pairs.max() < self._count:
-            raise ParameterError(f"A stroke that must be cut before another is none of the strokes 0 to {self._count - 2}.")
+            raise ParameterError(
+                f"A stroke that must be cut before another is none of the strokes 0 to {self._count - 2}."
+            )
         self._rules = (*_lists(self._pairs, self._count), *_lists(self._pairs[:, ::-1], self._count))
 
     @property
@@ -143,7 +154,17 @@ class _Tour:
         place[self.order] = np.arange(self._count)
         queue = np.concatenate([self.order, np.ones(self._count, np.int64)])
         state = np.array([1, 0, self._count, 0, 0, self._mirrored], np.int64)
-        tour = (self._ends, self.order, place, self.turned, self._near(), self._rules, queue, np.empty((_LOG, 2), np.int64), state)
+        tour = (
+            self._ends,
+            self.order,
+            place,
+            self.turned,
+            self._near(),
+            self._rules,
+            queue,
+            np.empty((_LOG, 2), np.int64),
+            state,
+        )
         work = min(_BASE + _EACH * self._count, _MOST)
         while state[_WAITING]:
             progress.step(min(state[_WORK] / work, 1.0), "Order of strokes")
@@ -153,7 +174,9 @@ class _Tour:
             tour_kernels.kick(tour, min(state[_WORK] + _PORTION, work))
 
     def _near(self) -> Indices:
-        """Return (n + 1, m) strokes near each one, -1 where there are fewer: it can go on to these, or come from them."""
+        """Return (n + 1, m) strokes near each one, -1 where there are fewer: it can go on to these, or come from
+        them.
+        """
         begins, ends = self._ends[:, :2], self._ends[:, 2:]
         ways = [(ends, begins), (begins, ends)] + ([(ends, ends), (begins, begins)] if self._mirrored else [])
         count = min(_NEAR + 1, self._count)
@@ -162,12 +185,14 @@ class _Tour:
         found = -np.sort(-found, axis=1)
         found[:, 1:][found[:, 1:] == found[:, :-1]] = -1
         found = -np.sort(-found, axis=1)
-        near: Indices = np.ascontiguousarray(found[:, :int((found >= 0).sum(axis=1).max())])
+        near: Indices = np.ascontiguousarray(found[:, : int((found >= 0).sum(axis=1).max())])
         return near
 
 
 def _lists(pairs: NDArray[np.int64], count: int) -> tuple[Indices, Indices]:
-    """Return a list of lists, (count + 1,) where each begins and all of them: the second of the pairs that begin with each number."""
+    """Return a list of lists, (count + 1,) where each begins and all of them: the second of the pairs that begin with
+    each number.
+    """
     sorted_pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
     first = np.searchsorted(sorted_pairs[:, 0], np.arange(count + 1))
     return first.astype(np.int64), np.ascontiguousarray(sorted_pairs[:, 1])

@@ -1,17 +1,17 @@
 """Compiled inner loops of the tour: who comes after whom so that the tool travels little between strokes.
 
-Stroke 0 is the place where the tool is before the first one; the others are 1 … n. `ends` (n + 1, 4) holds where each begins and
-ends, x0, y0, x1, y1. `order` (n + 1,) lists the strokes, 0 first; `place` (n + 1,) tells where each stands in it. With `mirrored` a
-stroke may be travelled from its end to its beginning: whatever turns a run of strokes round also swaps their ends, and `turned`
-(n + 1,) remembers that.
+Stroke 0 is the place where the tool is before the first one; the others are 1 … n. `ends` (n + 1, 4) holds where each
+begins and ends, x0, y0, x1, y1. `order` (n + 1,) lists the strokes, 0 first; `place` (n + 1,) tells where each stands
+in it. With `mirrored` a stroke may be travelled from its end to its beginning: whatever turns a run of strokes round
+also swaps their ends, and `turned` (n + 1,) remembers that.
 
-A tour is (ends, order, place, turned, near, rules, queue, log, state): `near` (n + 1, m) strokes near each one, -1 where there are
-fewer; `rules`, who must be cut before whom; `queue` (2 (n + 1),) strokes that wait to be looked at, in a ring, and for each stroke
-whether it waits; `log` (m, 2) the turns made; `state` (6,) the number from which chance goes on, first in the queue, how many wait,
-how many turns are in the log, work done, mirrored.
+A tour is (ends, order, place, turned, near, rules, queue, log, state): `near` (n + 1, m) strokes near each one, -1
+where there are fewer; `rules`, who must be cut before whom; `queue` (2 (n + 1),) strokes that wait to be looked at, in
+a ring, and for each stroke whether it waits; `log` (m, 2) the turns made; `state` (6,) the number from which chance
+goes on, first in the queue, how many wait, how many turns are in the log, work done, mirrored.
 
-Rules are two lists of lists, (after_first, after, before_first, before): those of stroke a are after[after_first[a]:after_first[a + 1]],
-who must all be cut later than a, and earlier in the other.
+Rules are two lists of lists, (after_first, after, before_first, before): those of stroke a are
+after[after_first[a]:after_first[a + 1]], who must all be cut later than a, and earlier in the other.
 """
 
 from __future__ import annotations
@@ -34,13 +34,18 @@ _KICK = 50
 _WAITING, _TURNS, _WORK, _MIRRORED = 2, 3, 4, 5
 
 _RULES = "Tuple((int64[::1], int64[::1], int64[::1], int64[::1]))"
-_TOUR = (f"Tuple((float64[:, ::1], int64[::1], int64[::1], boolean[::1], int64[:, ::1], {_RULES}, int64[::1], int64[:, ::1], "
-         "int64[::1]))")  # fmt: skip
+_TOUR = (
+    f"Tuple((float64[:, ::1], int64[::1], int64[::1], boolean[::1], int64[:, ::1], {_RULES}, int64[::1], int64[:, "
+    "::1], "
+    "int64[::1]))"
+)
 
 
 @kernel("float64(float64[:, ::1], int64, int64, int64, int64)", counts=False)
 def _gap(ends, a, side_a, b, side_b):
-    """Return how far one end (0 begin, 2 end) of stroke a is from one of stroke b; beyond the last stroke, b < 0, nothing is."""
+    """Return how far one end (0 begin, 2 end) of stroke a is from one of stroke b; beyond the last stroke, b < 0,
+    nothing is.
+    """
     if b < 0:
         return 0.0
     dx, dy = ends[b, side_b] - ends[a, side_a], ends[b, side_b + 1] - ends[a, side_a + 1]
@@ -69,7 +74,8 @@ def travel(ends, order):
 
 @kernel(f"void(float64[:, ::1], {_RULES}, int64[::1], int64[::1], int64, int64)")
 def greedy(ends, rules, waiting, order, first, last):
-    """Write places first … last - 1 of an order that always goes on to the stroke that begins nearest; -1 where none may be cut.
+    """Write places first … last - 1 of an order that always goes on to the stroke that begins nearest; -1 where none
+    may be cut.
 
     Args:
         waiting: (n + 1,) how many strokes each one still waits for; -1 = it is in the order already.
@@ -130,7 +136,12 @@ def _swap_gain(ends, order, kind, i, j, k, mirrored):
         gain -= _more_within(ends, order, j + 1, k, mirrored)
         if mirrored:
             in_b, out_b = 2, 0
-    return gain - _gap(ends, order[i - 1], 2, b0, in_b) - _gap(ends, b1, out_b, a0, in_a) - _gap(ends, a1, out_a, _at(order, k + 1), 0)
+    return (
+        gain
+        - _gap(ends, order[i - 1], 2, b0, in_b)
+        - _gap(ends, b1, out_b, a0, in_a)
+        - _gap(ends, a1, out_a, _at(order, k + 1), 0)
+    )
 
 
 @kernel(f"boolean({_TOUR}, int64, int64)", counts=False)
@@ -211,7 +222,9 @@ def _next(tour):
 
 @kernel(f"void({_TOUR}, int64, int64, int64, int64)", counts=False)
 def _apply(tour, kind, i, j, k):
-    """Make a change and log it: 0 to 2 swap i … j with j + 1 … k (see `_swap_gain`), 3 turns i … j. Who has new neighbours waits."""
+    """Make a change and log it: 0 to 2 swap i … j with j + 1 … k (see `_swap_gain`), 3 turns i … j. Who has new
+    neighbours waits.
+    """
     order = tour[1]
     for p in (i - 1, i, j, j + 1):
         _note(tour, _at(order, p))
@@ -235,13 +248,17 @@ def _apart(ends, a, c, mirrored):
 
 @kernel(f"float64({_TOUR}, float64, int64[::1], int64, int64, int64, int64)", counts=False)
 def _better(tour, best, change, kind, i, j, k):
-    """Return what a change gains when it is allowed and gains more than the best so far, and write it; else the best so far."""
+    """Return what a change gains when it is allowed and gains more than the best so far, and write it; else the best so
+    far.
+    """
     order, state = tour[1], tour[8]
     mirrored = state[_MIRRORED] != 0
     state[_WORK] += 1
     if not 1 <= i <= j or (kind < 3 and j >= k) or max(j, k) >= len(order):
         return best
-    gain = _turn_gain(tour[0], order, i, j, mirrored) if kind == 3 else _swap_gain(tour[0], order, kind, i, j, k, mirrored)
+    gain = (
+        _turn_gain(tour[0], order, i, j, mirrored) if kind == 3 else _swap_gain(tour[0], order, kind, i, j, k, mirrored)
+    )
     if gain <= best or (kind < 3 and not _may_swap(tour, i, j, k)):
         return best
     if (kind in (1, 3) and not _may_turn(tour, i, j)) or (kind == 2 and not _may_turn(tour, j + 1, k)):
@@ -252,7 +269,9 @@ def _better(tour, best, change, kind, i, j, k):
 
 @kernel(f"float64({_TOUR}, float64, int64[::1], int64, int64)", counts=False)
 def _runs_beside(tour, best, change, p, q):
-    """Look at moving the run of up to three strokes that begins or ends at place p beside the stroke at place q (Or-opt)."""
+    """Look at moving the run of up to three strokes that begins or ends at place p beside the stroke at place q
+    (Or-opt).
+    """
     for run in range(_RUN):
         for side in range(4 if run else 2):
             s, e = (p, p + run) if side < 2 else (p - run, p)
@@ -269,7 +288,9 @@ def _runs_beside(tour, best, change, p, q):
 
 @kernel(f"float64({_TOUR}, float64, int64[::1], int64, int64)", counts=False)
 def _swaps_after(tour, best, change, p, q):
-    """Look at swaps of runs of any length that bring the stroke at place q behind the one at place p (3-opt without turning)."""
+    """Look at swaps of runs of any length that bring the stroke at place q behind the one at place p (3-opt without
+    turning).
+    """
     order, place, near = tour[1], tour[2], tour[4]
     if p + 1 >= len(order):
         return best
@@ -286,7 +307,9 @@ def _swaps_after(tour, best, change, p, q):
 
 @kernel(f"float64({_TOUR}, int64, int64[::1])", counts=False)
 def _improve(tour, a, change):
-    """Make the best change that brings stroke a beside one of those near it; return by how much it shortens the tour, or 0."""
+    """Make the best change that brings stroke a beside one of those near it; return by how much it shortens the tour,
+    or 0.
+    """
     ends, order, place, near, state = tour[0], tour[1], tour[2], tour[4], tour[8]
     p, best = place[a], _LEAST
     out = _way(ends, order, p, p + 1)
@@ -313,7 +336,9 @@ def _improve(tour, a, change):
 
 @kernel(f"float64({_TOUR}, int64, int64[::1])", counts=False)
 def _settle(tour, until, change):
-    """Improve round the strokes in the queue until none is left, the log is full or the work is done; return by how much in all."""
+    """Improve round the strokes in the queue until none is left, the log is full or the work is done; return by how
+    much in all.
+    """
     log, state, total = tour[7], tour[8], 0.0
     while state[_WAITING] > 0 and state[_TURNS] + 3 <= len(log) and state[_WORK] < until:
         a = _next(tour)
@@ -342,7 +367,9 @@ def _chance(state, count):
 
 @kernel(f"void({_TOUR}, int64)")
 def kick(tour, until):
-    """Swap two runs somewhere, settle, and take it all back if the tour is longer then; again until so much work is done."""
+    """Swap two runs somewhere, settle, and take it all back if the tour is longer then; again until so much work is
+    done.
+    """
     order, log, state, change = tour[1], tour[7], tour[8], np.empty(4, np.int64)
     n = len(order) - 1
     while n > 1 and state[_WORK] < until:

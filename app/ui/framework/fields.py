@@ -1,4 +1,6 @@
-"""Fields of a properties form: label, value with unit, a note; wrong input is marked at once with the reason under it."""
+"""Fields of a properties form: label, value with unit, a note; wrong input is marked at once with the reason under
+it.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +60,11 @@ class Spec:
         Raises:
             HitofudeError: not a number, or out of range; a sentence.
         """
-        if not self.is_length and text[:1].isnumeric() and any(letter.isalpha() or letter in "\"'°%" for letter in text):
+        if (
+            not self.is_length
+            and text[:1].isnumeric()
+            and any(letter.isalpha() or letter in "\"'°%" for letter in text)
+        ):
             kind = f"is in {shown_name(self.unit)}" if self.unit else "has no unit"
             raise HitofudeError(f"{self.name} {kind}; type the number alone.")
         value = clean(length(text, self.size))
@@ -66,7 +72,9 @@ class Spec:
             raise HitofudeError(f"{self.name} is {value:g}; use a whole number.")
         if not self.low <= value <= self.high:
             unit, size = self.unit if self.unit in ("", "°") else f" {shown_name(self.unit)}", self.size
-            raise HitofudeError(f"{self.name} is {value / size:g}{unit}; use {self.low / size:g} to {self.high / size:g}.")
+            raise HitofudeError(
+                f"{self.name} is {value / size:g}{unit}; use {self.low / size:g} to {self.high / size:g}."
+            )
         return value
 
 
@@ -95,7 +103,9 @@ def _mark(widget: QWidget, label: QLabel, reason: str) -> None:
         restyle(widget)
 
 
-_FIRST = 1000  # stretch of a name that takes its full width before anything else grows, and gives way where letters are wide
+_FIRST = (
+    1000  # stretch of a name that takes its full width before anything else grows, and gives way where letters are wide
+)
 _LEAST_LETTERS = 8  # of a drop-down list's text, where room is short
 
 
@@ -195,8 +205,12 @@ class NumberField(QWidget):
         if event.type() == QEvent.Type.MouseButtonDblClick:
             self.edit.selectAll()
             return True
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not self.edit.isModified() and (
-                event.matches(QKeySequence.StandardKey.Undo) or event.matches(QKeySequence.StandardKey.Redo)):
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and not self.edit.isModified()
+            and (event.matches(QKeySequence.StandardKey.Undo) or event.matches(QKeySequence.StandardKey.Redo))
+        ):
             event.ignore()
             return True
         if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
@@ -303,7 +317,9 @@ class ListField(QWidget):
 
     def set_choices(self, choices: Sequence[tuple[object, str]]) -> None:
         """Offer other values, each with its text."""
-        if [c[0] for c in choices] != self._values or [c[1] for c in choices] != [self.box.itemText(i) for i in range(self.box.count())]:
+        if [c[0] for c in choices] != self._values or [c[1] for c in choices] != [
+            self.box.itemText(i) for i in range(self.box.count())
+        ]:
             self._values = [value for value, _ in choices]
             self.box.clear()
             self.box.addItems([text for _, text in choices])

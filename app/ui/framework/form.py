@@ -135,23 +135,35 @@ class Form(Section):
             self._group.rows.addWidget(widget)
 
     def add_number(self, spec: Spec, edit: Edit | MaybeEdit, read: Callable[[str], float] | None = None) -> NumberField:
-        """Add a number field; `edit(job, value)` gives the job with that value, None where the field may be left empty."""
+        """Add a number field; `edit(job, value)` gives the job with that value, None where the field may be left
+        empty.
+        """
         field = NumberField(spec, read)
-        field.committed.connect(lambda value: self.edited.emit(f"Change {spec.name.lower()}", (field, lambda job: edit(job, value))))
+        field.committed.connect(
+            lambda value: self.edited.emit(f"Change {spec.name.lower()}", (field, lambda job: edit(job, value)))
+        )
         self.add(field)
         return field
 
-    def add_field(self, name: str, field: NumberField | ChoiceField | ListField | SwitchField, edit: Callable[[Job, Any], Job]) -> None:
+    def add_field(
+        self, name: str, field: NumberField | ChoiceField | ListField | SwitchField, edit: Callable[[Job, Any], Job]
+    ) -> None:
         """Add a field of any sort; `edit(job, value)` gives the job with that value."""
         if isinstance(field, NumberField):
-            field.committed.connect(lambda value: self.edited.emit(f"Change {name.lower()}", (field, lambda job: edit(job, value))))
+            field.committed.connect(
+                lambda value: self.edited.emit(f"Change {name.lower()}", (field, lambda job: edit(job, value)))
+            )
             self.add(field)
         else:
             self.add_choice(name, field, edit)
 
-    def add_choice(self, name: str, field: ChoiceField | ListField | SwitchField, edit: Callable[[Job, object], Job]) -> None:
+    def add_choice(
+        self, name: str, field: ChoiceField | ListField | SwitchField, edit: Callable[[Job, object], Job]
+    ) -> None:
         """Add a choice; `edit(job, value)` gives the job with that value."""
-        field.chosen.connect(lambda value: self.edited.emit(f"Change {name.lower()}", (None, lambda job: edit(job, value))))
+        field.chosen.connect(
+            lambda value: self.edited.emit(f"Change {name.lower()}", (None, lambda job: edit(job, value)))
+        )
         self.add(field)
 
     def add_picture(self, picture: QWidget, *beside: QWidget) -> QWidget:

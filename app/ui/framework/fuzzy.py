@@ -6,7 +6,8 @@ _START, _RUN, _WHOLE = 8.0, 5.0, 20.0
 
 
 def fit(typed: str, text: str, beside: str = "") -> float | None:
-    """Return how well `typed` fits a text: the letters come in this order; starts of words, runs and short texts count more.
+    """Return how well `typed` fits a text: the letters come in this order; starts of words, runs and short texts count
+    more.
 
     Blanks part words each of which must fit, or stand whole in what is written beside the text. None = it does not fit;
     0 for nothing typed.

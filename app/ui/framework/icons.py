@@ -22,7 +22,9 @@ def _drawing(name: str) -> bytes:
 
 
 def pixmap(name: str, colour: QColor, scale: int = 1) -> QPixmap:
-    """Return an icon as a picture of 20 x 20 px times `scale`; each is drawn once, as a window shows some of them many times."""
+    """Return an icon as a picture of 20 x 20 px times `scale`; each is drawn once, as a window shows some of them many
+    times.
+    """
     return _pixmap(name, colour.name(), scale)
 
 

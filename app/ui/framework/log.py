@@ -1,4 +1,6 @@
-"""The log that is shown: every line of the drawing language, and between them what was opened, computed and exported."""
+"""The log that is shown: every line of the drawing language, and between them what was opened, computed and
+exported.
+"""
 
 from __future__ import annotations
 
@@ -24,6 +26,6 @@ class Log:
         if change & Change.LOG:
             log = self._document.log
             self._taken = min(self._taken, len(log))
-            self.lines += log[self._taken:]
+            self.lines += log[self._taken :]
             self._taken = len(log)
             self._view.show_lines(self.lines)

@@ -6,7 +6,15 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QFontMetrics, QGuiApplication, QKeyEvent, QKeySequence, QPainter
-from PySide6.QtWidgets import QAbstractItemView, QFrame, QListView, QMenu, QStyle, QStyledItemDelegate, QStyleOptionViewItem
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QFrame,
+    QListView,
+    QMenu,
+    QStyle,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+)
 
 from ...drafting.document import LogLine
 from .theme import LIGHT, Theme, mono_font, text_font
@@ -80,9 +88,12 @@ class LogView(QListView):
         """Return what can be done with the chosen lines."""
         menu, chosen = QMenu(self), bool(self.selectedIndexes())
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for words, possible, act in (("&Copy", chosen, self.copy), ("Copy with &replies", chosen, self.copy_with_replies),
-                                     ("&Put into the command line", index.isValid(), lambda: self._recall(index)),
-                                     ("Select &all", True, self.selectAll)):
+        for words, possible, act in (
+            ("&Copy", chosen, self.copy),
+            ("Copy with &replies", chosen, self.copy_with_replies),
+            ("&Put into the command line", index.isValid(), lambda: self._recall(index)),
+            ("Select &all", True, self.selectAll),
+        ):
             action = menu.addAction(words)
             action.setEnabled(possible)
             action.triggered.connect(lambda _=False, do=act: do())
@@ -150,7 +161,9 @@ class _LinePainter(QStyledItemDelegate):
         middle = int(area.width() * _COMMAND_SHARE)
         painter.setFont(mono_font())
         painter.setPen(theme.ink)
-        self._text(painter, area.topLeft() + QPoint(_EDGE_PX, 0), middle - 2 * _EDGE_PX, " ; ".join(line.command.splitlines()))
+        self._text(
+            painter, area.topLeft() + QPoint(_EDGE_PX, 0), middle - 2 * _EDGE_PX, " ; ".join(line.command.splitlines())
+        )
         painter.setFont(text_font())
         painter.setPen(theme.error if line.error else theme.muted)
         self._text(painter, area.topLeft() + QPoint(middle, 0), area.width() - middle - _EDGE_PX, tr(line.reply))

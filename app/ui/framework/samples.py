@@ -30,9 +30,19 @@ class Sample(Enum):
 
 def sample_pen(sample: Sample, theme: Theme) -> QPen:
     """Return the pen that paths of this kind are drawn with."""
-    colours = {Sample.PART: theme.ink, Sample.POCKET: theme.pocket, Sample.REST: theme.rest, Sample.CONTOUR: theme.contour,
-               Sample.LINK: theme.pocket, Sample.RAPID: theme.rapid, Sample.PLUNGE: theme.plunge,
-               Sample.LEFT: theme.left, Sample.UNREACHABLE: theme.unreachable, Sample.CLAMP: theme.warning, Sample.WEDGES: theme.regions[4]}
+    colours = {
+        Sample.PART: theme.ink,
+        Sample.POCKET: theme.pocket,
+        Sample.REST: theme.rest,
+        Sample.CONTOUR: theme.contour,
+        Sample.LINK: theme.pocket,
+        Sample.RAPID: theme.rapid,
+        Sample.PLUNGE: theme.plunge,
+        Sample.LEFT: theme.left,
+        Sample.UNREACHABLE: theme.unreachable,
+        Sample.CLAMP: theme.warning,
+        Sample.WEDGES: theme.regions[4],
+    }
     pen = QPen(colours[sample], 1.0 if sample in (Sample.LINK, Sample.RAPID, Sample.PART) else 1.8)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     if sample is Sample.CONTOUR:

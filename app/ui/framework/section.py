@@ -12,10 +12,14 @@ from .fields import restyle
 from .theme import HEADING_PX, Theme, text_font
 
 EDGE = 16
-_OWN_KEYS = frozenset({
-    (Qt.KeyboardModifier.ControlModifier | Qt.Key.Key_D).toCombined(), (Qt.KeyboardModifier.AltModifier | Qt.Key.Key_Up).toCombined(),
-    (Qt.KeyboardModifier.AltModifier | Qt.Key.Key_Down).toCombined(), int(Qt.Key.Key_Delete),
-})
+_OWN_KEYS = frozenset(
+    {
+        (Qt.KeyboardModifier.ControlModifier | Qt.Key.Key_D).toCombined(),
+        (Qt.KeyboardModifier.AltModifier | Qt.Key.Key_Up).toCombined(),
+        (Qt.KeyboardModifier.AltModifier | Qt.Key.Key_Down).toCombined(),
+        int(Qt.Key.Key_Delete),
+    }
+)
 
 
 def heading(text: str) -> QLabel:
@@ -121,14 +125,19 @@ class Row(QWidget):
 
     def event(self, event: QEvent) -> bool:
         """Keep the row's own keys from the window's shortcuts."""
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and (
-                event.keyCombination().toCombined() in _OWN_KEYS):
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and (event.keyCombination().toCombined() in _OWN_KEYS)
+        ):
             event.accept()
             return True
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Space and Enter choose, Up and Down choose the neighbour, with Alt they move the row, Ctrl+D copies it, Delete removes."""
+        """Space and Enter choose, Up and Down choose the neighbour, with Alt they move the row, Ctrl+D copies it,
+        Delete removes.
+        """
         steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
         if event.key() in steps and event.modifiers() & Qt.KeyboardModifier.AltModifier:
             self.moved.emit(steps[Qt.Key(event.key())])

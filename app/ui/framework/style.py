@@ -160,10 +160,19 @@ def palette(theme: Theme) -> QPalette:
     made = QPalette()
     roles = QPalette.ColorRole
     pairs = {
-        roles.Window: theme.paper, roles.Base: theme.raised, roles.AlternateBase: theme.hover, roles.Button: theme.paper,
-        roles.WindowText: theme.ink, roles.Text: theme.ink, roles.ButtonText: theme.ink, roles.ToolTipBase: theme.ink,
-        roles.ToolTipText: theme.paper, roles.Highlight: theme.accent, roles.HighlightedText: theme.accent_ink,
-        roles.PlaceholderText: theme.muted, roles.Link: theme.accent_text,
+        roles.Window: theme.paper,
+        roles.Base: theme.raised,
+        roles.AlternateBase: theme.hover,
+        roles.Button: theme.paper,
+        roles.WindowText: theme.ink,
+        roles.Text: theme.ink,
+        roles.ButtonText: theme.ink,
+        roles.ToolTipBase: theme.ink,
+        roles.ToolTipText: theme.paper,
+        roles.Highlight: theme.accent,
+        roles.HighlightedText: theme.accent_ink,
+        roles.PlaceholderText: theme.muted,
+        roles.Link: theme.accent_text,
     }
     for role, colour in pairs.items():
         made.setColor(role, colour)
@@ -171,7 +180,8 @@ def palette(theme: Theme) -> QPalette:
 
 
 def apply(app: QApplication, theme: Theme, arrow: str = "") -> None:
-    """Give the whole program the theme's type, palette and style sheet; where it has them already, nothing is done anew.
+    """Give the whole program the theme's type, palette and style sheet; where it has them already, nothing is done
+    anew.
 
     A style sheet is worked out for every widget that there is, so it is cheapest before there are any.
     """

@@ -57,9 +57,14 @@ class Theme:
     regions: tuple[QColor, ...]
 
     def faint(self, part: float) -> Theme:
-        """Return the theme with `part` of each colour left, and the canvas for the rest: lines that lie over one another stay faint."""
-        faded: dict[str, Any] = {f.name: mixed(self.canvas, getattr(self, f.name), part) for f in fields(self)
-                                 if isinstance(getattr(self, f.name), QColor)}  # fmt: skip
+        """Return the theme with `part` of each colour left, and the canvas for the rest: lines that lie over one
+        another stay faint.
+        """
+        faded: dict[str, Any] = {
+            f.name: mixed(self.canvas, getattr(self, f.name), part)
+            for f in fields(self)
+            if isinstance(getattr(self, f.name), QColor)
+        }
         return replace(self, regions=tuple(mixed(self.canvas, colour, part) for colour in self.regions), **faded)
 
     def hex_colours(self) -> dict[str, str]:
@@ -74,23 +79,65 @@ def _regions(*names: str) -> tuple[QColor, ...]:
 
 LIGHT = Theme(
     name="light",
-    paper=QColor("#FAFAF8"), canvas=QColor("#FFFFFF"), raised=QColor("#FFFFFF"), hover=QColor("#EFF0ED"), chosen=QColor("#DDF6E8"),
-    ink=QColor("#1E2227"), muted=QColor("#5F6670"), hairline=QColor("#DCDEDA"), grid=QColor("#F1F2F0"), grid_major=QColor("#E6E8E5"),
-    accent=QColor("#2BD47D"), accent_ink=QColor("#08301B"), accent_text=QColor("#0B7A43"), selection=QColor("#2BD47D"),
-    pocket=QColor("#009E73"), contour=QColor("#E69F00"), rest=QColor("#CC79A7"), rapid=QColor("#8A8F98"), plunge=QColor("#D55E00"),
-    gouge=QColor("#D32F2F"), left=QColor("#2979FF"), unreachable=QColor("#B0A8C8"), region_fill=QColor("#F3F5F2"),
-    error=QColor("#C62828"), warning=QColor("#8A5A00"), ok=QColor("#0B7A43"), parameter=QColor("#6A4BB5"),
+    paper=QColor("#FAFAF8"),
+    canvas=QColor("#FFFFFF"),
+    raised=QColor("#FFFFFF"),
+    hover=QColor("#EFF0ED"),
+    chosen=QColor("#DDF6E8"),
+    ink=QColor("#1E2227"),
+    muted=QColor("#5F6670"),
+    hairline=QColor("#DCDEDA"),
+    grid=QColor("#F1F2F0"),
+    grid_major=QColor("#E6E8E5"),
+    accent=QColor("#2BD47D"),
+    accent_ink=QColor("#08301B"),
+    accent_text=QColor("#0B7A43"),
+    selection=QColor("#2BD47D"),
+    pocket=QColor("#009E73"),
+    contour=QColor("#E69F00"),
+    rest=QColor("#CC79A7"),
+    rapid=QColor("#8A8F98"),
+    plunge=QColor("#D55E00"),
+    gouge=QColor("#D32F2F"),
+    left=QColor("#2979FF"),
+    unreachable=QColor("#B0A8C8"),
+    region_fill=QColor("#F3F5F2"),
+    error=QColor("#C62828"),
+    warning=QColor("#8A5A00"),
+    ok=QColor("#0B7A43"),
+    parameter=QColor("#6A4BB5"),
     regions=_regions("#009E73", "#CC79A7", "#7A6BC2", "#7F8C2A", "#56B4E9", "#882255", "#8A6A4A", "#3B4F9E"),
 )
 
 DARK = Theme(
     name="dark",
-    paper=QColor("#16191D"), canvas=QColor("#101317"), raised=QColor("#1E2228"), hover=QColor("#23282E"), chosen=QColor("#15382A"),
-    ink=QColor("#D8DCE2"), muted=QColor("#949BA5"), hairline=QColor("#2A2F36"), grid=QColor("#171B20"), grid_major=QColor("#20252B"),
-    accent=QColor("#2BD47D"), accent_ink=QColor("#06251A"), accent_text=QColor("#3FDD8C"), selection=QColor("#2BD47D"),
-    pocket=QColor("#1DB98C"), contour=QColor("#F0AE2B"), rest=QColor("#DB92B9"), rapid=QColor("#7C828C"), plunge=QColor("#EE7A2B"),
-    gouge=QColor("#F0524F"), left=QColor("#4C8DFF"), unreachable=QColor("#8F86AC"), region_fill=QColor("#171B20"),
-    error=QColor("#FF7B74"), warning=QColor("#F0AE2B"), ok=QColor("#3FDD8C"), parameter=QColor("#B5A4F0"),
+    paper=QColor("#16191D"),
+    canvas=QColor("#101317"),
+    raised=QColor("#1E2228"),
+    hover=QColor("#23282E"),
+    chosen=QColor("#15382A"),
+    ink=QColor("#D8DCE2"),
+    muted=QColor("#949BA5"),
+    hairline=QColor("#2A2F36"),
+    grid=QColor("#171B20"),
+    grid_major=QColor("#20252B"),
+    accent=QColor("#2BD47D"),
+    accent_ink=QColor("#06251A"),
+    accent_text=QColor("#3FDD8C"),
+    selection=QColor("#2BD47D"),
+    pocket=QColor("#1DB98C"),
+    contour=QColor("#F0AE2B"),
+    rest=QColor("#DB92B9"),
+    rapid=QColor("#7C828C"),
+    plunge=QColor("#EE7A2B"),
+    gouge=QColor("#F0524F"),
+    left=QColor("#4C8DFF"),
+    unreachable=QColor("#8F86AC"),
+    region_fill=QColor("#171B20"),
+    error=QColor("#FF7B74"),
+    warning=QColor("#F0AE2B"),
+    ok=QColor("#3FDD8C"),
+    parameter=QColor("#B5A4F0"),
     regions=_regions("#1DB98C", "#DB92B9", "#9C8EE0", "#A7B44A", "#7CC7F2", "#C4568F", "#B8926A", "#7484D8"),
 )
 

@@ -1,4 +1,6 @@
-"""The window's words in the user's language: a catalogue from English, one file a language in `resources/translations`."""
+"""The window's words in the user's language: a catalogue from English, one file a language in
+`resources/translations`.
+"""
 
 from __future__ import annotations
 
@@ -18,14 +20,16 @@ _KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
 class Catalogue:
     """English texts and what they are in another language.
 
-    An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to press,
-    dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a number; what it
-    stood for is looked up too. An entry that is written farther up goes first.
+    An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
+    press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a
+    number; what it stood for is looked up too. An entry that is written farther up goes first.
     """
 
     def __init__(self, entries: dict[str, str]) -> None:
         self._entries = {text: other for text, other in entries.items() if not _HOLE.search(text)}
-        self._patterns = [(_pattern(text), _HOLE.sub("{}", other)) for text, other in entries.items() if _HOLE.search(text)]
+        self._patterns = [
+            (_pattern(text), _HOLE.sub("{}", other)) for text, other in entries.items() if _HOLE.search(text)
+        ]
         self.look_up = lru_cache(_REMEMBERED)(self._look_up)
 
     def _look_up(self, text: str) -> str | None:
@@ -40,7 +44,7 @@ class Catalogue:
         found = self._core(front.removesuffix("…"))
         if found is None:
             return None
-        lead, trail = text[: len(text) - len(text.lstrip())], text[len(text.rstrip()):]
+        lead, trail = text[: len(text) - len(text.lstrip())], text[len(text.rstrip()) :]
         return f"{lead}{found}{dots}{tab}{hint}{trail}"
 
     def _core(self, text: str) -> str | None:
@@ -61,7 +65,9 @@ class Catalogue:
 def _pattern(text: str) -> re.Pattern[str]:
     """Return what finds the texts that an entry with holes stands for."""
     words = _HOLE.split(text)
-    return re.compile("".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words)), re.S)
+    return re.compile(
+        "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words)), re.S
+    )
 
 
 @cache

@@ -54,7 +54,9 @@ class _Work:
 
 
 class _NoCollector:
-    """Pauses the garbage collector while jobs run: with a large drawing one pass stops every thread for 0.1 to 0.2 s."""
+    """Pauses the garbage collector while jobs run: with a large drawing one pass stops every thread for 0.1 to 0.2
+    s.
+    """
 
     def __init__(self) -> None:
         self._jobs, self._lock = 0, threading.Lock()
@@ -109,13 +111,18 @@ class _Runner(threading.Thread):
             error = short.in_window()
         except MemoryError:
             limit = in_words(budget_limit())
-            error = (f"The memory that a job may take ({limit}) ran out; allow more in the menu Compute, Memory of a job, "
-                     "or ask for less: a larger tool, fewer cells, a coarser bitmap. Your drawing is safe.")
+            error = (
+                f"The memory that a job may take ({limit}) ran out; allow more in the menu Compute, Memory of a job, "
+                "or ask for less: a larger tool, fewer cells, a coarser bitmap. Your drawing is safe."
+            )
         except HitofudeError as sentence:
             error = str(sentence)
         except Exception as fault:
             traceback.print_exc()
-            error = f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please report this."
+            error = (
+                f"The program made a mistake here ({type(fault).__name__}: {fault}). Your drawing is safe; please "
+                "report this."
+            )
         if not work.cancelled.is_set() and isValid(self._worker):  # the window may have gone meanwhile
             self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
 
@@ -127,7 +134,8 @@ class Worker(QObject):
     stop, and whatever it still answers is dropped.
 
     Attributes:
-        head_start_s: how long the window has for itself before a job begins, s; jobs that take less than that need none.
+        head_start_s: how long the window has for itself before a job begins, s; jobs that take less than that need
+            none.
     """
 
     progress = Signal(float, str)

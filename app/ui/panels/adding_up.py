@@ -43,7 +43,9 @@ class AddingUp(QObject):
         end = time.perf_counter() + SLICE_S
         for number, curve in self._left:
             known = self._known.get(number)
-            self._next[number] = known if known is not None and known[0] is curve else (curve, curve_length(curve), bounds(curve))
+            self._next[number] = (
+                known if known is not None and known[0] is curve else (curve, curve_length(curve), bounds(curve))
+            )
             if time.perf_counter() > end:
                 return
         self._timer.stop()

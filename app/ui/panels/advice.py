@@ -105,8 +105,10 @@ class AdviceSection(Section):
         time = clock(choice.times.total) if choice.times is not None else ""
         cells = ((name, DIAMETER_PX), (QLabel(share), SHARE_PX), (muted(left), LEFT_PX))
         row = Row(*(self._cell(label, wide) for label, wide in cells), QLabel(time), stretch_after=2)
-        row.setToolTip(f"{counted(choice.parts, 'area')}; the largest disc it leaves is {choice.left_disc:.2f} mm wide; "
-                       f"time with {advice.contour.label} for walls and rest, roughly")
+        row.setToolTip(
+            f"{counted(choice.parts, 'area')}; the largest disc it leaves is {choice.left_disc:.2f} mm wide; "
+            f"time with {advice.contour.label} for walls and rest, roughly"
+        )
         row.clicked.connect(lambda: self._choose(k))
         row.stepped.connect(lambda way: self._step(k + way))
         self.rows.insertWidget(self._after + k, row)

@@ -31,7 +31,9 @@ class Subject:
         if self.kind is SubjectKind.TOOL and self.key not in {t.number for t in job.tools}:
             return Subject(SubjectKind.TOOL, job.tools[-1].number) if job.tools else Subject(SubjectKind.JOB)
         if self.kind is SubjectKind.OPERATION and self.key >= len(job.operations):
-            return Subject(SubjectKind.OPERATION, len(job.operations) - 1) if job.operations else Subject(SubjectKind.JOB)
+            return (
+                Subject(SubjectKind.OPERATION, len(job.operations) - 1) if job.operations else Subject(SubjectKind.JOB)
+            )
         return self
 
 
@@ -61,8 +63,12 @@ def for_material(tool: Tool, material: str) -> Tool:
     if row is None:
         return tool
     made = tool.in_material(row)
-    return replace(made, spindle_speed=float(max(10, round(made.spindle_speed, -1))), feed_rate=float(max(1, round(made.feed_rate))),
-                   plunge_rate=float(max(1, round(made.plunge_rate))))
+    return replace(
+        made,
+        spindle_speed=float(max(10, round(made.spindle_speed, -1))),
+        feed_rate=float(max(1, round(made.feed_rate))),
+        plunge_rate=float(max(1, round(made.plunge_rate))),
+    )
 
 
 def material_of(tool: Tool) -> str:
@@ -92,7 +98,9 @@ def with_new_tool(job: Job) -> tuple[Job, int]:
 
 
 def with_library_tool(job: Job, tool: Tool) -> tuple[Job, int]:
-    """Return the job with a tool of the library as one more, and its number: its own where that is free, else the next."""
+    """Return the job with a tool of the library as one more, and its number: its own where that is free, else the
+    next.
+    """
     taken = {t.number for t in job.tools}
     number = tool.number if tool.number not in taken else max(taken) + 1
     return replace(job, tools=(*job.tools, replace(tool, number=number))), number
@@ -125,11 +133,17 @@ def with_cut(job: Job, index: int, cut: Cut) -> Job:
 def with_order(job: Job, order: Order) -> Job:
     """Return the job with an order, and its operations listed as they are cut."""
     contours_first = order is Order.PATENT_1986
-    return replace(job, order=order, operations=tuple(sorted(job.operations, key=lambda each: contours_first and not each.FOLLOWS_WALLS)))
+    return replace(
+        job,
+        order=order,
+        operations=tuple(sorted(job.operations, key=lambda each: contours_first and not each.FOLLOWS_WALLS)),
+    )
 
 
 def with_moved_operation(job: Job, index: int, place: int) -> tuple[Job, int]:
-    """Return the job with one operation at another place in the list, and its new index; from then on it is cut as listed."""
+    """Return the job with one operation at another place in the list, and its new index; from then on it is cut as
+    listed.
+    """
     place = min(max(place, 0), len(job.operations) - 1)
     operations = list(job.operations)
     operations.insert(place, operations.pop(index))
@@ -166,4 +180,4 @@ def with_copied_operation(job: Job, index: int) -> tuple[Job, int]:
 
 def without_operation(job: Job, index: int) -> Job:
     """Return the job without one operation."""
-    return replace(job, operations=job.operations[:index] + job.operations[index + 1:])
+    return replace(job, operations=job.operations[:index] + job.operations[index + 1 :])

@@ -21,8 +21,14 @@ MOST = 200
 """Faults that are listed; the others are counted."""
 
 _ROW_PX, _MOST_ROWS = 24, 6
-TOLERANCE = Spec("Tolerance", "mm", 1e-5, 10.0, 4,
-                 tip="Gaps up to this are closed; curves as near to one another are one, and shorter ones none.")
+TOLERANCE = Spec(
+    "Tolerance",
+    "mm",
+    1e-5,
+    10.0,
+    4,
+    tip="Gaps up to this are closed; curves as near to one another are one, and shorter ones none.",
+)
 
 
 @dataclass(frozen=True, slots=True)

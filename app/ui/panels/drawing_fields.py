@@ -27,7 +27,9 @@ class PointField(QWidget):
     def __init__(self, spec: Spec, read: Callable[[str], float]) -> None:
         super().__init__()
         self.reason = reason_label()
-        self.across, self.up = (NumberField(replace(spec, name=f"{spec.name} {axis}"), read, self.reason) for axis in "XY")
+        self.across, self.up = (
+            NumberField(replace(spec, name=f"{spec.name} {axis}"), read, self.reason) for axis in "XY"
+        )
         self.setToolTip(spec.tip)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 1, 0, 1)

@@ -16,7 +16,8 @@ BEGINNING = "Beginning"
 
 
 class HistorySection(Section):
-    """Every change of a document by name, the oldest first; the one where it stands is chosen, those taken back are faint.
+    """Every change of a document by name, the oldest first; the one where it stands is chosen, those taken back are
+    faint.
 
     Signals:
         wanted(done): the user wants so many of the changes done.
@@ -73,12 +74,12 @@ class HistorySection(Section):
 
     def _fill(self, names: tuple[str, ...]) -> None:
         """Change the items that differ, so that a step more costs one item."""
-        for at, name in enumerate(names[:self.list.count()]):
+        for at, name in enumerate(names[: self.list.count()]):
             if self.list.item(at).text() != name:
                 self.list.item(at).setText(name)
         while self.list.count() > len(names):
             self.list.takeItem(self.list.count() - 1)
-        self.list.addItems(names[self.list.count():])
+        self.list.addItems(names[self.list.count() :])
 
     def _go(self, item: QListWidgetItem) -> None:
         done = self.list.row(item)

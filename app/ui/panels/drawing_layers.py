@@ -50,14 +50,20 @@ class LayerRow(Row):
         self.edit.editingFinished.connect(self._rename)
         self.eye.clicked.connect(lambda: self.asked.emit(f"{'hide' if self._layer.visible else 'show'} {self.text}"))
         self.bolt.clicked.connect(lambda: self.asked.emit(f"{'unlock' if self._layer.locked else 'lock'} {self.text}"))
-        self.swatch.chosen.connect(lambda colour: self.asked.emit(f"colour {self.text} {name_text(colour) if colour else 'none'}"))
+        self.swatch.chosen.connect(
+            lambda colour: self.asked.emit(f"colour {self.text} {name_text(colour) if colour else 'none'}")
+        )
         self.setToolTip(TIP)
 
     def show_layer(self, layer: Layer, curves: int, current: bool) -> None:
         """Show the layer as it is now."""
         self._layer = layer
-        self.eye.show_icon("eye" if layer.visible else "eye-off", f"{'Hide' if layer.visible else 'Show'} layer {layer.name}")
-        self.bolt.show_icon("lock" if layer.locked else "lock-open", f"{'Unlock' if layer.locked else 'Lock'} layer {layer.name}")
+        self.eye.show_icon(
+            "eye" if layer.visible else "eye-off", f"{'Hide' if layer.visible else 'Show'} layer {layer.name}"
+        )
+        self.bolt.show_icon(
+            "lock" if layer.locked else "lock-open", f"{'Unlock' if layer.locked else 'Lock'} layer {layer.name}"
+        )
         self.swatch.show_colour(layer.colour)
         self.count.setText(grouped(curves, 0))
         self.count.setToolTip(counted(curves, "curve"))
@@ -85,7 +91,9 @@ class LayerRow(Row):
         self.name.show()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Enter takes the new name, Escape keeps the old one; all other keys are the line's, neither the row's nor the window's."""
+        """Enter takes the new name, Escape keeps the old one; all other keys are the line's, neither the row's nor the
+        window's.
+        """
         if event.type() == QEvent.Type.ShortcutOverride:
             event.accept()
             return True
@@ -164,7 +172,9 @@ class LayersSection(Section):
             row.begin_rename()
 
     def _build(self, layers: tuple[Layer, ...]) -> None:
-        focused = next((at for at, row in enumerate(self.rows_by_name.values()) if row.hasFocus() or row.edit.hasFocus()), None)
+        focused = next(
+            (at for at, row in enumerate(self.rows_by_name.values()) if row.hasFocus() or row.edit.hasFocus()), None
+        )
         for row in self.rows_by_name.values():
             self._column.removeWidget(row)
             row.hide()

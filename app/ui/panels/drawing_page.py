@@ -39,7 +39,11 @@ class DrawingPage(QScrollArea):
     def __init__(self, document: Document, extent: Callable[[], Box | None]) -> None:
         super().__init__()
         self._document, self._extent = document, extent
-        self.properties, self.layers, self.history = PropertiesSection(document), LayersSection(document), HistorySection(document)
+        self.properties, self.layers, self.history = (
+            PropertiesSection(document),
+            LayersSection(document),
+            HistorySection(document),
+        )
         self.cleanup, self.reading, self._below_reading = CleanUpSection(), ReadingSection(document), hairline()
         self._due = QTimer(self)
         self._due.setSingleShot(True)
@@ -93,7 +97,9 @@ class DrawingPage(QScrollArea):
 
     def _reveal(self, section: Section) -> None:
         self.ensureWidgetVisible(section, 0, 0)
-        found = [w for w in section.findChildren(QWidget) if w.isVisible() and w.focusPolicy() & Qt.FocusPolicy.TabFocus]
+        found = [
+            w for w in section.findChildren(QWidget) if w.isVisible() and w.focusPolicy() & Qt.FocusPolicy.TabFocus
+        ]
         first = next((w for w in found if isinstance(w, QLineEdit)), next(iter(found), None))
         if first is not None:
             first.setFocus(Qt.FocusReason.OtherFocusReason)

@@ -67,8 +67,16 @@ class Selected:
         if not tables:
             return {}
         first, *others = tables.values()
-        common = {word: each for word, each in first.items() if all(word in table for table in others) and word not in _NOT_SHOWN}
-        return common if len(self.ids) == 1 else {word: each for word, each in common.items() if each.kind is not Kind.POINT}
+        common = {
+            word: each
+            for word, each in first.items()
+            if all(word in table for table in others) and word not in _NOT_SHOWN
+        }
+        return (
+            common
+            if len(self.ids) == 1
+            else {word: each for word, each in common.items() if each.kind is not Kind.POINT}
+        )
 
     def value(self, word: str) -> Value | None:
         """Return the value of a property, None where they differ in it by what is seen."""
@@ -83,7 +91,8 @@ class PropertiesSection(Section):
     """Shows a document's selection.
 
     Signals:
-        asked(line, field): the user wants a line of the shape language carried out; `field` marks what is wrong with it.
+        asked(line, field): the user wants a line of the shape language carried out; `field` marks what is wrong with
+        it.
     """
 
     asked = Signal(str, object)
@@ -133,7 +142,11 @@ class PropertiesSection(Section):
             if text:
                 self.figures[name].show_value(text)
         several = len(selected.ids) > 1
-        self._adding.start({n: s for n, s in zip(selected.ids, selected.shapes, strict=True) if isinstance(s, Curve)} if several else {})
+        self._adding.start(
+            {n: s for n, s in zip(selected.ids, selected.shapes, strict=True) if isinstance(s, Curve)}
+            if several
+            else {}
+        )
 
     def _show_sum(self, length: float, box: Box) -> None:
         self.figures[TOTAL].show_value(_length(length))
@@ -152,8 +165,15 @@ class PropertiesSection(Section):
     def _field(self, word: str, known: Property) -> NumberField | PointField:
         several = len(self._selected.ids) > 1
         angle = known.kind is Kind.ANGLE
-        spec = Spec(word.capitalize(), "°" if angle else "mm", -_FARTHEST, _FARTHEST, 2 if angle else 3, tip=known.about,
-                    auto=VARIOUS if several else "")
+        spec = Spec(
+            word.capitalize(),
+            "°" if angle else "mm",
+            -_FARTHEST,
+            _FARTHEST,
+            2 if angle else 3,
+            tip=known.about,
+            auto=VARIOUS if several else "",
+        )
         read = partial(self._read, ANGLE_UNITS if angle else LENGTH_UNITS)
         made = PointField(spec, read) if known.kind is Kind.POINT else NumberField(spec, read)
         if isinstance(made, NumberField):
@@ -220,8 +240,11 @@ def _of_curve(curve: Curve) -> dict[str, str]:
     if isinstance(curve, Ellipse):
         return {"Length": _length(curve_length(curve)), "Direction": "counter-clockwise" if curve.ccw else "clockwise"}
     if isinstance(curve, Spline):
-        return {"Length": _length(curve_length(curve)), "Degree": str(curve.degree),
-                "Control points": f"{len(curve.control_points)}{', weighted' * bool(curve.weights)}"}
+        return {
+            "Length": _length(curve_length(curve)),
+            "Degree": str(curve.degree),
+            "Control points": f"{len(curve.control_points)}{', weighted' * bool(curve.weights)}",
+        }
     return {}
 
 

@@ -1,4 +1,6 @@
-"""What the small pictures show: passes, entry, side, lead, tab, finish, dog-bone, peck, copies, holder. Sizes in px of 150 x 70."""
+"""What the small pictures show: passes, entry, side, lead, tab, finish, dog-bone, peck, copies, holder. Sizes in px of
+150 x 70.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,9 @@ def passes(sketch: Sketch, values: tuple[float, ...]) -> None:
     depth, stepdown, finish, leave = values
     scale = (FLOOR - TOP) / depth
     floor = TOP + (depth - leave) * scale
-    sketch.metal([(2, TOP), (34, TOP), (34, floor), (112, floor), (112, TOP), (144, TOP), (144, FLOOR + 5), (2, FLOOR + 5)])
+    sketch.metal(
+        [(2, TOP), (34, TOP), (34, floor), (112, floor), (112, TOP), (144, TOP), (144, FLOOR + 5), (2, FLOOR + 5)]
+    )
     rough = depth - leave - finish
     count = min(max(1, math.ceil(rough / stepdown - 1e-9)), 24)
     for k in range(1, count + (finish > 0)):
@@ -32,7 +36,15 @@ def entry(sketch: Sketch, values: tuple[float, ...]) -> None:
     """Draw the way down. Values: 0 helix, 1 ramp, 2 plunge, 3 pre-drilled; angle, degrees."""
     kind, angle = int(values[0]), values[1]
     hole = [(56, TOP), (56, FLOOR), (80, FLOOR), (80, TOP)] if kind == 3 else []
-    sketch.metal([(2, TOP + 6), *[(x, y + 6 if y == TOP else y) for x, y in hole], (144, TOP + 6), (144, FLOOR + 6), (2, FLOOR + 6)])
+    sketch.metal(
+        [
+            (2, TOP + 6),
+            *[(x, y + 6 if y == TOP else y) for x, y in hole],
+            (144, TOP + 6),
+            (144, FLOOR + 6),
+            (2, FLOOR + 6),
+        ]
+    )
     slope = math.tan(math.radians(min(max(angle, 4.0), 40.0)))
     if kind == 0:
         rise = max(slope * 34, 5.0)
@@ -75,7 +87,9 @@ def side(sketch: Sketch, values: tuple[float, ...]) -> None:
 
 
 def lead(sketch: Sketch, values: tuple[float, ...]) -> None:
-    """Draw how a path comes to its wall. Values: 0 arc, 1 line, 2 none; radius and overlap as shares of the diameter."""
+    """Draw how a path comes to its wall. Values: 0 arc, 1 line, 2 none; radius and overlap as shares of the
+    diameter.
+    """
     kind, radius, overlap = int(values[0]), min(max(values[1], 0.15), 1.2) * 24, min(values[2], 1.5) * 24
     wall, path = 62.0, 50.0
     sketch.metal([(2, wall), (146, wall), (146, 69), (2, 69)])
@@ -101,7 +115,11 @@ def tab(sketch: Sketch, values: tuple[float, ...]) -> None:
     left, right = 74 - wide / 2, 74 + wide / 2
     raised = [(left, FLOOR), (left, FLOOR - rise), (right, FLOOR - rise), (right, FLOOR)] if count else []
     sketch.metal([(2, FLOOR), *raised, (146, FLOOR), (146, 69), (2, 69)])
-    over = [(left - 7, FLOOR - 1), (left - 7, FLOOR - rise - 1), (right + 7, FLOOR - rise - 1), (right + 7, FLOOR - 1)] if count else []
+    over = (
+        [(left - 7, FLOOR - 1), (left - 7, FLOOR - rise - 1), (right + 7, FLOOR - rise - 1), (right + 7, FLOOR - 1)]
+        if count
+        else []
+    )
     sketch.path([(6, FLOOR - 1), *over, (142, FLOOR - 1)])
     sketch.tool(24, FLOOR - 1, 14)
     if count:
@@ -110,7 +128,9 @@ def tab(sketch: Sketch, values: tuple[float, ...]) -> None:
 
 
 def wall(sketch: Sketch, values: tuple[float, ...]) -> None:
-    """Draw what is left on a wall, and what the finish pass takes. Values: stock to leave, finish width, diameter, mm."""
+    """Draw what is left on a wall, and what the finish pass takes. Values: stock to leave, finish width, diameter,
+    mm.
+    """
     leave, finish, diameter = values
     scale = 30 / max(diameter, 1e-6)
     stands, takes = min(leave * scale, 30.0), min(finish * scale, 26.0)
@@ -167,7 +187,8 @@ def copies(sketch: Sketch, values: tuple[float, ...]) -> None:
 
 
 def assembly(sketch: Sketch, values: tuple[float, ...]) -> None:
-    """Draw a tool lying in its holder. Values: diameter, flute length, shank, stick-out, and height and radius of the outline, mm.
+    """Draw a tool lying in its holder. Values: diameter, flute length, shank, stick-out, and height and radius of the
+    outline, mm.
 
     What is not known, 0, is drawn as is usual: such a shank dashed.
     """
@@ -187,6 +208,22 @@ def assembly(sketch: Sketch, values: tuple[float, ...]) -> None:
             sketch.guide([(4 + out * scale, 6), (4 + out * scale, middle - points[0][1])])
     half, thick = diameter * scale / 2, shank * scale / 2
     line = sketch.outline if values[1] and values[2] else sketch.guide
-    line([(4 + stop, middle - thick), (4 + out * scale, middle - thick), (4 + out * scale, middle + thick),
-                  (4 + stop, middle + thick), (4 + stop, middle - thick)])  # fmt: skip
-    sketch.path([(4, middle - half), (4 + stop, middle - half), (4 + stop, middle + half), (4, middle + half), (4, middle - half)], True)
+    line(
+        [
+            (4 + stop, middle - thick),
+            (4 + out * scale, middle - thick),
+            (4 + out * scale, middle + thick),
+            (4 + stop, middle + thick),
+            (4 + stop, middle - thick),
+        ]
+    )
+    sketch.path(
+        [
+            (4, middle - half),
+            (4 + stop, middle - half),
+            (4 + stop, middle + half),
+            (4, middle + half),
+            (4, middle - half),
+        ],
+        True,
+    )

@@ -26,15 +26,23 @@ class HoldGroup:
     def __init__(self, form: Form, edit: EditTool) -> None:
         """Add the group to a form; `edit(job, change)` gives the job with the form's tool changed."""
         self.group = form.begin_group("Shank and holder")
-        flutes, shank, out = ((name, f"{tip} Empty: not known, and not looked at.") for name, tip in (
-            ("Flute length", "From the tip to where the tool no longer cuts."), ("Shank", "Diameter above the flutes."),
-            ("Stick-out", "From the tip to the holder's lower face.")))  # fmt: skip
+        flutes, shank, out = (
+            (name, f"{tip} Empty: not known, and not looked at.")
+            for name, tip in (
+                ("Flute length", "From the tip to where the tool no longer cuts."),
+                ("Shank", "Diameter above the flutes."),
+                ("Stick-out", "From the tip to the holder's lower face."),
+            )
+        )
         self.flutes = form.add_number(
-            _length(*flutes), lambda job, v: edit(job, lambda tool: replace(tool, flute_length=v or 0.0)))
+            _length(*flutes), lambda job, v: edit(job, lambda tool: replace(tool, flute_length=v or 0.0))
+        )
         self.shank = form.add_number(
-            _length(*shank), lambda job, v: edit(job, lambda tool: replace(tool, shank_diameter=v or 0.0)))
+            _length(*shank), lambda job, v: edit(job, lambda tool: replace(tool, shank_diameter=v or 0.0))
+        )
         self.stick_out = form.add_number(
-            _length(*out), lambda job, v: edit(job, lambda tool: replace(tool, stick_out=v or 0.0)))
+            _length(*out), lambda job, v: edit(job, lambda tool: replace(tool, stick_out=v or 0.0))
+        )
         self.holder = ListField("Holder", [])
         form.add_choice("Holder", self.holder, lambda job, v: edit(job, lambda tool: replace(tool, holder=_outline(v))))
         self.picture, self.words = Picture(drawings.assembly, "The tool in its holder"), muted()
@@ -49,8 +57,13 @@ class HoldGroup:
         choices: list[tuple[object, str]] = [((), UNKNOWN), *((each.outline, each.name) for each in named_holders())]
         self.holder.set_choices(choices + ([(tool.holder, OWN)] if tool.holder and not name else []))
         self.holder.show_value(tool.holder)
-        self.picture.show_values(tool.diameter, tool.flute_length, tool.shank_diameter, tool.stick_out,
-                                 *(value for point in tool.holder for value in point))  # fmt: skip
+        self.picture.show_values(
+            tool.diameter,
+            tool.flute_length,
+            tool.shank_diameter,
+            tool.stick_out,
+            *(value for point in tool.holder for value in point),
+        )
         self.words.setText(_words(tool))
         out = f", {tool.stick_out:g} mm out" if tool.stick_out else ""
         self.group.say(f"{name or OWN.lower()}{out}" if tool.holder else "holder not known")

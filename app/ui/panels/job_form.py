@@ -22,21 +22,34 @@ class JobForm(Form):
         super().__init__("Stock and origin")
         self.margin = self.add_number(
             Spec("Stock margin", low=0, high=10_000, tip="How far the stock reaches beyond the part on every side."),
-            lambda job, v: replace(job, stock=replace(job.stock, margin=v)))
+            lambda job, v: replace(job, stock=replace(job.stock, margin=v)),
+        )
         self.thickness = self.add_number(
             Spec("Thickness", low=0.001, high=10_000, tip="Height of the stock; Z 0 is its top."),
-            lambda job, v: replace(job, stock=replace(job.stock, thickness=v)))
+            lambda job, v: replace(job, stock=replace(job.stock, thickness=v)),
+        )
         self.origin_xy = ListField("Origin XY", [(o, o.value.capitalize()) for o in OriginXY])
         self.add_choice("Origin XY", self.origin_xy, lambda job, v: replace(job, origin_xy=OriginXY(v)))
         self.origin_z = ListField("Origin Z", [(o, o.value.capitalize()) for o in OriginZ])
         self.add_choice("Origin Z", self.origin_z, lambda job, v: replace(job, origin_z=OriginZ(v)))
         self.safe_z = self.add_number(
-            Spec("Safe Z", low=0.001, high=10_000, tip="Clearance height above the stock's top; rapids in the plane go there."),
-            lambda job, v: replace(job, safe_z=v, retract_z=min(job.retract_z, v)))
+            Spec(
+                "Safe Z",
+                low=0.001,
+                high=10_000,
+                tip="Clearance height above the stock's top; rapids in the plane go there.",
+            ),
+            lambda job, v: replace(job, safe_z=v, retract_z=min(job.retract_z, v)),
+        )
         self.join = self.add_number(
-            Spec("Join tolerance", low=0, high=LARGEST_JOIN, tip="Loose ends of the drawing nearer than this are joined."),
-            lambda job, v: replace(job, join_tolerance=v))
-        self.order = ChoiceField("Cutting order", [(Order.POCKET_FIRST, "As listed"), (Order.PATENT_1986, "Contours first")])
+            Spec(
+                "Join tolerance", low=0, high=LARGEST_JOIN, tip="Loose ends of the drawing nearer than this are joined."
+            ),
+            lambda job, v: replace(job, join_tolerance=v),
+        )
+        self.order = ChoiceField(
+            "Cutting order", [(Order.POCKET_FIRST, "As listed"), (Order.PATENT_1986, "Contours first")]
+        )
         self.add_choice("Order", self.order, lambda job, v: with_order(job, Order(v)))
         self._posts = post_titles()
         self.post = ListField("Post", list(self._posts.items()))
@@ -50,9 +63,11 @@ class JobForm(Form):
     def _add_copies(self) -> None:
         self.copies_group = self.begin_group("Copies")
         self.columns = self.add_number(
-            Spec("Columns", "", 1, 1000, 0, False, "How many along X."), lambda job, v: self._copied(job, columns=v))
+            Spec("Columns", "", 1, 1000, 0, False, "How many along X."), lambda job, v: self._copied(job, columns=v)
+        )
         self.rows_of = self.add_number(
-            Spec("Rows", "", 1, 1000, 0, False, "How many along Y."), lambda job, v: self._copied(job, rows=v))
+            Spec("Rows", "", 1, 1000, 0, False, "How many along Y."), lambda job, v: self._copied(job, rows=v)
+        )
         tip = "From one copy to the next, same point to same point."
         self.dx = self.add_number(Spec("Every X", low=-99_999, tip=tip), lambda job, v: self._copied(job, dx=v))
         self.dy = self.add_number(Spec("Every Y", low=-99_999, tip=tip), lambda job, v: self._copied(job, dy=v))
@@ -62,10 +77,13 @@ class JobForm(Form):
     def _add_clamps(self) -> None:
         self.clamps_group = self.begin_group("Keep-out areas")
         self.clamps = ListField("Layer", [])
-        self.add_choice("Keep-out layer", self.clamps, lambda job, v: replace(job, keep_out_layers=(str(v),) if v else ()))
+        self.add_choice(
+            "Keep-out layer", self.clamps, lambda job, v: replace(job, keep_out_layers=(str(v),) if v else ())
+        )
         self.clamp_height = self.add_number(
             Spec("Height", low=0, high=10_000, tip="Of clamps above the stock's top; rapids go over them."),
-            lambda job, v: replace(job, keep_out_height=v))
+            lambda job, v: replace(job, keep_out_height=v),
+        )
 
     def _copied(self, job: Job, **values: float) -> Job:
         """Return the job with other copies; a spacing that is yet missing leaves room for two tools between them."""

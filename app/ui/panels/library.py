@@ -1,4 +1,6 @@
-"""The tool library in the side panel: search, feeds for a material, a list, and what to do with the tool that is chosen."""
+"""The tool library in the side panel: search, feeds for a material, a list, and what to do with the tool that is
+chosen.
+"""
 
 from __future__ import annotations
 
@@ -26,10 +28,15 @@ NONE_FOUND = "No tool is called that; search for a diameter, such as 6, a kind, 
 
 
 def matches(tool: Tool, text: str) -> bool:
-    """Tell whether every word of a search stands in a tool's name, kind or remark, or is its diameter; numbers are whole ones there."""
+    """Tell whether every word of a search stands in a tool's name, kind or remark, or is its diameter; numbers are
+    whole ones there.
+    """
     about = f"{tool.label} {KINDS[tool.kind]} {tool.remark}".casefold()
     size = f"{tool.diameter:g}"
-    return all(word in (size, f"{size}mm") or word in (about.split() if word[0].isdigit() else about) for word in text.casefold().split())
+    return all(
+        word in (size, f"{size}mm") or word in (about.split() if word[0].isdigit() else about)
+        for word in text.casefold().split()
+    )
 
 
 def materials(tools: tuple[Tool, ...]) -> tuple[str, ...]:
@@ -42,7 +49,8 @@ class LibrarySection(Section):
     """Every tool of the libraries, kind by kind, the thinnest first.
 
     Signals:
-        added(tool), put(tool): the user wants this tool, with the feeds of the chosen material, in the job as another one, or
+        added(tool), put(tool): the user wants this tool, with the feeds of the chosen material, in the job as another
+        one, or
             in the place of the job's chosen tool.
         imported(), exported(): wants to read tools from a file, or the job's written to one. closed().
     """
@@ -147,7 +155,9 @@ class LibrarySection(Section):
         for other, row in self._rows:
             row.set_chosen(other is tool)
         self.reveal()
-        self.details.setText("" if tool is None else _about(for_material(tool, self._material), row_for(tool, self._material)))
+        self.details.setText(
+            "" if tool is None else _about(for_material(tool, self._material), row_for(tool, self._material))
+        )
         self.details.setVisible(tool is not None)
         self.add_button.setEnabled(tool is not None)
         self.put_button.setEnabled(tool is not None)
@@ -181,7 +191,12 @@ class LibrarySection(Section):
 
     def _row(self, tool: Tool) -> Row:
         shown = for_material(tool, self._material)
-        row = Row(IconLabel(icon_of(tool.kind)), Elided(tool.label), muted(f"{grouped(shown.spindle_speed, 0)} rpm"), stretch_after=1)
+        row = Row(
+            IconLabel(icon_of(tool.kind)),
+            Elided(tool.label),
+            muted(f"{grouped(shown.spindle_speed, 0)} rpm"),
+            stretch_after=1,
+        )
         row.setToolTip(f"{KINDS[tool.kind]}. Enter: add to the job")
         row.clicked.connect(lambda: self.choose(tool))
         row.stepped.connect(lambda way: self._step(tool, way))
@@ -222,13 +237,26 @@ class LibrarySection(Section):
 
 
 def _about(tool: Tool, row: FeedRow | None) -> str:
-    """Return what there is to know of a tool: what it is, how long, how fast; and what for, where that is not everything."""
+    """Return what there is to know of a tool: what it is, how long, how fast; and what for, where that is not
+    everything.
+    """
     shape = [f"{math.degrees(tool.tip_angle):g}°"] * bool(tool.tip_angle)
-    shape += [f"{name} {value:g} mm" for name, value in (("corner", tool.corner_radius), ("tip", tool.tip_diameter)) if value]
-    lengths = [f"{value:g} mm {name}" for name, value in (("of cut", tool.flute_length), ("overall", tool.overall_length)) if value]
+    shape += [
+        f"{name} {value:g} mm" for name, value in (("corner", tool.corner_radius), ("tip", tool.tip_diameter)) if value
+    ]
+    lengths = [
+        f"{value:g} mm {name}"
+        for name, value in (("of cut", tool.flute_length), ("overall", tool.overall_length))
+        if value
+    ]
     feeds = f"F {grouped(tool.feed_rate, 0)}, down {grouped(tool.plunge_rate, 0)} mm/min"
     chip = f", {row.feed_per_tooth:g} a tooth" if row is not None else ""
-    lines = [", ".join([KINDS[tool.kind], counted(tool.flutes, "flute"), *shape]), ", ".join(lengths), feeds + chip, use_of(tool.kind)]
+    lines = [
+        ", ".join([KINDS[tool.kind], counted(tool.flutes, "flute"), *shape]),
+        ", ".join(lengths),
+        feeds + chip,
+        use_of(tool.kind),
+    ]
     return "\n".join(line for line in lines if line)
 
 

@@ -138,7 +138,9 @@ class ToolSection(ListSection):
         self.library_button = IconButton("library", "Tool library (F6)")
         self.library_button.setCheckable(True)
         self.library_button.clicked.connect(self.library)
-        self.advice_button = IconButton("advice", "Which tool? Passages, corners, and what each tool reaches (Shift+F6)")
+        self.advice_button = IconButton(
+            "advice", "Which tool? Passages, corners, and what each tool reaches (Shift+F6)"
+        )
         self.advice_button.setCheckable(True)
         self.advice_button.clicked.connect(self.advice)
         self.head.addWidget(self.advice_button)
@@ -184,7 +186,9 @@ class OperationSection(ListSection):
             action = QAction(word.capitalize(), menu)
             action.triggered.connect(lambda _=False, k=kind: self.added.emit(k))
             menu.addAction(action)
-        self.add_button.clicked.connect(lambda: menu.popup(self.add_button.mapToGlobal(self.add_button.rect().bottomLeft())))
+        self.add_button.clicked.connect(
+            lambda: menu.popup(self.add_button.mapToGlobal(self.add_button.rect().bottomLeft()))
+        )
         self.head.addWidget(self.add_button)
         self._shown: object = None
         self.switches: list[Switch] = []
@@ -216,4 +220,11 @@ class OperationSection(ListSection):
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
-        return Row(switch, sample, QLabel(name), Elided(text, "error" if refusal(job, operation) else "muted"), time, stretch_after=3)
+        return Row(
+            switch,
+            sample,
+            QLabel(name),
+            Elided(text, "error" if refusal(job, operation) else "muted"),
+            time,
+            stretch_after=3,
+        )

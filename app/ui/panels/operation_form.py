@@ -1,4 +1,6 @@
-"""The form of an operation: what most people set first, then groups that fold. It shows what has an effect on its kind alone."""
+"""The form of an operation: what most people set first, then groups that fold. It shows what has an effect on its kind
+alone.
+"""
 
 from __future__ import annotations
 
@@ -78,8 +80,12 @@ class OperationForm(Form):
         """Show a widget for some operations alone."""
         self._of.append((widget, concerns))
 
-    def add_parameter(self, key: str, read: Callable[[str], float] | None = None, edit: Callable[[Job, Any], Job] | None = None) -> None:
-        """Add the field of a parameter, with the reading of texts and the change of the job in the place of the usual ones."""
+    def add_parameter(
+        self, key: str, read: Callable[[str], float] | None = None, edit: Callable[[Job, Any], Job] | None = None
+    ) -> None:
+        """Add the field of a parameter, with the reading of texts and the change of the job in the place of the usual
+        ones.
+        """
         placed = parameters()[key][0]
         made = ParameterField(placed, field_of(placed, read))
         change = edit or (lambda job, value: self.with_values(job, {key: made.kept(value)}))
@@ -91,7 +97,9 @@ class OperationForm(Form):
         self.tool = ListField("Tool", [])
         self.add_choice("Tool", self.tool, lambda job, v: self.with_values(job, {"tool": v}))
         own: dict[str, tuple[Callable[[str], float] | None, Callable[[Job, Any], Job] | None]] = {
-            "stepover": (self._read_stepover, None), "side": (None, self._with_side)}
+            "stepover": (self._read_stepover, None),
+            "side": (None, self._with_side),
+        }
         beside = {"stepover": self._add_rings, "side": self._add_side, "peck": self._add_strokes}
         for key, (placed, _) in parameters().items():
             if not placed.parameter.group and key not in ("tool", "enabled"):
@@ -121,7 +129,11 @@ class OperationForm(Form):
 
     def _read_stepover(self, text: str) -> float:
         share = text.strip().removesuffix("%")
-        value = spec_of(parameters()["stepover"][0].parameter).read(text) if share == text.strip() else length(share) * self._diameter / 100
+        value = (
+            spec_of(parameters()["stepover"][0].parameter).read(text)
+            if share == text.strip()
+            else length(share) * self._diameter / 100
+        )
         if not 0 < value <= self._diameter:
             raise HitofudeError(_too_wide(value, self._diameter))
         return value
@@ -172,7 +184,8 @@ class OperationForm(Form):
         self.number("depth").show_value(cut.depth, "through" if cut.depth == thickness else "")
         if cut.depth > thickness:
             self.number("depth").refuse(
-                f"Depth is {cut.depth:g} mm, but the stock is {thickness:g} mm thick; reduce it or take thicker stock.")
+                f"Depth is {cut.depth:g} mm, but the stock is {thickness:g} mm thick; reduce it or take thicker stock."
+            )
         passes = math.ceil((cut.floor - cut.finish_depth) / cut.stepdown - 1e-9) + (cut.finish_depth > 0)
         self.number("stepdown").show_value(cut.stepdown, counted(passes, "pass", "passes"))
 
@@ -189,8 +202,10 @@ class OperationForm(Form):
 
     def _show_side(self, side: Side) -> None:
         self.side_picture.show_values(list(Side).index(side))
-        self.side_words.setText({
-            Side.INSIDE: "What the lines bound is taken out.",
-            Side.OUTSIDE: "What the lines bound is the part.",
-            Side.ON: "The tool's centre follows the lines, open ones too.",
-        }[side])
+        self.side_words.setText(
+            {
+                Side.INSIDE: "What the lines bound is taken out.",
+                Side.OUTSIDE: "What the lines bound is the part.",
+                Side.ON: "The tool's centre follows the lines, open ones too.",
+            }[side]
+        )

@@ -1,4 +1,6 @@
-"""The groups of an operation's form that fold: fields by the parameters' declarations, and pictures and words beside some of them."""
+"""The groups of an operation's form that fold: fields by the parameters' declarations, and pictures and words beside
+some of them.
+"""
 
 from __future__ import annotations
 
@@ -175,8 +177,12 @@ def _tabs(form: GroupHost) -> Show:
 
     def show(shown: Shown) -> None:
         places = shown.value("tab_places", ())
-        picture.show_values(shown.value("tab_width", 0.0), shown.value("tab_height", 0.0), shown.operation.cut.depth,
-                            shown.value("tabs", 0) + len(places))
+        picture.show_values(
+            shown.value("tab_width", 0.0),
+            shown.value("tab_height", 0.0),
+            shown.operation.cut.depth,
+            shown.value("tabs", 0) + len(places),
+        )
         words.setText(f"{len(places)} by hand" if places else "")
 
     return show
@@ -188,7 +194,10 @@ def _layers(form: GroupHost) -> Show:
     def show(shown: Shown) -> None:
         field, own = form.fields["layers"].field, shown.operation.cut.layers
         assert isinstance(field, ListField)
-        choices: list[tuple[object, str]] = [((), "All of the job"), *(((layer.name,), layer.name) for layer in shown.job.part.layers)]
+        choices: list[tuple[object, str]] = [
+            ((), "All of the job"),
+            *(((layer.name,), layer.name) for layer in shown.job.part.layers),
+        ]
         if own not in [value for value, _ in choices]:
             choices.append((own, ", ".join(own)))
         field.set_choices(choices)
@@ -203,6 +212,11 @@ def nothing_beside(form: GroupHost) -> Show:
 
 
 EXTRAS: dict[str, Callable[[GroupHost], Show]] = {
-    "Floor": _floor, "Entry": _entry, "Walls": _walls, "Lead in and out": _lead, "Tabs": _tabs, "Feed and layers": _layers,
+    "Floor": _floor,
+    "Entry": _entry,
+    "Walls": _walls,
+    "Lead in and out": _lead,
+    "Tabs": _tabs,
+    "Feed and layers": _layers,
 }
 """By title: what a group has beside its fields."""

@@ -1,4 +1,6 @@
-"""Fields of a form made from the declarations of parameters: a number, a choice, a switch or a list, whatever the parameter is."""
+"""Fields of a form made from the declarations of parameters: a number, a choice, a switch or a list, whatever the
+parameter is.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +25,15 @@ def spec_of(declared: Parameter) -> Spec:
     """Return what a number field asks for."""
     empty = f"; empty: {declared.auto}" if declared.auto else ""
     return Spec(
-        declared.short or declared.label, _SIGNS[declared.unit], declared.shown(declared.low), declared.shown(declared.high),
-        _DECIMALS[declared.unit], declared.unit is Unit.LENGTH, f"{sentence(declared.help)}{empty}.", "auto" if declared.auto else "",
-    )  # fmt: skip
+        declared.short or declared.label,
+        _SIGNS[declared.unit],
+        declared.shown(declared.low),
+        declared.shown(declared.high),
+        _DECIMALS[declared.unit],
+        declared.unit is Unit.LENGTH,
+        f"{sentence(declared.help)}{empty}.",
+        "auto" if declared.auto else "",
+    )
 
 
 def sentence(words: str) -> str:

@@ -73,8 +73,12 @@ class Sketch:
         self._painter.drawLine(QPointF(*a), QPointF(*b))
         for (x, y), way in ((a, 1), (b, -1)):
             for side in (1, -1):
-                self._painter.drawLine(QPointF(x, y), QPointF(x + size * (way * along[0] - side * along[1]),
-                                                              y + size * (way * along[1] + side * along[0])))
+                self._painter.drawLine(
+                    QPointF(x, y),
+                    QPointF(
+                        x + size * (way * along[0] - side * along[1]), y + size * (way * along[1] + side * along[0])
+                    ),
+                )
         if word:
             self.word(b[0] + 5, (a[1] + b[1]) / 2 + 4, word)
 

@@ -20,8 +20,16 @@ from ..framework.labels import Elided, muted
 from ..framework.section import Section
 
 MODEL_SPACE, NOTHING, ALL_SHOWN = "Model space", "none", "all that are shown"
-PER_INCH = Spec("Per inch", "", LEAST_PER_INCH, MOST_PER_INCH, 3, False,
-                "Units of the page to the inch: 96 by CSS, 90 of Inkscape before 0.92, 72 of Illustrator.", "auto")
+PER_INCH = Spec(
+    "Per inch",
+    "",
+    LEAST_PER_INCH,
+    MOST_PER_INCH,
+    3,
+    False,
+    "Units of the page to the inch: 96 by CSS, 90 of Inkscape before 0.92, 72 of Illustrator.",
+    "auto",
+)
 
 
 class ChecksField(QWidget):
@@ -122,8 +130,11 @@ class ReadingSection(Section):
         self.add_indented(foot)
 
     def _connect(self) -> None:
-        self.units.chosen.connect(lambda units: self._want(self._reading.in_units(units) if units else self._reading.with_pixels(
-            self._reading.how.pixels_per_inch)))
+        self.units.chosen.connect(
+            lambda units: self._want(
+                self._reading.in_units(units) if units else self._reading.with_pixels(self._reading.how.pixels_per_inch)
+            )
+        )
         self.layout_.chosen.connect(lambda name: self._want_how(layout=name))
         self.per_inch.committed.connect(lambda value: self._want(self._reading.with_pixels(value)))
         self.to_zero.chosen.connect(lambda on: self._want_how(to_zero=on))
@@ -165,12 +176,16 @@ class ReadingSection(Section):
         self.units.set_choices([(None, _own_units(drawn, contents)), *((units, UNIT_WORDS[units]) for units in Units)])
         self.units.show_value(reading.units)
         layout = next((name for name in paper if name.casefold() == reading.how.layout.casefold()), reading.how.layout)
-        self.layout_.set_choices([("", MODEL_SPACE), *((name, name) for name in dict.fromkeys((*paper, layout)) if name)])
+        self.layout_.set_choices(
+            [("", MODEL_SPACE), *((name, name) for name in dict.fromkeys((*paper, layout)) if name)]
+        )
         self.layout_.show_value(layout)
         self.layout_.setVisible(drawn)
         note = "" if reading.how.pixels_per_inch or contents.per_inch is None else f"{contents.per_inch:g}"
         self.per_inch.show_value(reading.how.pixels_per_inch, note)
-        self.per_inch.setVisible(not drawn and (contents.per_inch is not None or reading.how.pixels_per_inch is not None))
+        self.per_inch.setVisible(
+            not drawn and (contents.per_inch is not None or reading.how.pixels_per_inch is not None)
+        )
         self.to_zero.show_value(reading.how.to_zero)
         self.only.show_names(contents.layers, reading.layers)
         self.layers.show_names(contents.layers, reading.how.without_layers)
@@ -186,7 +201,12 @@ class ReadingSection(Section):
         self._look()
 
     def _look(self) -> None:
-        if self.contents is None and not self.trouble.text() and self.isVisible() and self._document.state.source is not None:
+        if (
+            self.contents is None
+            and not self.trouble.text()
+            and self.isVisible()
+            and self._document.state.source is not None
+        ):
             self.looked.emit()
 
 

@@ -32,7 +32,8 @@ class SidePanel(QScrollArea):
     """Shows the document's job and turns what the user does into undoable changes of it.
 
     Signals:
-        refused(sentence): a change that the job does not allow. advice_shown(): the sheet "Which tool?" has been opened.
+        refused(sentence): a change that the job does not allow. advice_shown(): the sheet "Which tool?" has been
+        opened.
     """
 
     refused = Signal(str)
@@ -163,8 +164,14 @@ class SidePanel(QScrollArea):
         """
         copies, margin = job.copies, 2 * job.stock.margin
         self.job_form.show_size(size)
-        self._size = None if size is None else (size[0] + (copies.columns - 1) * abs(copies.dx) + margin,
-                                                size[1] + (copies.rows - 1) * abs(copies.dy) + margin)  # fmt: skip
+        self._size = (
+            None
+            if size is None
+            else (
+                size[0] + (copies.columns - 1) * abs(copies.dx) + margin,
+                size[1] + (copies.rows - 1) * abs(copies.dy) + margin,
+            )
+        )
         self.job.show_job(job, self._size)
 
     def change(self, name: str, make: Callable[[Job], Job], field: NumberField | None = None) -> None:

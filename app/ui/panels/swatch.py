@@ -12,8 +12,15 @@ from ..framework.fields import restyle
 from ..framework.theme import LIGHT, Theme
 
 HUES = {
-    "": "ink", "#e69f00": "orange", "#56b4e9": "sky blue", "#009e73": "green", "#f0e442": "yellow", "#0072b2": "blue",
-    "#d55e00": "vermilion", "#cc79a7": "purple", "#8a8f98": "grey",
+    "": "ink",
+    "#e69f00": "orange",
+    "#56b4e9": "sky blue",
+    "#009e73": "green",
+    "#f0e442": "yellow",
+    "#0072b2": "blue",
+    "#d55e00": "vermilion",
+    "#cc79a7": "purple",
+    "#8a8f98": "grey",
 }
 """Okabe and Ito's colours, which colour-blind eyes tell apart; "" is the theme's ink."""
 

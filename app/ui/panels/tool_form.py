@@ -28,16 +28,26 @@ class ToolForm(Form):
         self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: _as_kind(tool, ToolKind(v))))
         self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
         self.corner = self._add(Spec("Corner radius", low=0, high=1000), lambda tool, v: replace(tool, corner_radius=v))
-        self.angle = self._add(Spec("Full angle", "°", 1, 179, 2, False, "Of the point, or of the cone.", "unknown"),
-                               lambda tool, v: replace(tool, tip_angle=math.radians(v or 0.0)))
-        self.tip = self._add(Spec("Tip", low=0, high=1000, tip="Diameter of the flat at the point, or of the ball at the tip."),
-                             lambda tool, v: replace(tool, tip_diameter=v))
+        self.angle = self._add(
+            Spec("Full angle", "°", 1, 179, 2, False, "Of the point, or of the cone.", "unknown"),
+            lambda tool, v: replace(tool, tip_angle=math.radians(v or 0.0)),
+        )
+        self.tip = self._add(
+            Spec("Tip", low=0, high=1000, tip="Diameter of the flat at the point, or of the ball at the tip."),
+            lambda tool, v: replace(tool, tip_diameter=v),
+        )
         self.flutes = self._add(Spec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v)))
         self.material = ListField("Feeds for", [])
         self.add_choice("Feeds", self.material, lambda job, v: self._edit(job, lambda tool: for_material(tool, str(v))))
-        self.speed = self._add(Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v))
-        self.feed = self._add(Spec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v))
-        self.plunge = self._add(Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v))
+        self.speed = self._add(
+            Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v)
+        )
+        self.feed = self._add(
+            Spec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v)
+        )
+        self.plunge = self._add(
+            Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v)
+        )
         self.chip = QLabel()
         self.chip.setWordWrap(True)
         self.chip.setContentsMargins(0, 4, 0, 0)

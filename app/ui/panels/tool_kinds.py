@@ -7,12 +7,20 @@ import math
 from ...model.tool import ToolKind
 
 KINDS: dict[ToolKind, str] = {
-    ToolKind.FLAT: "Flat end mill", ToolKind.BULL: "Bull-nose mill", ToolKind.BALL: "Ball end mill", ToolKind.TAPER: "Tapered ball mill",
-    ToolKind.V: "V cutter", ToolKind.DRILL: "Drill",
+    ToolKind.FLAT: "Flat end mill",
+    ToolKind.BULL: "Bull-nose mill",
+    ToolKind.BALL: "Ball end mill",
+    ToolKind.TAPER: "Tapered ball mill",
+    ToolKind.V: "V cutter",
+    ToolKind.DRILL: "Drill",
 }
 """In the order in which they are listed."""
 
-USUAL_ANGLES: dict[ToolKind, float] = {ToolKind.V: math.radians(90), ToolKind.DRILL: math.radians(118), ToolKind.TAPER: math.radians(10)}
+USUAL_ANGLES: dict[ToolKind, float] = {
+    ToolKind.V: math.radians(90),
+    ToolKind.DRILL: math.radians(118),
+    ToolKind.TAPER: math.radians(10),
+}
 """Full angles of the point or cone, radians, that a tool gets which becomes one of these kinds."""
 
 
@@ -25,4 +33,8 @@ def use_of(kind: ToolKind) -> str:
     """Return what operations take a kind of tool for; "" of flat ones, which mill everything."""
     if kind is ToolKind.FLAT:
         return ""
-    return "For drill operations." if kind is ToolKind.DRILL else "For paths on the line; along walls it is led as a flat one."
+    return (
+        "For drill operations."
+        if kind is ToolKind.DRILL
+        else "For paths on the line; along walls it is led as a flat one."
+    )

@@ -1,4 +1,6 @@
-"""Has the drawing looked at for what it asks of its tools, on a worker of its own, and puts the tools chosen into the job."""
+"""Has the drawing looked at for what it asks of its tools, on a worker of its own, and puts the tools chosen into the
+job.
+"""
 
 from __future__ import annotations
 
@@ -44,13 +46,21 @@ def with_tool_for(job: Job, tool: Tool, concerned: Callable[[Operation], bool]) 
     own = next((each for each in job.tools if each.kind is ToolKind.FLAT and each.diameter == tool.diameter), None)
     if own is None:
         like = next((job.tool(each.cut.tool) for each in job.operations if concerned(each)), tool)
-        job, number = with_library_tool(job, replace(like, diameter=tool.diameter, name="", kind=ToolKind.FLAT, feeds=()))
+        job, number = with_library_tool(
+            job, replace(like, diameter=tool.diameter, name="", kind=ToolKind.FLAT, feeds=())
+        )
     else:
         number = own.number
-    operations = tuple(replace(each, cut=replace(each.cut, tool=number)) if concerned(each) else each for each in job.operations)
+    operations = tuple(
+        replace(each, cut=replace(each.cut, tool=number)) if concerned(each) else each for each in job.operations
+    )
     used = {each.cut.tool for each in operations}
     before = {each.cut.tool for each in job.operations}
-    return replace(job, operations=operations, tools=tuple(each for each in job.tools if each.number in used or each.number not in before))
+    return replace(
+        job,
+        operations=operations,
+        tools=tuple(each for each in job.tools if each.number in used or each.number not in before),
+    )
 
 
 class Advising(QObject):
@@ -72,12 +82,16 @@ class Advising(QObject):
         self.worker.failed.connect(self._on_failed)
         self.worker.progress.connect(window.status.show_progress)
         self.worker.busy_changed.connect(self._on_busy)
-        self.worker.cancelled.connect(lambda _: self._panel.advice.show_advice(None, "Cancelled. Close the sheet and open it again."))
+        self.worker.cancelled.connect(
+            lambda _: self._panel.advice.show_advice(None, "Cancelled. Close the sheet and open it again.")
+        )
         window.status.cancelled.connect(self.worker.cancel)
         window.closed.connect(self.worker.finish)
         self._panel.advice_shown.connect(self._refresh)
         sheet.for_pocket.connect(lambda tool: self._use(tool, lambda each: each.COARSE, "Tool for pockets"))
-        sheet.for_contour.connect(lambda tool: self._use(tool, lambda each: not each.COARSE and not each.DRILLS, "Tool for contours"))
+        sheet.for_contour.connect(
+            lambda tool: self._use(tool, lambda each: not each.COARSE and not each.DRILLS, "Tool for contours")
+        )
         sheet.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self._unsubscribe = self._document.subscribe(self._on_change)
 

@@ -75,7 +75,9 @@ class FindingsList(QFrame):
         self._column.setContentsMargins(0, 12, 0, 8)
         self._column.setSpacing(0)
 
-    def show_findings(self, findings: tuple[Finding, ...], above: QWidget, empty: str, layers: frozenset[str] = frozenset()) -> None:
+    def show_findings(
+        self, findings: tuple[Finding, ...], above: QWidget, empty: str, layers: frozenset[str] = frozenset()
+    ) -> None:
         """Open above a widget.
 
         Args:

@@ -53,7 +53,9 @@ class BesideDrawing(QObject):
         self._saved = beside
 
     def bring(self, beside: Beside) -> str:
-        """Lay and write what a file holds; return what is wrong with it, or "". A file without a text leaves the editor's."""
+        """Lay and write what a file holds; return what is wrong with it, or "". A file without a text leaves the
+        editor's.
+        """
         assert self._underlaying is not None and self._control is not None
         if beside.text:
             self._control.text = beside.text

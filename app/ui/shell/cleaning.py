@@ -86,6 +86,7 @@ class Cleaning(QObject):
 
 def _looking(session: Session, tolerance: float, line: str) -> Callable[[Progress], _Found]:
     """Return the job that finds the faults of a drawing and what mending makes of it."""
+
     def look(progress: Progress) -> _Found:
         faults = found_faults(session.part, tolerance, progress)
         outcome = evaluated(line, session, progress)
@@ -96,5 +97,8 @@ def _looking(session: Session, tolerance: float, line: str) -> Callable[[Progres
 
 def _listed(fault: Fault) -> Listed:
     size = f"{fault.size:.4f} mm {_SIZES[fault.kind]}" if fault.size else "exact"
-    words = f"{fault.kind.value.capitalize()} at {number_text(round(fault.place[0], 3))},{number_text(round(fault.place[1], 3))}: {size}"
+    words = (
+        f"{fault.kind.value.capitalize()} at "
+        f"{number_text(round(fault.place[0], 3))},{number_text(round(fault.place[1], 3))}: {size}"
+    )
     return Listed(fault.kind.value, words, fault.place, fault.ids)

@@ -30,7 +30,8 @@ class CommandLine(QWidget):
     are entered one by one, for a tool that asks for points.
 
     Signals:
-        entered(text): Enter with text in the line, or a whole block. accepted(): Enter in the empty line. cancelled(): Escape.
+        entered(text): Enter with text in the line, or a whole block. accepted(): Enter in the empty line. cancelled():
+        Escape.
 
     Attributes:
         completions: what the end of a line could become, and how much of it there is.
@@ -206,7 +207,7 @@ class CommandLine(QWidget):
 
     def _complete(self) -> None:
         """Write what is certain of the word before the cursor; where there is a choice, offer it."""
-        begun, found = self.completions(self.edit.text()[:self.edit.cursorPosition()])
+        begun, found = self.completions(self.edit.text()[: self.edit.cursorPosition()])
         if len(found) == 1:
             self._put(found[0].word + found[0].behind, begun)
         elif found:
@@ -229,7 +230,7 @@ class CommandLine(QWidget):
 
     def _take_offer(self, offer: Offer) -> None:
         self._end_offers()
-        self._put(offer.word + offer.behind, self.completions(self.edit.text()[:self.edit.cursorPosition()])[0])
+        self._put(offer.word + offer.behind, self.completions(self.edit.text()[: self.edit.cursorPosition()])[0])
 
     def _end_offers(self) -> None:
         if self.offers is not None:

@@ -13,7 +13,9 @@ from ..views.language.completion import Offer, offers, word_before
 
 _LAYER = re.compile(
     r"(?:^|;)\s*(?:layer|la|hide|show|lock|unlock|colou?r|(?:select|se)\s+(?:(?:add|remove)\s+)?layer|(?:rename|remove)\s+layer|set\s.*\blayer)"
-    r"\s+(?P<begun>\"[^\"]*|[^\s\"]*)$", re.IGNORECASE)
+    r"\s+(?P<begun>\"[^\"]*|[^\s\"]*)$",
+    re.IGNORECASE,
+)
 _SET = re.compile(r"(?:^|;)\s*set\s(?:[\d\s-]|\b\w+\s)*(?P<begun>[a-z]*)$", re.IGNORECASE)
 _PLAIN = re.compile(r"\w+")
 
@@ -26,8 +28,12 @@ def completions(line: str, document: Document) -> tuple[str, list[Offer]]:
     session = document.session
     names = [(name, False) for name in session.names] + [(command, True) for command in session.commands]
     begun = word_before(line)
-    if (found := _SET.search(line)) is not None and not any(re.search(rf"\b{word}\s", line) for word in (*WORDS, "layer")):
-        words = [Offer(word, WORDS[word].value if word in WORDS else "layer", " ") for word in (*sorted(WORDS), "layer")]
+    if (found := _SET.search(line)) is not None and not any(
+        re.search(rf"\b{word}\s", line) for word in (*WORDS, "layer")
+    ):
+        words = [
+            Offer(word, WORDS[word].value if word in WORDS else "layer", " ") for word in (*sorted(WORDS), "layer")
+        ]
         words += [Offer(name, "your curve", " ") for name, value in session.names.items() if isinstance(value, Curves)]
         return begun, [offer for offer in words if offer.word.startswith(begun.lower())]
     return begun, offers(line, names)
@@ -36,10 +42,14 @@ def completions(line: str, document: Document) -> tuple[str, list[Offer]]:
 def _layers(begun: str, layers: Iterable[str]) -> list[str]:
     """Return the layers whose names begin so, as the language writes them."""
     bare, quoted = begun.lstrip('"').casefold(), begun.startswith('"')
-    return [name_text(name) if quoted or not _PLAIN.fullmatch(name) else name for name in layers if name.casefold().startswith(bare)]
+    return [
+        name_text(name) if quoted or not _PLAIN.fullmatch(name) else name
+        for name in layers
+        if name.casefold().startswith(bare)
+    ]
 
 
 def common_beginning(words: list[str]) -> str:
     """Return what all words begin with."""
     low, high = min(words), max(words)
-    return low[:next((at for at, (a, b) in enumerate(zip(low, high, strict=False)) if a != b), len(low))]
+    return low[: next((at for at, (a, b) in enumerate(zip(low, high, strict=False)) if a != b), len(low))]

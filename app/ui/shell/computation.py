@@ -1,4 +1,6 @@
-"""Computing in the background: from the document's job to moves, NC text and verdict, and whether they are up to date."""
+"""Computing in the background: from the document's job to moves, NC text and verdict, and whether they are up to
+date.
+"""
 
 from __future__ import annotations
 
@@ -34,13 +36,17 @@ class State(Enum):
 
 @dataclass(frozen=True)
 class Computed:
-    """What a run gives: the result, and its moves prepared for painting, so that showing them costs the window nothing."""
+    """What a run gives: the result, and its moves prepared for painting, so that showing them costs the window
+    nothing.
+    """
 
     made: Made
     picture: ProgramPicture
 
 
-def _compute(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> Computed:
+def _compute(
+    job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress
+) -> Computed:
     from ...usecases.make import export, finish  # imports the engines: never on the window's thread
 
     if pixels is None:
@@ -115,7 +121,9 @@ class Computation(QObject):
         pixels = self.pixels_of(job.part)
         self.error = ""
         self._snapshot = job
-        self._job_id = self._worker.start(lambda progress: _compute(job, pixels, findings, progress), self._document.revision)
+        self._job_id = self._worker.start(
+            lambda progress: _compute(job, pixels, findings, progress), self._document.revision
+        )
         self.changed.emit()
 
     def pixels_of(self, part: Part) -> BitmapPart | None:
@@ -141,7 +149,9 @@ class Computation(QObject):
         """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
         if self.made is None or self.state is not State.CURRENT:
             return {}
-        return {index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]}
+        return {
+            index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]
+        }
 
     def _on_change(self, change: Change) -> None:
         if not change & (Change.PART | Change.JOB):

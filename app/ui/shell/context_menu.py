@@ -11,8 +11,21 @@ from PySide6.QtWidgets import QMenu
 from ...core.errors import InputError
 from .main_window import MainWindow
 
-_FOR_SELECTION = ("tool_move", "tool_copy", "tool_rotate", "tool_scale", "tool_mirror", "tool_offset", "", "tool_join", "tool_explode",
-                  "tool_reverse", "tool_measure", "", "delete")
+_FOR_SELECTION = (
+    "tool_move",
+    "tool_copy",
+    "tool_rotate",
+    "tool_scale",
+    "tool_mirror",
+    "tool_offset",
+    "",
+    "tool_join",
+    "tool_explode",
+    "tool_reverse",
+    "tool_measure",
+    "",
+    "delete",
+)
 _WITHOUT = ("select_all", "fit")
 
 

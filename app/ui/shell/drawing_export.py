@@ -19,10 +19,16 @@ from ..framework.worker import Answer, Worker
 from .main_window import MainWindow
 
 FORMATS = {
-    "DXF, AutoCAD 2010 and later (*.dxf)": "R2010", "DXF 2018 (*.dxf)": "R2018", "DXF 2013 (*.dxf)": "R2013", "DXF 2007 (*.dxf)": "R2007",
-    "DXF 2004 (*.dxf)": "R2004", "DXF 2000 (*.dxf)": "R2000", "DXF R12, lines and arcs alone (*.dxf)": "R12",
-    "SVG (*.svg)": ".svg", "Shape language (*.draw)": ".draw",
-}  # fmt: skip
+    "DXF, AutoCAD 2010 and later (*.dxf)": "R2010",
+    "DXF 2018 (*.dxf)": "R2018",
+    "DXF 2013 (*.dxf)": "R2013",
+    "DXF 2007 (*.dxf)": "R2007",
+    "DXF 2004 (*.dxf)": "R2004",
+    "DXF 2000 (*.dxf)": "R2000",
+    "DXF R12, lines and arcs alone (*.dxf)": "R12",
+    "SVG (*.svg)": ".svg",
+    "Shape language (*.draw)": ".draw",
+}
 """What the file dialog offers: a version of DXF, or a suffix."""
 
 
@@ -105,7 +111,9 @@ def _written(part: Part, suffix: str, format_: str) -> tuple[bytes, tuple[str, .
         from ...drafting.language.write import draw_text
 
         drawn = draw_text(part)
-        return drawn.text.encode(), (f"{counted(drawn.left_out, 'curve')} too small for it left out.",) if drawn.left_out else ()
+        return drawn.text.encode(), (
+            f"{counted(drawn.left_out, 'curve')} too small for it left out.",
+        ) if drawn.left_out else ()
     if suffix == ".svg":
         from ...formats.svg.write import svg_bytes
 
@@ -114,8 +122,14 @@ def _written(part: Part, suffix: str, format_: str) -> tuple[bytes, tuple[str, .
         from ...formats.dxf.write import DxfVersion, dxf_bytes
 
         written = dxf_bytes(part, DxfVersion[format_] if format_ in DxfVersion.__members__ else DxfVersion.R2010)
-    converted = (f"{counted(each.count, each.kind)} became lines and arcs, at most {each.deviation * 1000:.3f} µm away."
-                 for each in written.converted)
+    converted = (
+        f"{counted(each.count, each.kind)} became lines and arcs, at most {each.deviation * 1000:.3f} µm away."
+        for each in written.converted
+    )
     renamed = (f"Layer {old} is called {new} there." for old, new in written.renamed)
-    notes = (f"{counted(len(part.notes), 'point, guide or dimension', 'points, guides and dimensions')} left out.",) if part.notes else ()
+    notes = (
+        (f"{counted(len(part.notes), 'point, guide or dimension', 'points, guides and dimensions')} left out.",)
+        if part.notes
+        else ()
+    )
     return written.data, (*converted, *renamed, *notes)

@@ -27,7 +27,8 @@ class Exporting(QObject):
     A control that changes no tools gets a file for each tool beside the chosen name: all of them, or none.
 
     Signals:
-        written(paths, lines): every file, and the lines of all. failed(sentence). show_findings(): the user wants to see them first.
+        written(paths, lines): every file, and the lines of all. failed(sentence). show_findings(): the user wants to
+        see them first.
 
     Attributes:
         choose_file: asks the user for a path, given how its name may end; None = he changed his mind.
@@ -85,7 +86,9 @@ class Exporting(QObject):
             self._notice.ask(proof(made))
             self._write()
             return
-        self._notice.ask(warning(made.findings), [("Show", self.show_findings.emit), ("Write anyway", self._write)], error=True)
+        self._notice.ask(
+            warning(made.findings), [("Show", self.show_findings.emit), ("Write anyway", self._write)], error=True
+        )
 
     def _write(self) -> None:
         made = self._computation.made

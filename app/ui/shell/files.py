@@ -33,8 +33,11 @@ from .showing import Showing
 from .views import View
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
-OPEN_FILTER = ("Drawings, scenes, pictures and NC programs "
-               f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', '.toml', *PICTURES, *PROGRAM_SUFFIXES))});;All files (*)")
+OPEN_FILTER = (
+    "Drawings, scenes, pictures and NC programs "
+    f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', '.toml', *PICTURES, *PROGRAM_SUFFIXES))});;All files "
+    "(*)"
+)
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,11 @@ class Files(QObject):
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
-        self._open_program, self._open_picture, self._open_scene = open_others.program, open_others.picture, open_others.scene
+        self._open_program, self._open_picture, self._open_scene = (
+            open_others.program,
+            open_others.picture,
+            open_others.scene,
+        )
         self.opening = Opening(window.document, window.worker)
         self.rereading = Rereading(window, log)
         self.saving = Saving(window, showing, log)
@@ -66,7 +73,9 @@ class Files(QObject):
         self.opening.opened.connect(self._on_opened)
         self.opening.asked.connect(self._ask_how)
         self.exporting.written.connect(self._on_written)
-        self._unsubscribe = window.document.subscribe(lambda change: window.card.hide() if change & Change.LOADED else None)
+        self._unsubscribe = window.document.subscribe(
+            lambda change: window.card.hide() if change & Change.LOADED else None
+        )
 
     @property
     def _would_lose(self) -> bool:
@@ -84,7 +93,8 @@ class Files(QObject):
         self._leave_drawing("Open the sample part", self.open_sample)
 
     def open_file(self, path: Path, reading: Reading = AS_THE_FILE_SAYS) -> None:
-        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and nothing is lost.
+        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and
+        nothing is lost.
 
         Args:
             path: of the file. reading: how it is read, if it is a drawing.
@@ -150,9 +160,15 @@ class Files(QObject):
             return
         path = self._document.path
         what = f"The changes to {path.name} are not saved." if path else "This drawing is in no file yet."
-        self._window.notice.ask(f"{question} {what}", [
-            ("Save", lambda: self.saving.save(lambda: self.leave(question, act))),
-            ("Give up the changes", act), ("Keep drawing", lambda: None)], stays=True)
+        self._window.notice.ask(
+            f"{question} {what}",
+            [
+                ("Save", lambda: self.saving.save(lambda: self.leave(question, act))),
+                ("Give up the changes", act),
+                ("Keep drawing", lambda: None),
+            ],
+            stays=True,
+        )
 
     def _on_closing(self) -> None:
         self._window.may_close = not self._would_lose
@@ -217,7 +233,9 @@ class Files(QObject):
         return f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm.{more}"
 
     def _ask_how(self, asked: Asked) -> None:
-        """Ask how a drawing is to be read that cannot be opened before; what was to be said of changes has been said."""
+        """Ask how a drawing is to be read that cannot be opened before; what was to be said of changes has been
+        said.
+        """
         state = self._document.state
 
         def answer(reading: Reading) -> None:
@@ -230,7 +248,9 @@ class Files(QObject):
         self._window.card.ask(asked.path.name, asked.question, answer, waits=True)
 
     def _ask_after(self, opened: Opened) -> None:
-        """Ask about a drawing that is open: what something was assumed about; once it was worked on, the answer is a step."""
+        """Ask about a drawing that is open: what something was assumed about; once it was worked on, the answer is a
+        step.
+        """
         state, question = self._document.state, opened.drawing.question
         assert question is not None
 

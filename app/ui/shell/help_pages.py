@@ -66,7 +66,10 @@ def _set_type(document: QTextDocument, theme: Theme) -> None:
     block = document.begin()
     while block.isValid():
         form = block.blockFormat()
-        level, code = form.headingLevel(), form.hasProperty(QTextFormat.Property.BlockCodeLanguage) or form.nonBreakableLines()
+        level, code = (
+            form.headingLevel(),
+            form.hasProperty(QTextFormat.Property.BlockCodeLanguage) or form.nonBreakableLines(),
+        )
         _set_block(block)
         pieces, at = [], block.begin()
         while not at.atEnd():

@@ -1,4 +1,6 @@
-"""The manual beside the work: its pages, a search through all of them, and the usage of a word of the shape language."""
+"""The manual beside the work: its pages, a search through all of them, and the usage of a word of the shape
+language.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ LANGUAGE = "language"
 
 
 class HelpWindow(QWidget):
-    """A window of its own, so that it can stand beside the drawing; pages are laid out when they are first looked at."""
+    """A window of its own, so that it can stand beside the drawing; pages are laid out when they are first looked
+    at.
+    """
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Window)
@@ -46,7 +50,9 @@ class HelpWindow(QWidget):
         """Follow the theme."""
         self._theme = theme
         self._laid_out.clear()
-        self.browser.setStyleSheet(f"QTextBrowser {{ background: {theme.raised.name()}; color: {theme.ink.name()}; border: 0; }}")
+        self.browser.setStyleSheet(
+            f"QTextBrowser {{ background: {theme.raised.name()}; color: {theme.ink.name()}; border: 0; }}"
+        )
         if self.pages:
             self._show_row(self.list.currentRow())
 
@@ -87,8 +93,11 @@ class HelpWindow(QWidget):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Enter goes on, Shift+Enter back."""
-        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and (
-                event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)):
+        if (
+            event.type() == QEvent.Type.KeyPress
+            and isinstance(event, QKeyEvent)
+            and (event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter))
+        ):
             self.step(back=bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
             return True
         return super().eventFilter(watched, event)
@@ -148,7 +157,9 @@ class HelpWindow(QWidget):
         words = self.search.text()
         places = sum(page.text.lower().count(words.lower()) for page in self.pages) if words else 0
         self.count.setVisible(bool(words))
-        self.count.setText("" if not words else "Not found" if not places else f"{places} place{'s' * (places != 1)}; Enter goes on")
+        self.count.setText(
+            "" if not words else "Not found" if not places else f"{places} place{'s' * (places != 1)}; Enter goes on"
+        )
         self.search.setProperty("wrong", "true" if words and not places else "false")
         restyle(self.search)
         self.browser.moveCursor(QTextCursor.MoveOperation.Start)

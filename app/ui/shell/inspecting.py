@@ -23,8 +23,13 @@ class Inspecting(QObject):
         super().__init__(window)
         self._window, self._showing = window, showing
         page = window.drawing_page
-        for name, section in (("properties", page.properties), ("layers", page.layers), ("history", page.history),
-                              ("clean_up", page.cleanup), ("reading", page.reading)):
+        for name, section in (
+            ("properties", page.properties),
+            ("layers", page.layers),
+            ("history", page.history),
+            ("clean_up", page.cleanup),
+            ("reading", page.reading),
+        ):
             window.actions_[name].triggered.connect(partial(self._show, section))
         page.refused.connect(lambda sentence: window.notice.ask(sentence, error=True))
         page.layers.removal.connect(self._ask_removal)

@@ -25,15 +25,30 @@ from .shortcuts import Shortcuts
 
 _SIZE = (560, 600)
 _NAME = Qt.ItemDataRole.UserRole
-_MODIFIERS = (Qt.Key.Key_Control, Qt.Key.Key_Shift, Qt.Key.Key_Alt, Qt.Key.Key_Meta, Qt.Key.Key_AltGr, Qt.Key.Key_unknown)
+_MODIFIERS = (
+    Qt.Key.Key_Control,
+    Qt.Key.Key_Shift,
+    Qt.Key.Key_Alt,
+    Qt.Key.Key_Meta,
+    Qt.Key.Key_AltGr,
+    Qt.Key.Key_unknown,
+)
 FIXED = (
-    ("Zoom at the mouse", "wheel"), ("Pan", "middle button, Space + drag"), ("Leave a tool, clear the selection", "Esc"),
-    ("Repeat the last tool, end a chain", "Enter"), ("Straight up or across while drawing", "Shift"),
-    ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"), ("Profile along a line over the cut", "Ctrl + drag"),
-    ("Cut: play, play backward", "Space; Shift + Space"), ("Cut: NC line before, next; move before, next", ", . ; Shift + , ."),
-    ("Cut: tool before, next; next finding, the one before", "[ ]; N, Shift + N"), ("Cut: start, end", "Home, End"),
-    ("Stages: play, step, first and last", "Space; Left, Right; Home, End"), ("Stages: another region or phase", "Page up, Page down"),
-    ("Cut an operation earlier, later", "Alt+Up, Alt+Down"), ("Place by number", "x,y   @dx,dy   @length<angle"),
+    ("Zoom at the mouse", "wheel"),
+    ("Pan", "middle button, Space + drag"),
+    ("Leave a tool, clear the selection", "Esc"),
+    ("Repeat the last tool, end a chain", "Enter"),
+    ("Straight up or across while drawing", "Shift"),
+    ("Turn the cut; from above, front, right, isometric", "drag; 1, 2, 3, 4"),
+    ("Profile along a line over the cut", "Ctrl + drag"),
+    ("Cut: play, play backward", "Space; Shift + Space"),
+    ("Cut: NC line before, next; move before, next", ", . ; Shift + , ."),
+    ("Cut: tool before, next; next finding, the one before", "[ ]; N, Shift + N"),
+    ("Cut: start, end", "Home, End"),
+    ("Stages: play, step, first and last", "Space; Left, Right; Home, End"),
+    ("Stages: another region or phase", "Page up, Page down"),
+    ("Cut an operation earlier, later", "Alt+Up, Alt+Down"),
+    ("Place by number", "x,y   @dx,dy   @length<angle"),
 )
 """Keys of the views themselves: what they do, and which they are."""
 
@@ -153,7 +168,11 @@ class KeysWindow(QDialog):
         other = self._shortcuts.owner(key, but=self.recording)
         if other is not None and self._asked != key:
             self._asked = key
-            self._say(tr("{} belongs to {}. Press it again to take it from there.").format(key, tr(plain(self._actions.specs[other].text))))
+            self._say(
+                tr("{} belongs to {}. Press it again to take it from there.").format(
+                    key, tr(plain(self._actions.specs[other].text))
+                )
+            )
             return
         self._shortcuts.change(self.recording, key)
         self._show_keys()

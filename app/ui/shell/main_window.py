@@ -96,8 +96,15 @@ class MainWindow(QMainWindow):
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.side)
-        for widget in (self.import_panel, self.stages_panel, self.cut_panel, self.cut_form, self.curves_panel, self.scene_side,
-                       self.plot_panel):
+        for widget in (
+            self.import_panel,
+            self.stages_panel,
+            self.cut_panel,
+            self.cut_form,
+            self.curves_panel,
+            self.scene_side,
+            self.plot_panel,
+        ):
             middle.addWidget(widget)
             widget.hide()
         root = QWidget()
@@ -143,7 +150,9 @@ class MainWindow(QMainWindow):
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
         """Welcome one drawing, scene, picture or NC program."""
         urls = event.mimeData().urls()
-        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith((*SUFFIXES, ".toml", *PICTURES, *PROGRAM_SUFFIXES)):
+        if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
+            (*SUFFIXES, ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+        ):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 (Qt's name)

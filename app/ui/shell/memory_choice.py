@@ -15,7 +15,9 @@ SHARES = {JobMemory.QUARTER: 0.25, JobMemory.HALF: 0.5, JobMemory.MOST: 0.75}
 
 
 class MemoryChoice:
-    """Lets the user choose what a job may take. Jobs that begin afterwards go by it: a worker hands its own context on to them."""
+    """Lets the user choose what a job may take. Jobs that begin afterwards go by it: a worker hands its own context on
+    to them.
+    """
 
     def __init__(self, window: MainWindow) -> None:
         """Allow what was chosen the last time."""

@@ -104,7 +104,10 @@ def read_drawing_file(path: Path, reading: Reading, before: Job, progress: Progr
 def _shown(part: Part, layers: tuple[str, ...]) -> Part:
     """Return a part with layers shown that were asked for by name."""
     wanted = {layer.casefold() for layer in layers}
-    return replace(part, layers=tuple(replace(each, visible=each.visible or each.name.casefold() in wanted) for each in part.layers))
+    return replace(
+        part,
+        layers=tuple(replace(each, visible=each.visible or each.name.casefold() in wanted) for each in part.layers),
+    )
 
 
 def _read(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
@@ -155,7 +158,9 @@ class Opening(QObject):
             reading: how a drawing is read.
         """
         before = self._document.job
-        self._job_id = self._worker.start(lambda progress: _read(path, reading, before, progress), self._document.revision)
+        self._job_id = self._worker.start(
+            lambda progress: _read(path, reading, before, progress), self._document.revision
+        )
 
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id != self._job_id:
@@ -167,7 +172,9 @@ class Opening(QObject):
 
     def _take(self, answer: Answer, opened: Opened) -> None:
         if answer.revision != self._document.revision and self._document.modified:
-            self.failed.emit(f"The drawing was changed while {opened.path.name} was being read, so it was kept. Open the file again.")
+            self.failed.emit(
+                f"The drawing was changed while {opened.path.name} was being read, so it was kept. Open the file again."
+            )
             return
         self.read.emit(opened)
         if opened.project is not None:

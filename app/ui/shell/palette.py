@@ -59,7 +59,9 @@ class _Rows(QStyledItemDelegate):
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:  # noqa: N802 (Qt's name)
         return QSize(0, ROW_PX)
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> None:
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
         entry, theme = index.data(_ENTRY), self.theme
         area: QRect = option.rect
         if option.state & QStyle.StateFlag.State_Selected:
@@ -71,8 +73,11 @@ class _Rows(QStyledItemDelegate):
         room = area.width() - metrics.horizontalAdvance(entry.key) - _EDGE_PX
         name = metrics.elidedText(entry.text, Qt.TextElideMode.ElideMiddle, room)
         after = metrics.horizontalAdvance(name) + _EDGE_PX
-        painter.drawText(area.adjusted(after, 0, 0, 0), Qt.AlignmentFlag.AlignVCenter,
-                         metrics.elidedText(entry.where, Qt.TextElideMode.ElideRight, max(0, room - after)))
+        painter.drawText(
+            area.adjusted(after, 0, 0, 0),
+            Qt.AlignmentFlag.AlignVCenter,
+            metrics.elidedText(entry.where, Qt.TextElideMode.ElideRight, max(0, room - after)),
+        )
         painter.setPen(theme.ink)
         painter.drawText(area, Qt.AlignmentFlag.AlignVCenter, name)
 
@@ -123,13 +128,25 @@ class Palette(QFrame):
 
     def _actions(self) -> list[Entry]:
         actions = self._window.actions_
-        return [Entry(name, tr(plain(spec.text)), tr(plain(actions.menu_of[name])), actions.key(name) or spec.key_hint,
-                      actions[name].trigger, plain(spec.text))
-                for name, spec in actions.specs.items() if actions[name].isEnabled() and name != "palette"]
+        return [
+            Entry(
+                name,
+                tr(plain(spec.text)),
+                tr(plain(actions.menu_of[name])),
+                actions.key(name) or spec.key_hint,
+                actions[name].trigger,
+                plain(spec.text),
+            )
+            for name, spec in actions.specs.items()
+            if actions[name].isEnabled() and name != "palette"
+        ]
 
     def _commands(self) -> list[Entry]:
         line = self._window.command_line
-        return [Entry(f"> {word}", word, tr("command of the shape language"), "", partial(line.begin, f"{word} ")) for word in COMMANDS]
+        return [
+            Entry(f"> {word}", word, tr("command of the shape language"), "", partial(line.begin, f"{word} "))
+            for word in COMMANDS
+        ]
 
     def _files(self) -> list[Entry]:
         paths = [Path(name) for name in self._window.settings.recent_files]
@@ -137,9 +154,14 @@ class Palette(QFrame):
 
     def _show_fitting(self, typed: str) -> None:
         recent = {name: at for at, name in enumerate(self._window.settings.recent_commands)}
-        found = [(score, entry) for entry in self._entries
-                 if (score := fit(typed, entry.text, f"{entry.where} {entry.also}")) is not None]
-        found.sort(key=lambda pair: (-pair[0] - (10 if pair[1].name in recent else 0), recent.get(pair[1].name, len(recent))))
+        found = [
+            (score, entry)
+            for entry in self._entries
+            if (score := fit(typed, entry.text, f"{entry.where} {entry.also}")) is not None
+        ]
+        found.sort(
+            key=lambda pair: (-pair[0] - (10 if pair[1].name in recent else 0), recent.get(pair[1].name, len(recent)))
+        )
         self.list.clear()
         for _, entry in found:
             item = QListWidgetItem()
@@ -173,7 +195,9 @@ class Palette(QFrame):
             return super().eventFilter(watched, event)
         steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_PageUp: -SHOWN, Qt.Key.Key_PageDown: SHOWN}
         if event.key() in steps:
-            self.list.setCurrentRow(min(max(self.list.currentRow() + steps[Qt.Key(event.key())], 0), self.list.count() - 1))
+            self.list.setCurrentRow(
+                min(max(self.list.currentRow() + steps[Qt.Key(event.key())], 0), self.list.count() - 1)
+            )
         elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self._run(self.list.currentItem())
         elif event.key() == Qt.Key.Key_Escape:

@@ -1,4 +1,6 @@
-"""What is asked about a drawing, above the canvas: the facts, and a button a line for each answer with what comes of it."""
+"""What is asked about a drawing, above the canvas: the facts, and a button a line for each answer with what comes of
+it.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +43,9 @@ class QuestionCard(QWidget):
         self.cancel.clicked.connect(self.hide)
         self._close = IconButton("cancel", "Close the question (Esc)")
         self._close.clicked.connect(self.hide)
-        QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.hide, context=Qt.ShortcutContext.WidgetWithChildrenShortcut)
+        QShortcut(
+            QKeySequence(Qt.Key.Key_Escape), self, self.hide, context=Qt.ShortcutContext.WidgetWithChildrenShortcut
+        )
         self._lay_out()
         self.hide()
 
@@ -68,7 +72,8 @@ class QuestionCard(QWidget):
         Args:
             name: of the drawing's file.
             question: what is asked.
-            answer: takes how the drawing is read by the answer that is pressed; by that which it is read by already: nothing happens.
+            answer: takes how the drawing is read by the answer that is pressed; by that which it is read by already:
+                nothing happens.
             waits: True where the drawing is not opened before it is answered; then the keyboard is brought here.
         """
         self._clear()

@@ -29,7 +29,8 @@ class Recovering(QObject):
     """Keeps the document's recovery file, and brings back what others have left.
 
     Signals:
-        kept(): the recovery file holds the document as it was, or has gone because the document lies in a file of the user's.
+        kept(): the recovery file holds the document as it was, or has gone because the document lies in a file of the
+        user's.
     """
 
     kept = Signal()
@@ -53,7 +54,9 @@ class Recovering(QObject):
         files.saving.beside.changed.connect(self._wait)
 
     def keep(self) -> None:
-        """Write the document as it is now into the recovery file, in the background; take the file away where it is saved."""
+        """Write the document as it is now into the recovery file, in the background; take the file away where it is
+        saved.
+        """
         if self._worker.busy:
             self._timer.start(round(_AGAIN_S * 1000))
             return
@@ -64,7 +67,9 @@ class Recovering(QObject):
         self._worker.start(partial(self._write, project, edited), self._document.revision)
 
     def offer(self, otherwise: Callable[[], None] = lambda: None) -> None:
-        """Ask what is to become of what other windows have left; where there is nothing, or none is wanted now, do the other thing."""
+        """Ask what is to become of what other windows have left; where there is nothing, or none is wanted now, do the
+        other thing.
+        """
         if self._window.notice.isVisible() or self._window.card.isVisible():
             return  # another question waits for its answer; the next start asks
         self._left, self._otherwise = list(recoveries()), otherwise
@@ -77,10 +82,15 @@ class Recovering(QObject):
         found = self._left.pop(0)
         name = path.name if (path := found.edited().path) else "a new drawing"
         more = f" ({len(self._left)} more)" if self._left else ""
-        self._window.notice.ask(f"The program ended before {name} was saved; its state of {_clock(found.when)} is kept.{more}", [
-            ("Recover", lambda: self._files.leave("Recover?", lambda: self._load(found))),
-            ("Discard", lambda: self._decide(found.discard)), ("Later", lambda: self._decide(found.leave)),
-        ], stays=True)  # fmt: skip
+        self._window.notice.ask(
+            f"The program ended before {name} was saved; its state of {_clock(found.when)} is kept.{more}",
+            [
+                ("Recover", lambda: self._files.leave("Recover?", lambda: self._load(found))),
+                ("Discard", lambda: self._decide(found.discard)),
+                ("Later", lambda: self._decide(found.leave)),
+            ],
+            stays=True,
+        )
 
     def _decide(self, act: Callable[[], object]) -> None:
         act()
@@ -118,7 +128,9 @@ class Recovering(QObject):
         if project is None:
             aside = found.set_aside()
             self._log.note("recover", f"{reason} It stays as {aside}.", error=True)
-            self._window.notice.ask(f"The kept state is damaged and cannot be recovered. It stays as {aside}.", error=True)
+            self._window.notice.ask(
+                f"The kept state is damaged and cannot be recovered. It stays as {aside}.", error=True
+            )
             self._otherwise()
             return
         edited = found.edited()
@@ -127,7 +139,9 @@ class Recovering(QObject):
         self._window.computation.forget()
         self._files.bring(project)
         self._taken.append(found)
-        self._log.note("recover", f"{len(project.state.job.part.entities)} curves of {_clock(found.when)}; save to keep them.")
+        self._log.note(
+            "recover", f"{len(project.state.job.part.entities)} curves of {_clock(found.when)}; save to keep them."
+        )
         for other in self._left:
             other.leave()
         self._left = []

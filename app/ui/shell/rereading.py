@@ -91,7 +91,9 @@ class Rereading(QObject):
         name = Path(source.path).name
         self._window.notice.ask(
             f"Reading {name} again replaces what was drawn in it since; Undo brings it back.",
-            [("Read again", lambda: self.read(reading)), ("Keep drawing", self._section.refresh)], stays=True)
+            [("Read again", lambda: self.read(reading)), ("Keep drawing", self._section.refresh)],
+            stays=True,
+        )
 
     def read(self, reading: Reading) -> None:
         """Read the drawing in another way."""
@@ -99,8 +101,9 @@ class Rereading(QObject):
         if source is None:
             return
         path, before = Path(source.path), self._document.job
-        self._job_id = self._window.worker.start(lambda progress: read_drawing_file(path, reading, before, progress),
-                                                 self._document.revision)
+        self._job_id = self._window.worker.start(
+            lambda progress: read_drawing_file(path, reading, before, progress), self._document.revision
+        )
 
     def _ask_again(self) -> None:
         source = self._document.state.source
@@ -184,5 +187,7 @@ def _looked_at(source: Source, progress: Progress) -> _Looked:
     try:
         data = read_whole(path)
     except OSError as error:
-        raise InputError(f"{path.name} is no longer in {path.parent}: put it back there, or open it where it is.") from error
+        raise InputError(
+            f"{path.name} is no longer in {path.parent}: put it back there, or open it where it is."
+        ) from error
     return _Looked(source.path, read_drawing(path.name, data, reading.units, reading.layers, reading.how).contents)

@@ -1,4 +1,6 @@
-"""Lines of the shape language carried out for the window: short ones at once, long ones on a thread, with progress and cancel."""
+"""Lines of the shape language carried out for the window: short ones at once, long ones on a thread, with progress and
+cancel.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,8 @@ class RunningLines(QObject):
     the drawing as it is.
 
     Signals:
-        progress(fraction, text): of the line on its way. busy_changed(busy). ran(line, well): it was carried out, or refused.
+        progress(fraction, text): of the line on its way. busy_changed(busy). ran(line, well): it was carried out, or
+        refused.
     """
 
     progress = Signal(float, str)

@@ -1,4 +1,6 @@
-"""Save, Save as, Save a copy: written in the background, whole or not at all, and never over another program's work unasked."""
+"""Save, Save as, Save a copy: written in the background, whole or not at all, and never over another program's work
+unasked.
+"""
 
 from __future__ import annotations
 
@@ -111,7 +113,9 @@ class Saving(QObject):
             self._start_new(_Wish(path, copy=True))
 
     def _start_new(self, wish: _Wish) -> None:
-        """Save to a file that the user has named; one that would be none of ours gets our ending, and is not replaced unasked."""
+        """Save to a file that the user has named; one that would be none of ours gets our ending, and is not replaced
+        unasked.
+        """
         if wish.path.suffix.lower() == SUFFIX:
             self._start(wish)
             return
@@ -161,13 +165,22 @@ class Saving(QObject):
             self._document.mark_saved(saved.wish.path, saved.project.state)
             self.beside.mark_saved(saved.project.beside)
             self._window.settings = self._window.settings.with_recent_file(saved.wish.path)
-        self._log.note(f"save {saved.wish.path.name}", f"{counted(len(saved.project.state.job.part.entities), 'curve')}, {size} kB.")
+        self._log.note(
+            f"save {saved.wish.path.name}",
+            f"{counted(len(saved.project.state.job.part.entities), 'curve')}, {size} kB.",
+        )
         self._window.status.show_message(f"{saved.wish.path.name} is saved.")
         self.saved.emit(saved.wish.path)
         following, self._next = self._next, None
         if following is not None:
-            self._start(_Wish(following.path, self.known if following.path == saved.wish.path else following.known,
-                              following.copy, following.then))  # fmt: skip
+            self._start(
+                _Wish(
+                    following.path,
+                    self.known if following.path == saved.wish.path else following.known,
+                    following.copy,
+                    following.then,
+                )
+            )
         elif saved.wish.then is not None:
             saved.wish.then()
 
@@ -175,8 +188,14 @@ class Saving(QObject):
         self._next = None
         self._window.notice.ask(
             why,
-            [("Replace it", lambda: self._start(replace(wish, known=None))),
-             ("Save as…", lambda: self.save_as(wish.then)), ("Do not save", lambda: None)], error=True, stays=True)
+            [
+                ("Replace it", lambda: self._start(replace(wish, known=None))),
+                ("Save as…", lambda: self.save_as(wish.then)),
+                ("Do not save", lambda: None),
+            ],
+            error=True,
+            stays=True,
+        )
 
     def _on_failed(self, answer: Answer) -> None:
         self._next = None

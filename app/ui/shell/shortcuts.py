@@ -23,8 +23,14 @@ class Shortcuts:
     def owner(self, key: str, but: str = "") -> str | None:
         """Return the name of the action that has a key, other than `but`."""
         wanted = QKeySequence(key)
-        return next((name for name, action in self._actions.by_name.items()
-                     if name != but and not wanted.isEmpty() and action.shortcut() == wanted), None)
+        return next(
+            (
+                name
+                for name, action in self._actions.by_name.items()
+                if name != but and not wanted.isEmpty() and action.shortcut() == wanted
+            ),
+            None,
+        )
 
     def change(self, name: str, key: str) -> None:
         """Give an action a key, "" = none; whoever had it loses it."""
@@ -56,8 +62,11 @@ class Shortcuts:
 
 def changed_keys(actions: Actions) -> dict[str, str]:
     """Return the keys that are not those of the table, by action."""
-    return {name: actions.key(name) for name, spec in actions.specs.items()
-            if QKeySequence(spec.key) != actions[name].shortcut()}
+    return {
+        name: actions.key(name)
+        for name, spec in actions.specs.items()
+        if QKeySequence(spec.key) != actions[name].shortcut()
+    }
 
 
 def _pairs(kept: tuple[str, ...]) -> dict[str, str]:

@@ -21,9 +21,16 @@ from .opening import size_of
 from .views import View
 
 _LAYERS = {
-    Sample.PART: PathLayers.PART, Sample.POCKET: PathLayers.POCKET, Sample.REST: PathLayers.REST, Sample.CONTOUR: PathLayers.CONTOUR,
-    Sample.LINK: PathLayers.LINK, Sample.RAPID: PathLayers.RAPID, Sample.PLUNGE: PathLayers.PLUNGE,
-    Sample.LEFT: PathLayers.LEFT, Sample.UNREACHABLE: PathLayers.UNREACHABLE, Sample.CLAMP: PathLayers.CLAMP,
+    Sample.PART: PathLayers.PART,
+    Sample.POCKET: PathLayers.POCKET,
+    Sample.REST: PathLayers.REST,
+    Sample.CONTOUR: PathLayers.CONTOUR,
+    Sample.LINK: PathLayers.LINK,
+    Sample.RAPID: PathLayers.RAPID,
+    Sample.PLUNGE: PathLayers.PLUNGE,
+    Sample.LEFT: PathLayers.LEFT,
+    Sample.UNREACHABLE: PathLayers.UNREACHABLE,
+    Sample.CLAMP: PathLayers.CLAMP,
 }
 
 
@@ -37,23 +44,42 @@ class Missing:
 
 
 NOTHING = Missing()
-NO_DRAWING = Missing("Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing")
+NO_DRAWING = Missing(
+    "Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing"
+)
 NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
 NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
 NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
-NO_PROGRAM = Missing("There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open")
-NO_SCENE = Missing("No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
-                   "Open figure 1", "scene_compound")
+NO_PROGRAM = Missing(
+    "There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open"
+)
+NO_SCENE = Missing(
+    "No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
+    "Open figure 1",
+    "scene_compound",
+)
 WRONG_SCENE = Missing("The scene's text is wrong; the line is marked at the right.", "Open another scene")
 SCENE_FAILED = Missing("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
 SCENE_WAITS = Missing("The scene is not computed yet.", "Compute  F5", "compute")
 SCENE_COMPUTING = Missing("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
-CUT_PROMPT = "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to the line"
+CUT_PROMPT = (
+    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to "
+    "the line"
+)
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
-SURFACES_PROMPT = "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
-_NO_SCENE = {SceneState.NONE: NO_SCENE, SceneState.WRONG: WRONG_SCENE, SceneState.FAILED: SCENE_FAILED, SceneState.CHANGED: SCENE_WAITS,
-             SceneState.COMPUTING: SCENE_COMPUTING, SceneState.PROVING: SCENE_COMPUTING, SceneState.PROVEN: SCENE_COMPUTING}  # fmt: skip
+SURFACES_PROMPT = (
+    "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
+)
+_NO_SCENE = {
+    SceneState.NONE: NO_SCENE,
+    SceneState.WRONG: WRONG_SCENE,
+    SceneState.FAILED: SCENE_FAILED,
+    SceneState.CHANGED: SCENE_WAITS,
+    SceneState.COMPUTING: SCENE_COMPUTING,
+    SceneState.PROVING: SCENE_COMPUTING,
+    SceneState.PROVEN: SCENE_COMPUTING,
+}
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
@@ -126,11 +152,20 @@ class Showing(QObject):
         self.show_missing()
 
     def show_prompt(self) -> None:
-        """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is for."""
-        prompts = {View.STAGES: STAGES_PROMPT, View.CUT: CUT_PROMPT, View.CURVES: CURVES_PROMPT,
-                   View.SURFACES: SURFACES_PROMPT, View.NC: NC_PROMPT}  # fmt: skip
+        """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is
+        for.
+        """
+        prompts = {
+            View.STAGES: STAGES_PROMPT,
+            View.CUT: CUT_PROMPT,
+            View.CURVES: CURVES_PROMPT,
+            View.SURFACES: SURFACES_PROMPT,
+            View.NC: NC_PROMPT,
+        }
         picture = self.view is View.STAGES and self._window.import_panel.reading is not None
-        self._window.command_line.set_prompt(PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt))
+        self._window.command_line.set_prompt(
+            PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt)
+        )
 
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""
@@ -187,7 +222,10 @@ class Showing(QObject):
         window.plot_panel.setVisible(plotting)
         window.tool_strip.setVisible(self.view in (View.DRAW, View.PATHS) and not plotting)
         window.import_panel.setVisible(picture)
-        asks, tells = beside_cut and window.cut_form.asked is not None, beside_cut and window.cut_panel.shown is not None
+        asks, tells = (
+            beside_cut and window.cut_form.asked is not None,
+            beside_cut and window.cut_panel.shown is not None,
+        )
         window.cut_form.setVisible(asks)
         window.cut_panel.setVisible(tells and not asks)
         window.stages_panel.setVisible(stages)
@@ -221,7 +259,9 @@ class Showing(QObject):
             return views.surfaces.shown is not None
         if self.view is View.CUT:
             return views.cut.picture is not None or bool(views.cut.sentence.text())
-        return self._computation.made is not None or (self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0)
+        return self._computation.made is not None or (
+            self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0
+        )
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
@@ -233,9 +273,15 @@ class Showing(QObject):
     def _show_standing(self) -> None:
         """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
         views, computation = self._window.views, self._computation
-        words = {View.CURVES: views.curves.summary, View.SURFACES: views.surfaces.summary, View.NC: views.nc.summary,
-                 View.STAGES: views.stages.summary}.get(self.view, "")  # fmt: skip
-        self._window.status.show_message(words or computation.error or computation.state.value, error=bool(computation.error and not words))
+        words = {
+            View.CURVES: views.curves.summary,
+            View.SURFACES: views.surfaces.summary,
+            View.NC: views.nc.summary,
+            View.STAGES: views.stages.summary,
+        }.get(self.view, "")
+        self._window.status.show_message(
+            words or computation.error or computation.state.value, error=bool(computation.error and not words)
+        )
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state
@@ -283,19 +329,27 @@ class Showing(QObject):
     def open_findings(self) -> None:
         """List every finding above the badge."""
         sentences = {
-            State.NONE: "Nothing was computed yet. Press F5.", State.STALE: "The paths are out of date. Press F5.",
-            State.FAILED: self._computation.error, State.RUNNING: "The paths are being computed.",
+            State.NONE: "Nothing was computed yet. Press F5.",
+            State.STALE: "The paths are out of date. Press F5.",
+            State.FAILED: self._computation.error,
+            State.RUNNING: "The paths are being computed.",
         }
-        empty = sentences.get(self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material.")
+        empty = sentences.get(
+            self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material."
+        )
         if self.view is View.SURFACES:
             said = self._window.views.surfaces.verdict
-            self._window.findings_list.show_findings(self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text)
+            self._window.findings_list.show_findings(
+                self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text
+            )
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
         self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
 
     def go_to(self, finding: Finding) -> None:
-        """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select these."""
+        """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select
+        these.
+        """
         ids = set(finding.entity_ids)
         box = union([bounds(entity.curve) for entity in self._document.part.entities if entity.id in ids])
         if finding.x is not None and finding.y is not None:

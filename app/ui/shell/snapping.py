@@ -1,4 +1,6 @@
-"""What helps to aim, chosen at the switches of the status bar and remembered: kinds of snaps, the step of polar rays, tracking."""
+"""What helps to aim, chosen at the switches of the status bar and remembered: kinds of snaps, the step of polar rays,
+tracking.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ class Snapping(QObject):
     """The menus at Snap and at Polar.
 
     Attributes:
-        kinds: the switch of each kind of snap. steps: of each step of polar rays, degrees. tracking: of points rested on.
+        kinds: the switch of each kind of snap. steps: of each step of polar rays, degrees. tracking: of points rested
+            on.
     """
 
     def __init__(self, window: MainWindow) -> None:
@@ -29,7 +32,10 @@ class Snapping(QObject):
         self._window = window
         status, settings = window.status, window.settings
         at_snap, at_polar = _menu_at(status.snap), _menu_at(status.polar)
-        self.kinds = {kind: _switch(at_snap, f"{SNAP_NAMES[kind]}\t{_WORDS[kind]}", _WORDS[kind] in settings.snaps) for kind in CHOICES}
+        self.kinds = {
+            kind: _switch(at_snap, f"{SNAP_NAMES[kind]}\t{_WORDS[kind]}", _WORDS[kind] in settings.snaps)
+            for kind in CHOICES
+        }
         at_snap.addSeparator()
         self.tracking = _switch(at_snap, "Track points rested on", settings.tracking)
         group = QActionGroup(at_polar)
@@ -53,8 +59,13 @@ class Snapping(QObject):
     def _change(self) -> None:
         snaps = tuple(_WORDS[kind] for kind, action in self.kinds.items() if action.isChecked())
         step = next(step for step, action in self.steps.items() if action.isChecked())
-        self._window.settings = replace(self._window.settings, snaps=snaps, polar_step=f"{step:g}", polar_on=self.on.isChecked(),
-                                        tracking=self.tracking.isChecked())
+        self._window.settings = replace(
+            self._window.settings,
+            snaps=snaps,
+            polar_step=f"{step:g}",
+            polar_on=self.on.isChecked(),
+            tracking=self.tracking.isChecked(),
+        )
         self._apply()
         remember(self._window)
 

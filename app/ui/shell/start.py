@@ -25,19 +25,30 @@ from .memory import restore_geometry
 from .wiring import Wiring
 
 _ENGINES = (
-    "ezdxf", "ezdxf.recover", "shapely", "scipy.sparse.csgraph", "scipy.spatial", "cv2",
-    "app.formats.dxf.dxf", "app.operations.compute", "app.usecases.make",
+    "ezdxf",
+    "ezdxf.recover",
+    "shapely",
+    "scipy.sparse.csgraph",
+    "scipy.spatial",
+    "cv2",
+    "app.formats.dxf.dxf",
+    "app.operations.compute",
+    "app.usecases.make",
 )
 
 
 def places(settings: Settings) -> set[Path]:
-    """Return the folders in which a run of the program that was killed may have left something unfinished, but for its own."""
+    """Return the folders in which a run of the program that was killed may have left something unfinished, but for its
+    own.
+    """
     recent = {Path(name).parent for name in settings.recent_files}
     return recent | {Path(tempfile.gettempdir())} | ({Path(settings.last_folder)} if settings.last_folder else set())
 
 
 def _warm(settings: Settings, progress: Progress) -> None:
-    """Sweep, which may wait for a disk, and load what the first Open and Compute need, which would make the window stutter later."""
+    """Sweep, which may wait for a disk, and load what the first Open and Compute need, which would make the window
+    stutter later.
+    """
     from ...core.jit.warm import warm
 
     sweep(*places(settings))
@@ -55,7 +66,9 @@ def build() -> tuple[MainWindow, Wiring]:
 
 
 def warm_up(window: MainWindow) -> Worker:
-    """Load engines and have inner loops compiled in the background, so that the first Compute waits for little or nothing."""
+    """Load engines and have inner loops compiled in the background, so that the first Compute waits for little or
+    nothing.
+    """
     warmer = Worker(window)
     warmer.progress.connect(lambda _, text: window.status.show_waiting(text))
     warmer.busy_changed.connect(lambda _: window.status.show_waiting(""))
@@ -63,9 +76,14 @@ def warm_up(window: MainWindow) -> Worker:
     return warmer
 
 
-def _tell_mistake(window: MainWindow, kind: type[BaseException], fault: BaseException, trace: TracebackType | None) -> None:
+def _tell_mistake(
+    window: MainWindow, kind: type[BaseException], fault: BaseException, trace: TracebackType | None
+) -> None:
     traceback.print_exception(kind, fault, trace)
-    window.notice.ask(f"The program made a mistake here ({kind.__name__}: {fault}). Your drawing is safe; please report this.", error=True)
+    window.notice.ask(
+        f"The program made a mistake here ({kind.__name__}: {fault}). Your drawing is safe; please report this.",
+        error=True,
+    )
 
 
 def begin(wiring: Wiring, path: Path | None) -> None:

@@ -32,7 +32,9 @@ class StatusBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedHeight(34)
         self.place_x, self.place_y = QLabel(), QLabel()
-        self.snap, self.ortho, self.polar, self.grid = (self._toggle(text) for text in ("Snap", "Ortho", "Polar", "Grid"))
+        self.snap, self.ortho, self.polar, self.grid = (
+            self._toggle(text) for text in ("Snap", "Ortho", "Polar", "Grid")
+        )
         self.unit, self._size, self._shown = muted("mm"), 1.0, (0.0, 0.0, "XY")
         self._step = 0.0
         self.message = Elided(role="muted")
@@ -110,7 +112,9 @@ class StatusBar(QWidget):
             self.message.style().polish(self.message)
 
     def show_waiting(self, text: str) -> None:
-        """Show what goes on in the background, which nobody needs to wait for, where no job tells of itself; "" = nothing."""
+        """Show what goes on in the background, which nobody needs to wait for, where no job tells of itself; "" =
+        nothing.
+        """
         self.waiting.setText(text)
         self.waiting.setVisible(bool(text) and self.step.isHidden())
 

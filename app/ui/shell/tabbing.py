@@ -1,4 +1,6 @@
-"""Tabs by hand: clicks beside contours put them, clicks on them take them away; each is an undoable change of the operation."""
+"""Tabs by hand: clicks beside contours put them, clicks on them take them away; each is an undoable change of the
+operation.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +56,11 @@ class Tabbing:
             return
         places = operation.tabs.places
         near = [place for place in places if math.dist(place, at) <= reach]
-        kept = tuple(place for place in places if place not in near) if near else (*places, (round(at[0], 3), round(at[1], 3)))
+        kept = (
+            tuple(place for place in places if place not in near)
+            if near
+            else (*places, (round(at[0], 3), round(at[1], 3)))
+        )
 
         def make(job: Job) -> Job:
             return with_operation(job, self._index, replace(operation, tabs=replace(operation.tabs, places=kept)))

@@ -18,7 +18,11 @@ from .main_window import MainWindow
 
 IN = "Tools (*.toml *.csv *.tbl);;All files (*)"
 LIBRARY, SHEET, TABLE_MM, TABLE_INCH = (
-    "Tool library (*.toml)", "Spreadsheet (*.csv)", "LinuxCNC tool table, mm (*.tbl)", "LinuxCNC tool table, inch (*.tbl)")
+    "Tool library (*.toml)",
+    "Spreadsheet (*.csv)",
+    "LinuxCNC tool table, mm (*.tbl)",
+    "LinuxCNC tool table, inch (*.tbl)",
+)
 _NAMES = {Units.MM: "mm", Units.INCH: "inch"}
 
 
@@ -40,11 +44,15 @@ class ToolExchange(QObject):
     def choose_place(self) -> None:
         """Ask where to, and write the job's tools."""
         start = str(Path(self._window.settings.last_folder or Path.home()) / "tools.toml")
-        name, kind = QFileDialog.getSaveFileName(self._window, "Export tools", start, ";;".join((LIBRARY, SHEET, TABLE_MM, TABLE_INCH)))
+        name, kind = QFileDialog.getSaveFileName(
+            self._window, "Export tools", start, ";;".join((LIBRARY, SHEET, TABLE_MM, TABLE_INCH))
+        )
         if name:
             suffix = {SHEET: ".csv", TABLE_MM: ".tbl", TABLE_INCH: ".tbl"}.get(kind, ".toml")
             path = Path(name)
-            self.write(path if path.suffix else path.with_suffix(suffix), Units.INCH if kind == TABLE_INCH else Units.MM)
+            self.write(
+                path if path.suffix else path.with_suffix(suffix), Units.INCH if kind == TABLE_INCH else Units.MM
+            )
 
     def take(self, path: Path, units: Units = Units.MM, again: bool = False) -> None:
         """Take the tools of a file into the user's library.
@@ -56,8 +64,10 @@ class ToolExchange(QObject):
         """
         place = own_folder() / f"{path.stem}.toml"
         if place.exists() and not again:
-            self._window.notice.ask(f"There is a library {path.stem} already.", [
-                ("Replace it", lambda: self.take(path, units, again=True)), ("Keep it", lambda: None)])
+            self._window.notice.ask(
+                f"There is a library {path.stem} already.",
+                [("Replace it", lambda: self.take(path, units, again=True)), ("Keep it", lambda: None)],
+            )
             return
         try:
             library, left_out = read_tools(path.name, _bytes(path), units)
@@ -76,8 +86,13 @@ class ToolExchange(QObject):
             self._window.notice.ask(told)
             return
         other = Units.INCH if units is Units.MM else Units.MM
-        self._window.notice.ask(f"{told} It names no units; it was read in {_NAMES[units]}.", [
-            (f"Keep {_NAMES[units]}", lambda: None), (f"Read in {_NAMES[other]}", lambda: self.take(path, other, again=True))])
+        self._window.notice.ask(
+            f"{told} It names no units; it was read in {_NAMES[units]}.",
+            [
+                (f"Keep {_NAMES[units]}", lambda: None),
+                (f"Read in {_NAMES[other]}", lambda: self.take(path, other, again=True)),
+            ],
+        )
 
     def write(self, path: Path, units: Units = Units.MM) -> None:
         """Write the job's tools to a file of the kind that its name tells."""

@@ -16,12 +16,34 @@ _CORNER = 9
 
 GROUPS: tuple[tuple[tuple[str, ...], ...], ...] = (
     (("tool_select",), ("tool_measure",)),
-    (("tool_line",), ("tool_polyline",), ("tool_arc_three", "tool_arc_centre", "tool_arc_radius", "tool_arc_on"),
-     ("tool_circle", "tool_circle_two", "tool_circle_three"), ("tool_rectangle", "tool_rectangle_round"), ("tool_polygon",),
-     ("tool_slot",), ("tool_ellipse",), ("tool_spline",), ("tool_text",)),
-    (("tool_move",), ("tool_copy",), ("tool_rotate",), ("tool_scale",), ("tool_mirror",), ("tool_array", "tool_array_polar"),
-     ("tool_offset",), ("tool_join", "tool_explode", "tool_reverse"), ("tool_trim",), ("tool_extend",), ("tool_fillet",),
-     ("tool_chamfer",), ("tool_break",), ("delete",)),
+    (
+        ("tool_line",),
+        ("tool_polyline",),
+        ("tool_arc_three", "tool_arc_centre", "tool_arc_radius", "tool_arc_on"),
+        ("tool_circle", "tool_circle_two", "tool_circle_three"),
+        ("tool_rectangle", "tool_rectangle_round"),
+        ("tool_polygon",),
+        ("tool_slot",),
+        ("tool_ellipse",),
+        ("tool_spline",),
+        ("tool_text",),
+    ),
+    (
+        ("tool_move",),
+        ("tool_copy",),
+        ("tool_rotate",),
+        ("tool_scale",),
+        ("tool_mirror",),
+        ("tool_array", "tool_array_polar"),
+        ("tool_offset",),
+        ("tool_join", "tool_explode", "tool_reverse"),
+        ("tool_trim",),
+        ("tool_extend",),
+        ("tool_fillet",),
+        ("tool_chamfer",),
+        ("tool_break",),
+        ("delete",),
+    ),
     (("tool_point",), ("tool_guide",), ("tool_dimension",), ("fit",)),
 )
 """Groups of buttons, each with the actions behind it."""
@@ -55,7 +77,8 @@ class Variants(QFrame):
 
 
 class ToolButton(QToolButton):
-    """One tool, or the kind of it used last; a held or right click, a click on its corner, or Right opens the row of kinds.
+    """One tool, or the kind of it used last; a held or right click, a click on its corner, or Right opens the row of
+    kinds.
 
     Attributes:
         names: of the kinds. row: the kinds to choose from, or None where there is one.

@@ -29,18 +29,36 @@ class Step:
 
 
 STEPS = (
-    Step(lambda window: window.tool_strip, "Draw",
-         "Take a tool and click. Points snap to ends, middles and centres; a typed number sets the length."),
-    Step(lambda window: window.command_line, "Type",
-         "Every click is also a line of words, and every line draws: try  rect 0,0 60,40  and Enter."),
-    Step(lambda window: window.top_bar.compute, "Compute",
-         "F5 makes the tool paths from the drawing, the tools and the operations at the right."),
-    Step(lambda window: window.status.badge, "Look",
-         "The verdict: gouges, material left, strokes and time. A click lists the places, another goes there."),
-    Step(lambda window: window.top_bar.tabs["view_cut"], "Cut",
-         "The program, cut out of its stock. Drag turns it; a click on the metal shows the line that cut there."),
-    Step(lambda window: window.top_bar.export, "Export",
-         "What is written is read back and cut first; what is wrong with it is told before the file is kept."),
+    Step(
+        lambda window: window.tool_strip,
+        "Draw",
+        "Take a tool and click. Points snap to ends, middles and centres; a typed number sets the length.",
+    ),
+    Step(
+        lambda window: window.command_line,
+        "Type",
+        "Every click is also a line of words, and every line draws: try  rect 0,0 60,40  and Enter.",
+    ),
+    Step(
+        lambda window: window.top_bar.compute,
+        "Compute",
+        "F5 makes the tool paths from the drawing, the tools and the operations at the right.",
+    ),
+    Step(
+        lambda window: window.status.badge,
+        "Look",
+        "The verdict: gouges, material left, strokes and time. A click lists the places, another goes there.",
+    ),
+    Step(
+        lambda window: window.top_bar.tabs["view_cut"],
+        "Cut",
+        "The program, cut out of its stock. Drag turns it; a click on the metal shows the line that cut there.",
+    ),
+    Step(
+        lambda window: window.top_bar.export,
+        "Export",
+        "What is written is read back and cut first; what is wrong with it is told before the file is kept.",
+    ),
 )
 
 
@@ -134,8 +152,11 @@ class Tour(QObject):
         around = self._rectangle(target if shown else self._window.views)
         self._ring.setGeometry(around.adjusted(-2, -2, 2, 2))
         self._ring.setVisible(shown)
-        self.callout.move(_beside(around, self.callout.size().width(), self.callout.height(), whole) if shown
-                          else around.center() - self.callout.rect().center())
+        self.callout.move(
+            _beside(around, self.callout.size().width(), self.callout.height(), whole)
+            if shown
+            else around.center() - self.callout.rect().center()
+        )
         self._ring.raise_()
         self.callout.raise_()
 
@@ -167,11 +188,16 @@ class Tour(QObject):
 
 
 def _beside(around: QRect, width: int, height: int, whole: QRect) -> QPoint:
-    """Return where words of a size stand beside a rectangle: at its right, else under it, else over it; always within the whole."""
+    """Return where words of a size stand beside a rectangle: at its right, else under it, else over it; always within
+    the whole.
+    """
     if around.height() > around.width() and around.right() + _GAP + width <= whole.right():
         place = QPoint(around.right() + _GAP, around.top() + 5 * _GAP)
     elif around.bottom() + _GAP + height <= whole.bottom():
         place = QPoint(around.left(), around.bottom() + _GAP)
     else:
         place = QPoint(around.left() + _GAP, around.top() - _GAP - height)
-    return QPoint(min(max(place.x(), whole.left()), whole.right() - width), min(max(place.y(), whole.top()), whole.bottom() - height))
+    return QPoint(
+        min(max(place.x(), whole.left()), whole.right() - width),
+        min(max(place.y(), whole.top()), whole.bottom() - height),
+    )

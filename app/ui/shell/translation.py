@@ -61,7 +61,9 @@ def _slots(thing: QObject) -> tuple[_Slot, ...]:
 
 
 def translate(thing: QObject) -> None:
-    """Show an object's texts in the language that is spoken; whatever was written since the last time is taken as English."""
+    """Show an object's texts in the language that is spoken; whatever was written since the last time is taken as
+    English.
+    """
     for slot in _slots(thing):
         text = slot.read(thing)
         source, shown = thing.property(f"english_{slot.name}"), thing.property(f"shown_{slot.name}")

@@ -40,8 +40,10 @@ class Underlaying(QObject):
         self._shown: UnderlayPicture | None = None
         self._missing: Underlay | None = None
         acts: dict[str, Callable[[], None]] = {
-            "underlay": self._choose, "underlay_scale": lambda: self._mark(_SCALE, self._scale_click),
-            "underlay_move": lambda: self._mark(_MOVE, self._move_click), "underlay_turn": lambda: self._mark(_TURN, self._turn_click),
+            "underlay": self._choose,
+            "underlay_scale": lambda: self._mark(_SCALE, self._scale_click),
+            "underlay_move": lambda: self._mark(_MOVE, self._move_click),
+            "underlay_turn": lambda: self._mark(_TURN, self._turn_click),
             "underlay_remove": lambda: self.lay(None),
         }
         for name, act in acts.items():
@@ -65,8 +67,13 @@ class Underlaying(QObject):
         x0, y0, x1, y1 = self._window.canvas.frame.extent
         pitch = min((x1 - x0) / image.width(), (y1 - y0) / image.height())
         self.lay(UnderlayPicture(image, Underlay(str(path.absolute()), (x0, y0), pitch)))
-        self._window.notice.ask(f"{path.name} lies under the drawing. Two points whose distance you know give it its size.", [
-            ("Scale by two points", lambda: self._mark(_SCALE, self._scale_click)), ("Remove it", lambda: self.lay(None))])
+        self._window.notice.ask(
+            f"{path.name} lies under the drawing. Two points whose distance you know give it its size.",
+            [
+                ("Scale by two points", lambda: self._mark(_SCALE, self._scale_click)),
+                ("Remove it", lambda: self.lay(None)),
+            ],
+        )
 
     def bring(self, place: Underlay | None) -> str:
         """Lay the picture that a file tells of; return what is wrong with it, or "". Its place is kept all the same."""
@@ -92,8 +99,12 @@ class Underlaying(QObject):
         self.changed.emit()
 
     def _choose(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(self._window, "Place a picture to trace", self._window.settings.last_folder,
-                                              f"Pictures ({' '.join('*' + suffix for suffix in SUFFIXES)})")
+        name, _ = QFileDialog.getOpenFileName(
+            self._window,
+            "Place a picture to trace",
+            self._window.settings.last_folder,
+            f"Pictures ({' '.join('*' + suffix for suffix in SUFFIXES)})",
+        )
         if name:
             self.place(Path(name))
 

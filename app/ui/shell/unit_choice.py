@@ -1,4 +1,6 @@
-"""Millimetres or inches: on rulers, raster and status bar, in fields, at the mouse, and for what is typed; a drawing is in mm."""
+"""Millimetres or inches: on rulers, raster and status bar, in fields, at the mouse, and for what is typed; a drawing is
+in mm.
+"""
 
 from __future__ import annotations
 

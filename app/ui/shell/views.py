@@ -1,4 +1,6 @@
-"""The middle of the window: the canvas, Stages as pixels, Cut in space, Curves, Surfaces, NC as text; or what is missing."""
+"""The middle of the window: the canvas, Stages as pixels, Cut in space, Curves, Surfaces, NC as text; or what is
+missing.
+"""
 
 from __future__ import annotations
 
@@ -82,10 +84,21 @@ class Views(QStackedWidget):
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__()
-        self.canvas, self.stages, self.cut, self.curves, self.nc = canvas, StagesView(), CutView(), CurvesView(), NcView()
+        self.canvas, self.stages, self.cut, self.curves, self.nc = (
+            canvas,
+            StagesView(),
+            CutView(),
+            CurvesView(),
+            NcView(),
+        )
         self.surfaces, self.cut_page = SurfacesView(), CutPage(self.cut)
-        self._own: dict[View, QWidget] = {View.STAGES: self.stages, View.CUT: self.cut_page, View.CURVES: self.curves,
-                                          View.SURFACES: self.surfaces, View.NC: self.nc}  # fmt: skip
+        self._own: dict[View, QWidget] = {
+            View.STAGES: self.stages,
+            View.CUT: self.cut_page,
+            View.CURVES: self.curves,
+            View.SURFACES: self.surfaces,
+            View.NC: self.nc,
+        }
         self.view, self.plot = View.DRAW, PlotPreview()
         self.addWidget(canvas)
         self.addWidget(self.stages)
@@ -100,7 +113,9 @@ class Views(QStackedWidget):
         self.installEventFilter(self)
 
     def show_view(self, view: View) -> None:
-        """Bring a view to the front; zoom and selection stay. The one before fades, unless painting it would take long."""
+        """Bring a view to the front; zoom and selection stay. The one before fades, unless painting it would take
+        long.
+        """
         if view is not self.view and self.isVisible() and self.canvas.scene_ms < _LONG_MS:
             self.fade.hide()
             self.fade.begin(self.grab())

@@ -1,4 +1,6 @@
-"""What is this? A question mark at the mouse: the thing that is clicked says what it is for, and opens the manual where it is told."""
+"""What is this? A question mark at the mouse: the thing that is clicked says what it is for, and opens the manual where
+it is told.
+"""
 
 from __future__ import annotations
 
@@ -42,37 +44,79 @@ LISTENING_MS = 60_000
 
 PLACES: dict[type[QWidget], tuple[str, str]] = {
     Canvas: (
-        "The drawing, or the tool paths. The wheel zooms at the mouse, the middle button moves, F fits. Tools ask below what they need; "
-        "points can be clicked or typed.", LANGUAGE),
+        "The drawing, or the tool paths. The wheel zooms at the mouse, the middle button moves, F fits. Tools ask "
+        "below what they need; "
+        "points can be clicked or typed.",
+        LANGUAGE,
+    ),
     ToolStrip: (
-        "Tools that draw, change and measure. Choose one, then follow the line at the bottom; Esc leaves it, Enter repeats it.", LANGUAGE),
-    SideTabs: ("Job: tools and operations. Drawing: properties, layers, clean-up and history. Text: the drawing in words.", ""),
+        "Tools that draw, change and measure. Choose one, then follow the line at the bottom; Esc leaves it, Enter "
+        "repeats it.",
+        LANGUAGE,
+    ),
+    SideTabs: (
+        "Job: tools and operations. Drawing: properties, layers, clean-up and history. Text: the drawing in words.",
+        "",
+    ),
     SidePanel: ("What is machined with which tool, how deep and how fast. F5 computes the paths anew.", ""),
     DrawingPage: (
-        "Numbers of what is selected, to be changed; layers; what is wrong with the drawing; everything that was done.", LANGUAGE),
+        "Numbers of what is selected, to be changed; layers; what is wrong with the drawing; everything that was done.",
+        LANGUAGE,
+    ),
     ReadingSection: (
-        "How the drawing was read from its file. A change reads it again, as one step that can be undone; a project keeps it.", ""),
-    QuestionCard: ("What the file of a drawing leaves open. Choose how it is read; behind each answer stands what comes of it.", ""),
-    TextPage: ("The drawing as a text. What it would draw is shown while it is written; Ctrl+Enter draws it.", LANGUAGE),
+        "How the drawing was read from its file. A change reads it again, as one step that can be undone; a project "
+        "keeps it.",
+        "",
+    ),
+    QuestionCard: (
+        "What the file of a drawing leaves open. Choose how it is read; behind each answer stands what comes of it.",
+        "",
+    ),
+    TextPage: (
+        "The drawing as a text. What it would draw is shown while it is written; Ctrl+Enter draws it.",
+        LANGUAGE,
+    ),
     CommandLine: (
-        "Type what a tool asks for, or a whole line such as circle 10,10 5. Above it is everything that was done, in the same words.",
-        LANGUAGE),
+        "Type what a tool asks for, or a whole line such as circle 10,10 5. Above it is everything that was done, in "
+        "the same words.",
+        LANGUAGE,
+    ),
     StatusBar: ("Where the mouse is, what it snaps to, and whether the paths are those of the drawing.", ""),
     StagesView: ("The way of 1986, step by step, as the display memory held it.", ""),
     CutView: (
-        "What the program leaves of the stock: gouges red, metal left blue. Drag to turn, click to be told depth and line.", ""),
+        "What the program leaves of the stock: gouges red, metal left blue. Drag to turn, click to be told depth and "
+        "line.",
+        "",
+    ),
     CutPanel: ("What was cut, with which tools, and what was found.", ""),
     CurvesView: (
-        "The program's moves, and the proven curves in their stead. Below: how far they are apart; click there to see the place.", ""),
+        "The program's moves, and the proven curves in their stead. Below: how far they are apart; click there to see "
+        "the place.",
+        "",
+    ),
     Transport: (
-        "The cut along time: play it forward and backward, step to lines, tools and findings, or click the plot to go there.", ""),
+        "The cut along time: play it forward and backward, step to lines, tools and findings, or click the plot to go "
+        "there.",
+        "",
+    ),
     CurvesPanel: ("How near curves must keep to the moves, and the certificate of what was written.", ""),
     SurfacesView: (
-        "A scene's surfaces and the paths over them, each surface in its own colour; Section shows one cutting plane.", "scene"),
-    ScenePanel: ("What the scene is made of. Choose a line to see and change its numbers; it is computed at once.", "scene"),
-    SceneText: ("The scene as a text, as it is saved. What is wrong is marked; what is right is computed while it is written.", "scene"),
+        "A scene's surfaces and the paths over them, each surface in its own colour; Section shows one cutting plane.",
+        "scene",
+    ),
+    ScenePanel: (
+        "What the scene is made of. Choose a line to see and change its numbers; it is computed at once.",
+        "scene",
+    ),
+    SceneText: (
+        "The scene as a text, as it is saved. What is wrong is marked; what is right is computed while it is written.",
+        "scene",
+    ),
     PointsPage: ("Where the topmost surface changes, plane by plane. A click shows the place.", "scene"),
-    SceneSide: ("Scene: surfaces, passes, tools and stock. Text: the same in words. Points: where surfaces meet.", "scene"),
+    SceneSide: (
+        "Scene: surfaces, passes, tools and stock. Text: the same in words. Points: where surfaces meet.",
+        "scene",
+    ),
     NcView: ("The NC program as text and as path. A click on either shows the place in the other.", "posts"),
     QMenuBar: ("Everything that the program can do, with its keys. Ctrl+Shift+Space finds all of it by name.", ""),
     Callout: ("A tour of the window in six steps.", ""),

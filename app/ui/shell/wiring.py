@@ -59,8 +59,14 @@ from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
 WORDS = {
-    "compute": "compute", "cancel": "cancel", "fit": "fit", "export": "export", "new": "new", "open": "open",
-    "findings": "findings", "save": "save",
+    "compute": "compute",
+    "cancel": "cancel",
+    "fit": "fit",
+    "export": "export",
+    "new": "new",
+    "open": "open",
+    "findings": "findings",
+    "save": "save",
 }
 
 
@@ -187,7 +193,12 @@ class Wiring(QObject):
         scene = self.window_.scene.document
         self._on("undo", lambda: scene.undo() if self._on_scene else self.document.undo())
         self._on("redo", lambda: scene.redo() if self._on_scene else self.document.redo())
-        self._on("delete", lambda: self.run("delete") if self.document.selection else self._say("Nothing is selected; click a line first."))
+        self._on(
+            "delete",
+            lambda: (
+                self.run("delete") if self.document.selection else self._say("Nothing is selected; click a line first.")
+            ),
+        )
         self._on("select_all", lambda: self.run("select all"))
         line = self.window_.command_line
         line.entered.connect(self._on_entered)
@@ -206,8 +217,11 @@ class Wiring(QObject):
         self._on("zoom_in", lambda: self.window_.views.viewport.zoom_by(1.5))
         self._on("zoom_out", lambda: self.window_.views.viewport.zoom_by(1 / 1.5))
         status = self.window_.status
-        switches = (("snap", status.snap, canvas.set_snap), ("ortho", status.ortho, canvas.set_ortho),
-                    ("grid", status.grid, canvas.set_grid_snap))
+        switches = (
+            ("snap", status.snap, canvas.set_snap),
+            ("ortho", status.ortho, canvas.set_ortho),
+            ("grid", status.grid, canvas.set_grid_snap),
+        )
         for name, button, switch in switches:
             actions[name].toggled.connect(switch)
             actions[name].toggled.connect(button.setChecked)
@@ -293,7 +307,9 @@ class Wiring(QObject):
     def _show_worst(self) -> None:
         """Show the worst place of the job's cut where it is; what has none there is listed."""
         self.cutting.back()
-        worst = next((entry for entry in self.window_.cut_panel.entries if entry.counts and entry.place is not None), None)
+        worst = next(
+            (entry for entry in self.window_.cut_panel.entries if entry.counts and entry.place is not None), None
+        )
         if worst is None:
             self.showing.open_findings()
             return
@@ -350,7 +366,9 @@ class Wiring(QObject):
         made = self.computation.made
         if made is not None:
             answer = verdict(made.findings, made.report.data)
-            self.log.note("compute", f"{counted(len(made.program.moves), 'move')}. {answer.text}", error=answer.level is Level.BAD)
+            self.log.note(
+                "compute", f"{counted(len(made.program.moves), 'move')}. {answer.text}", error=answer.level is Level.BAD
+            )
 
     def _say(self, text: str) -> None:
         self.window_.status.show_message(text)

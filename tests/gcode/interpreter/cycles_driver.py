@@ -75,17 +75,24 @@ def read(text: str) -> Run:
     numbers = done.motions.line - HEAD_LINES
     refused = None if done.error is None else done.error.line - HEAD_LINES
     ends = (done.motions.end / unit).round(4) + 0.0
-    motions = [(int(n), MotionKind(k), (x, y, z)) for n, k, (x, y, z) in zip(numbers, done.motions.kind, ends.tolist(), strict=True)]
+    motions = [
+        (int(n), MotionKind(k), (x, y, z))
+        for n, k, (x, y, z) in zip(numbers, done.motions.kind, ends.tolist(), strict=True)
+    ]
     return Run([m for m in motions if m[0] > 0 and (refused is None or m[0] < refused)], refused)
 
 
 def assert_same(blocks: list[Block], spindle: int = 1, units: str = "G21") -> Run:
-    """Assert that both do the same: count, kinds and ends of motions to 4 decimals, and the block refused, if one is."""
+    """Assert that both do the same: count, kinds and ends of motions to 4 decimals, and the block refused, if one
+    is.
+    """
     return assert_same_text(program(blocks, spindle, units))
 
 
 def assert_same_text(text: str) -> Run:
-    """Assert the same of a text whose lines behind the head are numbered from 1; positions are in the units of the head."""
+    """Assert the same of a text whose lines behind the head are numbered from 1; positions are in the units of the
+    head.
+    """
     theirs, mine = interpreted(text), read(text)
     assert mine.refused == theirs.refused, text
     assert [m[:2] for m in mine.motions] == [m[:2] for m in theirs.motions], text

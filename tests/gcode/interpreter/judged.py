@@ -1,4 +1,5 @@
-"""Read any text and judge what comes back: no exception, in time, every number in its range, every problem with a place.
+"""Read any text and judge what comes back: no exception, in time, every number in its range, every problem with a
+place.
 
 Time is that of the processor, for others may be at work beside a test.
 """
@@ -22,7 +23,8 @@ SECONDS, BYTES, MEGABYTES = 2.0, 1_000_000, 500
 
 
 def judged(data: bytes, dialect: Dialect = Dialect.LINUXCNC) -> NcProgram:
-    """Read a text within two seconds (and two more for each further megabyte); fail unless what comes back holds together.
+    """Read a text within two seconds (and two more for each further megabyte); fail unless what comes back holds
+    together.
 
     It has three tries, for a machine with much else to do is slow at times.
     """
@@ -64,7 +66,10 @@ def _judge_problems(program: NcProgram, data: bytes) -> None:
         assert 1 <= problem.line <= program.line_count and problem.text.endswith((".", ")")), problem
         line = lines[problem.line - 1]
         assert 0 <= problem.column <= len(line) + 1, (problem, line[:80])
-        assert not problem.column or line[problem.column - 1 :].lower().startswith(problem.word.lower()), (problem, line[:80])
+        assert not problem.column or line[problem.column - 1 :].lower().startswith(problem.word.lower()), (
+            problem,
+            line[:80],
+        )
         assert problem.told("a.ngc").startswith(f"a.ngc:{problem.line}:")
 
 

@@ -36,7 +36,9 @@ class Oracle:
             plain.motion = int(words["G"])
         if not words.keys() & set("XYZ"):
             return
-        lengths = {c: float(w) * (plain.scale if "." in w else plain.bare_scale) for c, w in words.items() if c in "XYZIJKR"}
+        lengths = {
+            c: float(w) * (plain.scale if "." in w else plain.bare_scale) for c, w in words.items() if c in "XYZIJKR"
+        }
         start = [float(c) for c in plain.position]
         end = [self._reached(k, c, lengths) for k, c in enumerate("XYZ")]
         for k, c in enumerate("XYZ"):
@@ -45,7 +47,9 @@ class Oracle:
                 plain.known[entry] = len(self.rows)
         centre = [math.nan] * 3 if plain.motion < 2 else self._centre(start, end, lengths)
         feed = plain.feed if plain.motion else 0.0
-        self.rows.append((*start, *end, *centre, plain.motion, plain.plane, plain.motion > 1, feed, number, plain.state))
+        self.rows.append(
+            (*start, *end, *centre, plain.motion, plain.plane, plain.motion > 1, feed, number, plain.state)
+        )
         plain.position[:] = end
 
     def _reached(self, axis: int, letter: str, lengths: dict[str, float]) -> float:

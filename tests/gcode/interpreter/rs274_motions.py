@@ -45,7 +45,9 @@ class Printed:
 def tool_table(tools: Mapping[int, ToolOffset]) -> str:
     """Return a tool table as rs274 reads it: in inch, whatever the program says."""
     rows = [[value / MM_PER_INCH for value in (*tool.offset, tool.diameter)] for tool in tools.values()]
-    return "".join(f"T{n} P{n} X{x:.9f} Y{y:.9f} Z{z:.9f} D{d:.9f}\n" for n, (x, y, z, d) in zip(tools, rows, strict=True))
+    return "".join(
+        f"T{n} P{n} X{x:.9f} Y{y:.9f} Z{z:.9f} D{d:.9f}\n" for n, (x, y, z, d) in zip(tools, rows, strict=True)
+    )
 
 
 def rs274(data: bytes, tools: Mapping[int, ToolOffset] = TOOLS) -> tuple[list[Printed], str]:
@@ -56,7 +58,14 @@ def rs274(data: bytes, tools: Mapping[int, ToolOffset] = TOOLS) -> tuple[list[Pr
         (Path(folder) / "tool.tbl").write_text(tool_table(tools))
         command = [RS274, "-g", "-t", "tool.tbl", "-v", "scratch.var", "in.ngc"]
         run = subprocess.run(
-            command, cwd=folder, env=own_home(folder), stdin=DEVNULL, capture_output=True, text=True, errors="replace", timeout=60
+            command,
+            cwd=folder,
+            env=own_home(folder),
+            stdin=DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=60,
         )
     return _motions(run.stdout), "" if run.returncode == 0 else run.stderr.strip()
 
@@ -104,7 +113,9 @@ def assert_same(program: NcProgram, printed: list[Printed]) -> None:
         assert motions.kind[row] == other.kind, where
         if other.kind is MotionKind.SPLINE:
             continue
-        assert np.allclose(in_program(program, row, motions.end[row]) / other.unit, other.end, rtol=0, atol=HALF_A_DIGIT), where
+        assert np.allclose(
+            in_program(program, row, motions.end[row]) / other.unit, other.end, rtol=0, atol=HALF_A_DIGIT
+        ), where
         if other.centre is not None:
             u, v, _ = other.plane.axes
             centre = in_program(program, row, motions.centre[row])[[u, v]] / other.unit

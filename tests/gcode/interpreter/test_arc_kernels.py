@@ -11,7 +11,15 @@ from app.gcode.interpreter.arc_kernels import centre_by_radius, radii
 coordinates = st.floats(-1000, 1000)
 
 
-@given(coordinates, coordinates, coordinates, coordinates, st.floats(1.0, 5.0), st.sampled_from([1, -1]), st.sampled_from([1, -1]))
+@given(
+    coordinates,
+    coordinates,
+    coordinates,
+    coordinates,
+    st.floats(1.0, 5.0),
+    st.sampled_from([1, -1]),
+    st.sampled_from([1, -1]),
+)
 def test_the_centre_is_at_the_radius_from_both_ends_and_on_the_right_side(x0, y0, x1, y1, more, turn, sign) -> None:  # type: ignore[no-untyped-def]
     chord = math.hypot(x1 - x0, y1 - y0)
     assume(chord > 1e-3)
@@ -36,8 +44,14 @@ def test_a_radius_that_is_too_small_reaches_only_with_slack() -> None:
     assert math.isnan(centre_by_radius(0.0, 0.0, 2.0, 0.0, 0.998, 1, 0.001)[0])
 
 
-@pytest.mark.parametrize("numbers", [
-    (0.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.0, 0.0), (math.nan, 0.0, 1.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.0, math.nan),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        (0.0, 0.0, 0.0, 0.0, 1.0),
+        (0.0, 0.0, 1.0, 0.0, 0.0),
+        (math.nan, 0.0, 1.0, 0.0, 1.0),
+        (0.0, 0.0, 1.0, 0.0, math.nan),
+    ],
+)
 def test_without_a_chord_or_a_radius_there_is_no_centre(numbers: tuple[float, ...]) -> None:
     assert all(map(math.isnan, centre_by_radius(*numbers, 1, 0.001)))

@@ -1,4 +1,6 @@
-"""Small programs at the edges of the language: taken and refused as LinuxCNC's interpreter does, held against it where it is installed."""
+"""Small programs at the edges of the language: taken and refused as LinuxCNC's interpreter does, held against it where
+it is installed.
+"""
 
 import math
 
@@ -18,10 +20,12 @@ TAKEN = {
     "and in mm by 0.028 mm": "G21 F100\nG0 X0 Y0\nG2 X10 I5.014\nM2\n",
     "a large one by 0.1 %": "G21 F100\nG0 X0 Y0\nG2 X200 I100.04\nM2\n",
     "return with a label of its own": "F100\no1 sub\nG1 X1\no2 return\nG1 X2\no1 endsub\no1 call\nG1 Y1\nM2\n",
-    "return with another subroutine's label": "F100\no2 sub\no2 endsub\no1 sub\no2 return\nG1 X3\no1 endsub\no1 call\nG1 Y1\nM2\n",
+    "return with another subroutine's label": "F100\no2 sub\no2 endsub\no1 sub\no2 return\nG1 X3\no1 endsub\no1 "
+    "call\nG1 Y1\nM2\n",
     "a value by another label's return": "F100\no1 sub\no7 return [7]\no1 endsub\no1 call\nG1 X#<_value>\nM2\n",
     "endsub of another label": "F100\no1 sub\nG1 X1\no2 endsub\nG1 X2\no1 endsub\no1 call\nM2\n",
-    "keywords in pieces": "F100\no1 sub\nG1 X1\no1 end sub\no2 re peat [2]\nG91 G1 X1\no2 end repeat\no3 if [1]\no1 ca ll\no3 end if\nM2\n",
+    "keywords in pieces": "F100\no1 sub\nG1 X1\no1 end sub\no2 re peat [2]\nG91 G1 X1\no2 end repeat\no3 if [1]\no1 ca "
+    "ll\no3 end if\nM2\n",
     "a label in pieces": "F100\no1 0 0 sub\nG1 X1\no100 endsub\no1 00 call\nM2\n",
     "numbers always exist": "F100\n#2=exists[#1]\n#3=exists[#31]\nG1 X[#2+5] Y[#3+2]\n#4=exists[#<no>]\nG1 X#4\nM2\n",
     "polar places": "F100\nG0 @10 ^30\nG1 ^60 Z2\n@5\nG91\nG1 @5 ^10\nG1 ^5\nG90 G1 @[2*3] ^0\nM2\n",
@@ -36,11 +40,15 @@ TAKEN = {
     "a program between per cent signs": "%\nF100\nG1 X1\n  %  \nG1 X5\n",
     "begins with G91": "G91\nG1 F100 X1 Y1\nG1 Z-1\nG90\nG1 X0\nM2\n",
     "a line back along an arc, the tool outside": "F100\nG42.1 D2\nG1 X5\nX10\nG3 X7 Y3 I0 J3\nG1 Y20\nG40\nX0\nM2\n",
-    "a way in by a rapid that the corner turns round": "F100\nG41.1 D5\nG0 X0.662185 Y-2.410718\nG1 X50 Y30\nG40\nG1 X0\nM2\n",
+    "a way in by a rapid that the corner turns round": "F100\nG41.1 D5\nG0 X0.662185 Y-2.410718\nG1 X50 Y30\nG40\nG1 "
+    "X0\nM2\n",
 }
 
 REFUSED = {
-    "an arc in mm that misses by 2.86 mm": ("G21 F100\nG0 X0 Y0\nG2 X6000 I3001.4284\nM2\n", "does not end on its circle"),
+    "an arc in mm that misses by 2.86 mm": (
+        "G21 F100\nG0 X0 Y0\nG2 X6000 I3001.4284\nM2\n",
+        "does not end on its circle",
+    ),
     "in inch by 0.0029 in": ("G20 F10\nG0 X0 Y0\nG2 X1.0 I0.50145\nM2\n", "does not end on its circle"),
     "by 0.0284 mm": ("G21 F100\nG0 X0 Y0\nG2 X10 I5.01425\nM2\n", "does not end on its circle"),
     "return outside": ("F100\nG1 X1\no2 return\nM2\n", "ends a subroutine that is not running"),
@@ -56,13 +64,19 @@ REFUSED = {
     "M98 of what is call's": ("F100\nM98 P100\nM2\no100 sub\nG1 X3\no100 endsub\n", "not M98"),
     "M99 in what is call's": ("F100\no200 sub\nG1 X9\nM99\no200 endsub\no200 call\nM2\n", "must end it, not M99"),
     "endsub in what is M98's": ("F100\nM98 P100\nM2\no100\nG1 X3\no100 endsub\n", "M99 must end it"),
-    "a subroutine behind the closing %": ("%\nF100\no100 call\nM2\n%\no100 sub\nG1 X3\no100 endsub\n", "no subroutine O100"),
+    "a subroutine behind the closing %": (
+        "%\nF100\no100 call\nM2\n%\no100 sub\nG1 X3\no100 endsub\n",
+        "no subroutine O100",
+    ),
     "a subroutine in no file": ("F100\no<abc> call\nM2\n", "a file of its own beside the program is not read"),
     "a stray %": ("F100\nG1 X1\n%\nG1 X2\nM2\n", "per cent sign"),
     "a % with something behind": ("%\nF100\nG1 X1\n%(end)\nM2\n", "per cent sign"),
     "a probe without axes": ("F100\nG38.2\nM2\n", "needs axis words"),
     "a probe that goes nowhere": ("F100\nG0 X1\nG38.2 X1\nM2\n", "begins where it ends"),
-    "a way in as long as the radius": ("F100\nG41.1 D2\nG1 X0.6 Y0.8\nG1 X5\nG40\nM2\n", "must be longer than the tool's radius"),
+    "a way in as long as the radius": (
+        "F100\nG41.1 D2\nG1 X0.6 Y0.8\nG1 X5\nG40\nM2\n",
+        "must be longer than the tool's radius",
+    ),
     "a slot too narrow": ("F100\nG41.1 D2\nG1 X10\nY10\nX9.5\nY0\nG40\nM2\n", "does not reach into the inner corner"),
     "a slot too narrow at the end": ("F100\nG41.1 D2\nG1 X10\nY10\nX9.5\nM2\n", "does not reach into the inner corner"),
 }
@@ -93,7 +107,10 @@ def test_upright_arcs_under_a_turned_offset_are_refused_by_name() -> None:
 
 def test_polar_in_closed_form() -> None:
     program = read("F100\nG0 @10 ^30\nG91 G1 @5 ^10\nM2\n")
-    places = [(10 * math.cos(math.radians(30)), 5.0, 0.0), (15 * math.cos(math.radians(40)), 15 * math.sin(math.radians(40)), 0.0)]
+    places = [
+        (10 * math.cos(math.radians(30)), 5.0, 0.0),
+        (15 * math.cos(math.radians(40)), 15 * math.sin(math.radians(40)), 0.0),
+    ]
     assert np.allclose(ends(program), places)
 
 
@@ -119,7 +136,9 @@ def test_r_of_g64_is_known() -> None:
     assert len(told) == 1 and "2.10" in told[0]
 
 
-@pytest.mark.parametrize("text", ["n--5 g0 x1\nm2\n", "n-138 g0 x1\nm2\n", "n131n131 g0 x1\nm2\n", "n.5 g0 x1\nm2\n", "n[5] g0 x1\nm2\n"])
+@pytest.mark.parametrize(
+    "text", ["n--5 g0 x1\nm2\n", "n-138 g0 x1\nm2\n", "n131n131 g0 x1\nm2\n", "n.5 g0 x1\nm2\n", "n[5] g0 x1\nm2\n"]
+)
 def test_a_block_number_is_one_and_begins_with_a_digit(text: str) -> None:
     assert rs274(text.encode())[1] != ""
     error = read_program(text.encode()).error

@@ -7,7 +7,9 @@ from app.model.motion import MotionKind, Motions, Plane
 
 
 def line(number: int) -> Motion:
-    return Motion(MotionKind.LINE, (number - 1.0, 0.0, 0.0), (number, 0.5, -number), 100.0 + number, number, number // 7)
+    return Motion(
+        MotionKind.LINE, (number - 1.0, 0.0, 0.0), (number, 0.5, -number), 100.0 + number, number, number // 7
+    )
 
 
 def test_rows_come_out_as_they_went_in() -> None:
@@ -19,7 +21,10 @@ def test_rows_come_out_as_they_went_in() -> None:
     assert len(motions) == 2 and motions.known_from == (0, 1, 2) and list(motions.splines) == [1]
     assert motions.start[1].tolist() == [0.0, 1.0, 2.0] and motions.end[1].tolist() == [3.0, 4.0, 5.0]
     assert motions.centre[1].tolist() == [6.0, 7.0, 8.0] and np.isnan(motions.centre[0]).all()
-    numbers = [column.tolist() for column in (motions.kind, motions.plane, motions.turns, motions.feed, motions.line, motions.state)]
+    numbers = [
+        column.tolist()
+        for column in (motions.kind, motions.plane, motions.turns, motions.feed, motions.line, motions.state)
+    ]
     assert numbers == [[1, 2], [0, 2], [0, 3], [101.0, 60.0], [1, 8], [0, 2]]
 
 

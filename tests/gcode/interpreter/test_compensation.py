@@ -26,7 +26,14 @@ def test_inside_a_square_the_corners_are_cut_off() -> None:
 def test_outside_a_square_the_tool_rolls_round_the_corners() -> None:
     program = read("F100 T1 M6\nG42 G1 X10\nY10\nX0\nG40 Y20\nM2\n", tool_table=TABLE)
     assert ends(program) == [(10, -1, 0), (11, 0, 0), (11, 10, 0), (10, 11, 0), (0, 11, 0), (0, 20, 0)]
-    assert kinds(program) == [MotionKind.LINE, MotionKind.ARC_CCW, MotionKind.LINE, MotionKind.ARC_CCW, MotionKind.LINE, MotionKind.LINE]
+    assert kinds(program) == [
+        MotionKind.LINE,
+        MotionKind.ARC_CCW,
+        MotionKind.LINE,
+        MotionKind.ARC_CCW,
+        MotionKind.LINE,
+        MotionKind.LINE,
+    ]
     assert program.motions.centre[1].tolist() == [10, 0, 0]
     assert program.motions.line.tolist() == [2, 3, 3, 4, 4, 5]
 
@@ -60,7 +67,10 @@ def test_other_planes_and_given_diameters() -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("G41 G1 X0.5", "a.ngc:2:1: G41: the first move under cutter compensation must be longer than the tool's radius"),
+        (
+            "G41 G1 X0.5",
+            "a.ngc:2:1: G41: the first move under cutter compensation must be longer than the tool's radius",
+        ),
         ("G41 G1 X10\nG3 X10.5 Y0.5 J0.5", "the tool (radius 1 mm) does not fit into an arc of radius 0.5 mm"),
         ("G41 G1 X10\nY10\nX9.5\nY0", "does not reach into the inner corner"),
         ("G41 G1 X10\nG28", "G28 cannot be while cutter compensation is on"),

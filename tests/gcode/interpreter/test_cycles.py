@@ -6,7 +6,17 @@ from dataclasses import replace
 
 import pytest
 
-from app.gcode.interpreter.cycles import CYCLE_WORDS, Cycle, Dwell, Move, Spindle, Stop, cycle_steps, taps_astray, with_sticky
+from app.gcode.interpreter.cycles import (
+    CYCLE_WORDS,
+    Cycle,
+    Dwell,
+    Move,
+    Spindle,
+    Stop,
+    cycle_steps,
+    taps_astray,
+    with_sticky,
+)
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.fault import Fault
 from app.gcode.interpreter.options import ReadOptions
@@ -26,16 +36,35 @@ def test_a_hole_step_by_step() -> None:
     tap = replace(DRILL, code="G84", dwell=0.5, spindle=1)
     up, down, bottom = (1.0, 2.0, 5.0), (1.0, 2.0, 1.0), (1.0, 2.0, -3.0)
     assert list(cycle_steps(tap, HERE, 5.0)) == [
-        Move(MotionKind.RAPID, up, up), Move(MotionKind.RAPID, down, down), Move(MotionKind.LINE, bottom, bottom), Spindle(0), Spindle(-1),
-        Dwell(0.5), Move(MotionKind.LINE, up, up), Spindle(0), Spindle(1),
-    ]  # fmt: skip
+        Move(MotionKind.RAPID, up, up),
+        Move(MotionKind.RAPID, down, down),
+        Move(MotionKind.LINE, bottom, bottom),
+        Spindle(0),
+        Spindle(-1),
+        Dwell(0.5),
+        Move(MotionKind.LINE, up, up),
+        Spindle(0),
+        Spindle(1),
+    ]
     by_hand = list(cycle_steps(replace(tap, code="G88"), HERE, 5.0))
     assert by_hand[2:] == [Move(MotionKind.LINE, bottom, up), Dwell(0.5), Spindle(0), Stop(), Spindle(1)]
 
 
 def test_tapping_goes_astray_on_linuxcnc_alone() -> None:
     for code, plane, fanuc in itertools.product(CYCLE_WORDS, Plane, (False, True)):
-        cycle = Cycle(code, plane, (1.0, 2.0), -3.0, 1.0, 1, 0.5, 1.0, (0.0, 0.0, 0.0), spindle=-1 if code == "G74" else 1, fanuc=fanuc)
+        cycle = Cycle(
+            code,
+            plane,
+            (1.0, 2.0),
+            -3.0,
+            1.0,
+            1,
+            0.5,
+            1.0,
+            (0.0, 0.0, 0.0),
+            spindle=-1 if code == "G74" else 1,
+            fanuc=fanuc,
+        )
         moves = [step for step in cycle_steps(cycle, HERE, 5.0) if isinstance(step, Move)]
         astray = any(move.target != move.meant for move in moves if code != "G88")
         assert astray == taps_astray(cycle) == (code in ("G74", "G84") and plane is not Plane.XY and not fanuc)
@@ -54,7 +83,14 @@ def test_on_fanuc_words_stay_from_code_to_code() -> None:
     deep = Cycle("G83", Plane.XY, (1.0, 2.0), -3.0, 1.0, 5, peck=2.0, fanuc=True)
     drill = with_sticky(Cycle("G81", Plane.XY, (4.0, None), fanuc=True), deep)
     assert (drill.depth, drill.r, drill.peck, drill.hole, drill.repeats) == (-3.0, 1.0, 2.0, (4.0, None), 1)
-    assert heights(with_sticky(Cycle("G73", Plane.XY, (4.0, None), fanuc=True), drill)) == [5.0, 1.0, -1.0, -1.0 + 0.254, -3.0, 5.0]
+    assert heights(with_sticky(Cycle("G73", Plane.XY, (4.0, None), fanuc=True), drill)) == [
+        5.0,
+        1.0,
+        -1.0,
+        -1.0 + 0.254,
+        -3.0,
+        5.0,
+    ]
 
 
 def test_on_linuxcnc_words_stay_while_the_code_does() -> None:
@@ -85,7 +121,9 @@ def test_on_fanuc_a_small_peck_does_not_return_above_r() -> None:
 
 def test_a_huge_repeat_is_done_as_far_as_it_is_asked_for() -> None:
     begun = time.perf_counter()
-    steps = list(itertools.islice(cycle_steps(replace(DRILL, repeats=10**12, absolute=False, depth=-4.0), HERE, 5.0), 1000))
+    steps = list(
+        itertools.islice(cycle_steps(replace(DRILL, repeats=10**12, absolute=False, depth=-4.0), HERE, 5.0), 1000)
+    )
     assert time.perf_counter() - begun < 1.0
     assert len(steps) == 1000
 
@@ -101,16 +139,22 @@ def test_pecks_without_end_are_refused(code: str, peck: float, lowest: float) ->
 @pytest.mark.parametrize(
     ("changed", "letter", "words"),
     [
-        ({"r": -4.0}, "R", "R at -4 lies below the bottom of the hole at Z -3"), ({"r": None}, "R", "no R word"),
-        ({"depth": None}, "Z", "no Z word"), ({"plane": Plane.ZX, "depth": None}, "Y", "no Y word"), ({"repeats": 0}, "L", "0 times"),
-        ({"repeats": -2, "fanuc": True}, "L", "-2 times"), ({"code": "G82"}, "P", "no P word"),
+        ({"r": -4.0}, "R", "R at -4 lies below the bottom of the hole at Z -3"),
+        ({"r": None}, "R", "no R word"),
+        ({"depth": None}, "Z", "no Z word"),
+        ({"plane": Plane.ZX, "depth": None}, "Y", "no Y word"),
+        ({"repeats": 0}, "L", "0 times"),
+        ({"repeats": -2, "fanuc": True}, "L", "-2 times"),
+        ({"code": "G82"}, "P", "no P word"),
         ({"code": "G82", "dwell": -1.0}, "P", "negative"),
-        ({"code": "G83"}, "Q", "no Q word"), ({"code": "G83", "peck": -1.0}, "Q", "above 0"),
+        ({"code": "G83"}, "Q", "no Q word"),
+        ({"code": "G83", "peck": -1.0}, "Q", "above 0"),
         ({"code": "G87", "spindle": 1}, "I", "no I word"),
-        ({"code": "G84"}, "", r"clockwise \(M3\), and it stands"), ({"code": "G74", "spindle": 1}, "", r"\(M4\), and it turns clockwise"),
+        ({"code": "G84"}, "", r"clockwise \(M3\), and it stands"),
+        ({"code": "G74", "spindle": 1}, "", r"\(M4\), and it turns clockwise"),
         ({"code": "G86", "dwell": 1.0}, "", "it stands"),
     ],
-)  # fmt: skip
+)
 def test_faults_name_the_word(changed: dict[str, object], letter: str, words: str) -> None:
     with pytest.raises(Fault, match=words) as fault:
         cycle_steps(replace(DRILL, **changed), HERE, 5.0)

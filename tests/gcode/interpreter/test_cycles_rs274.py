@@ -34,7 +34,15 @@ def drawn_blocks(draw: st.DrawFn, spindle: int) -> list[Block]:
 @st.composite
 def drawn_words(draw: st.DrawFn, code: str, plane: str, full: bool) -> dict[str, float]:
     """Words of one block; all of them where it is full, but for one in a while."""
-    ranges = {"R": (-1, 4), "Q": (0.05, 3), "P": (0, 1), "I": (-1, 1), "J": (-1, 1), "K": (-3, 1), NORMAL[plane]: (-4, 0)}
+    ranges = {
+        "R": (-1, 4),
+        "Q": (0.05, 3),
+        "P": (0, 1),
+        "I": (-1, 1),
+        "J": (-1, 1),
+        "K": (-3, 1),
+        NORMAL[plane]: (-4, 0),
+    }
     letters = [NORMAL[plane], *(letter for letter in CYCLE_WORDS[code] if letter != "L")]
     kept = letters if full and draw(st.integers(0, 15)) else [letter for letter in letters if draw(st.booleans())]
     words = {letter: draw(numbers(*ranges[letter])) for letter in kept}
@@ -55,7 +63,9 @@ def test_any_cycles(data: st.DataObject, spindle: int, units: str) -> None:
 
 @pytest.mark.parametrize("units", ["G20", "G21"])
 @pytest.mark.parametrize("code", ["G73", "G83"])
-@pytest.mark.parametrize(("r", "depth", "peck"), [(1, -3, 1), (1, -3, 0.1), (0.01, -0.2, 0.2), (0, -1, 0.3), (2, -0.5, 4), (1, 1, 1)])
+@pytest.mark.parametrize(
+    ("r", "depth", "peck"), [(1, -3, 1), (1, -3, 0.1), (0.01, -0.2, 0.2), (0, -1, 0.3), (2, -0.5, 4), (1, 1, 1)]
+)
 def test_pecks(code: str, units: str, r: float, depth: float, peck: float) -> None:
     run = assert_same([Block(code, (), {"X": 4, "Z": depth, "R": r, "Q": peck})], units=units)
     assert run.refused is None
@@ -98,12 +108,21 @@ def test_what_the_spindle_must_do(code: str, spindle: int) -> None:
 def test_missing_words_are_refused(code: str, missing: str) -> None:
     words = {k: v for k, v in full(code).items() if k != missing}
     run = assert_same([Block(code, (), words)], -1 if code == "G74" else 1)
-    assert (run.refused == 1) == (missing in full(code) and missing != "X" and (missing, code[1:]) not in {("P", "84"), ("P", "74")})
+    assert (run.refused == 1) == (
+        missing in full(code) and missing != "X" and (missing, code[1:]) not in {("P", "84"), ("P", "74")}
+    )
 
 
 @pytest.mark.parametrize(
     ("code", "wrong"),
-    [("G81", {"R": -4.0}), ("G81", {"L": 0.0}), ("G83", {"Q": 0.0}), ("G73", {"Q": 0.0}), ("G82", {"P": -1.0}), ("G83", {"Q": -1.0})],
+    [
+        ("G81", {"R": -4.0}),
+        ("G81", {"L": 0.0}),
+        ("G83", {"Q": 0.0}),
+        ("G73", {"Q": 0.0}),
+        ("G82", {"P": -1.0}),
+        ("G83", {"Q": -1.0}),
+    ],
 )
 def test_wrong_words_are_refused(code: str, wrong: dict[str, float]) -> None:
     assert assert_same([Block("G81", (), full("G81")), Block(code, (), full(code, **wrong))]).refused == 2
@@ -118,19 +137,40 @@ def test_the_run_of_another_plane_keeps_the_initial_height() -> None:
 @pytest.mark.parametrize(
     "lines",
     [
-        ["G81 X1 Z-3 R1", "G0 Z9", "G81 X2 Z-3 R1", "X3"], ["G81 X1 Z-3 R1", "G0 Z9", "G81 X2"], ["G81 X1 Z-3 R1", "G80", "X3"],
-        ["G81 X1 Z-3 R1", "G4 P1", "F200", "X2", "M5", "X3"], ["G81"], ["G80 X1"], ["G81 X1 Z-3 R1", "G1 X4", "G98 X5"],
-        ["G93 G81 X1 Z-3 R1 F2"], ["F0 G81 X1 Z-3 R1"], ["G53 G81 X1 Z-3 R1"], ["G81 X1 Z-3 R1", "G80", "G81 X2 Z-3 R1"],
-        ["G84 G18 X1 Y-3 R1", "G91 X1 Z1 L3", "G0 X1 Z1"], ["G88 X1 Z-3 R1 P0", "G91 G1 X1", "G0 Z1"],
+        ["G81 X1 Z-3 R1", "G0 Z9", "G81 X2 Z-3 R1", "X3"],
+        ["G81 X1 Z-3 R1", "G0 Z9", "G81 X2"],
+        ["G81 X1 Z-3 R1", "G80", "X3"],
+        ["G81 X1 Z-3 R1", "G4 P1", "F200", "X2", "M5", "X3"],
+        ["G81"],
+        ["G80 X1"],
+        ["G81 X1 Z-3 R1", "G1 X4", "G98 X5"],
+        ["G93 G81 X1 Z-3 R1 F2"],
+        ["F0 G81 X1 Z-3 R1"],
+        ["G53 G81 X1 Z-3 R1"],
+        ["G81 X1 Z-3 R1", "G80", "G81 X2 Z-3 R1"],
+        ["G84 G18 X1 Y-3 R1", "G91 X1 Z1 L3", "G0 X1 Z1"],
+        ["G88 X1 Z-3 R1 P0", "G91 G1 X1", "G0 Z1"],
     ],
-)  # fmt: skip
+)
 def test_cycles_among_other_words(lines: list[str]) -> None:
-    assert_same_text("\n".join([program([]).rsplit("M2", 1)[0].strip(), *(f"N{k} {line}" for k, line in enumerate(lines, 1)), "M2\n"]))
+    assert_same_text(
+        "\n".join(
+            [program([]).rsplit("M2", 1)[0].strip(), *(f"N{k} {line}" for k, line in enumerate(lines, 1)), "M2\n"]
+        )
+    )
 
 
 @pytest.mark.parametrize(("units", "other"), [("G21", "G20"), ("G20", "G21")])
 def test_numbers_that_stay_are_those_written_over_a_change_of_units(units: str, other: str) -> None:
-    lines = [f"{units} G17 G90 G98 F100 M3 S100", "N0 G0 X1 Y2 Z3", "N1 G83 X1 Z-.3 R1 Q.4", f"N2 {other} X2", f"N3 {units} X3", "M2", ""]
+    lines = [
+        f"{units} G17 G90 G98 F100 M3 S100",
+        "N0 G0 X1 Y2 Z3",
+        "N1 G83 X1 Z-.3 R1 Q.4",
+        f"N2 {other} X2",
+        f"N3 {units} X3",
+        "M2",
+        "",
+    ]
     factor = 25.4 if other == "G20" else 1 / 25.4
     theirs, mine = interpreted("\n".join(lines)), read("\n".join(lines))
     meant = [[value * (factor if n == 2 else 1.0) for value in end] for n, _, end in theirs.motions]

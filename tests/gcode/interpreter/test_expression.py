@@ -16,14 +16,43 @@ def value(expression: str) -> float:
 @pytest.mark.parametrize(
     ("expression", "expected"),
     [
-        ("[2+3*4**2/8]", 8), ("[2**3**2]", 64), ("[-2**2]", 4), ("[1 or 0 and 0]", 0), ("[1+2 gt 2*1]", 1), ("[-7 mod 3]", 2),
-        ("[7 mod -3]", 1), ("[7 MOD 3]", 1), ("fix[-2.5]", -3), ("fup[-2.5]", -2), ("round[-2.5]", -3), ("round[2.5]", 3),
-        ("atan[1]/[-1]", 135), ("[1 eq 1.00005]", 1), ("[1 ne 1.00005]", 0), ("[1 ge 1.00001]", 0), ("[1 lt 1.00001]", 1),
-        ("[1 xor 1]", 0), ("sin[30]", 0.5), ("cos[60]", 0.5), ("tan[45]", 1), ("asin[0.5]", 30), ("acos[0.5]", 60), ("sqrt[16]", 4),
-        ("abs[-3]", 3), ("exp[0]", 1), ("ln[1]", 0), ("-sin[30]", -0.5), ("- 1 . 5", -1.5), ("+.5", 0.5), ("1 000", 1000), ("-[1+2]", -3),
-        ("exists[#<no>]", 0), ("-#30", 0), ("5.", 5),
+        ("[2+3*4**2/8]", 8),
+        ("[2**3**2]", 64),
+        ("[-2**2]", 4),
+        ("[1 or 0 and 0]", 0),
+        ("[1+2 gt 2*1]", 1),
+        ("[-7 mod 3]", 2),
+        ("[7 mod -3]", 1),
+        ("[7 MOD 3]", 1),
+        ("fix[-2.5]", -3),
+        ("fup[-2.5]", -2),
+        ("round[-2.5]", -3),
+        ("round[2.5]", 3),
+        ("atan[1]/[-1]", 135),
+        ("[1 eq 1.00005]", 1),
+        ("[1 ne 1.00005]", 0),
+        ("[1 ge 1.00001]", 0),
+        ("[1 lt 1.00001]", 1),
+        ("[1 xor 1]", 0),
+        ("sin[30]", 0.5),
+        ("cos[60]", 0.5),
+        ("tan[45]", 1),
+        ("asin[0.5]", 30),
+        ("acos[0.5]", 60),
+        ("sqrt[16]", 4),
+        ("abs[-3]", 3),
+        ("exp[0]", 1),
+        ("ln[1]", 0),
+        ("-sin[30]", -0.5),
+        ("- 1 . 5", -1.5),
+        ("+.5", 0.5),
+        ("1 000", 1000),
+        ("-[1+2]", -3),
+        ("exists[#<no>]", 0),
+        ("-#30", 0),
+        ("5.", 5),
     ],
-)  # fmt: skip
+)
 def test_values(expression: str, expected: float) -> None:
     assert value(expression) == pytest.approx(expected, abs=1e-12)
 
@@ -33,7 +62,9 @@ def test_arithmetic_is_that_of_numbers(a: float, b: float, operator: str) -> Non
     left, right = f"{a:.6f}", f"{b:.6f}"
     if operator == "/" and float(right) == 0:
         return
-    expected = {"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}[operator](float(left), float(right))
+    expected = {"+": float.__add__, "-": float.__sub__, "*": float.__mul__, "/": float.__truediv__}[operator](
+        float(left), float(right)
+    )
     if abs(expected) < 1e8:
         assert value(f"[{left} {operator} {right}]") == expected
 
@@ -47,7 +78,10 @@ def test_parameters_of_parameters_and_names() -> None:
 
 
 def test_the_controls_own_parameters() -> None:
-    text = "G10 L2 P1 X2 R0\nG54 G0 X1 Y4\n#1=#5420 #2=#5221 #3=#5220\nG0 X#1 Y#2 Z#3\nG0 X#<_y> Y#<_metric> Z[#<_coord_system>/100]\nM2\n"
+    text = (
+        "G10 L2 P1 X2 R0\nG54 G0 X1 Y4\n#1=#5420 #2=#5221 #3=#5220\nG0 X#1 Y#2 Z#3\nG0 X#<_y> Y#<_metric> "
+        "Z[#<_coord_system>/100]\nM2\n"
+    )
     assert ends(read(text))[1:] == [(3, 2, 1), (4, 1, 5.4)]
 
 

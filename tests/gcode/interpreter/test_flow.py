@@ -31,13 +31,19 @@ def test_one_branch_is_taken(value: int, expected: int) -> None:
 
 
 def test_loops_within_loops() -> None:
-    text = "#1=0\no1 while [#1 lt 2]\n#2=0\no2 repeat [2]\nG0 X[#1*10+#2]\n#2=[#2+1]\no2 endrepeat\n#1=[#1+1]\no1 endwhile\nM2\n"
+    text = (
+        "#1=0\no1 while [#1 lt 2]\n#2=0\no2 repeat [2]\nG0 X[#1*10+#2]\n#2=[#2+1]\no2 endrepeat\n#1=[#1+1]\no1 "
+        "endwhile\nM2\n"
+    )
     assert way(text) == [0, 1, 10, 11]
 
 
 def test_break_and_continue() -> None:
-    text = ("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 eq 2]\no1 continue\no2 endif\no3 if [#1 gt 3]\no1 break\no3 endif\nG0 X#1\n"
-            "o1 endwhile\nG0 X9\nM2\n")  # fmt: skip
+    text = (
+        "#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 eq 2]\no1 continue\no2 endif\no3 if [#1 gt 3]\no1 break\no3 "
+        "endif\nG0 X#1\n"
+        "o1 endwhile\nG0 X9\nM2\n"
+    )
     assert way(text) == [1, 3, 9]
 
 
@@ -54,12 +60,18 @@ def test_fanuc_writes_the_count_before_the_number() -> None:
 
 
 def test_fanuc_jumps() -> None:
-    text = "#1=1\nN10 G0 X[#1]\n#1=#1+1\nIF [#1 LT 4] GOTO 10\nIF [#1 EQ 4] THEN #2=7\nG0 X#2\nGOTO 99\nG0 X50.\nN99 G0 X9.\nM30\n"
+    text = (
+        "#1=1\nN10 G0 X[#1]\n#1=#1+1\nIF [#1 LT 4] GOTO 10\nIF [#1 EQ 4] THEN #2=7\nG0 X#2\nGOTO 99\nG0 X50.\nN99 G0 "
+        "X9.\nM30\n"
+    )
     assert way(text.replace("#1=#1+1", "#1=[#1+1]"), Dialect.FANUC) == [1, 2, 3, 7, 9]
 
 
 def test_fanuc_loops() -> None:
-    text = "#1=0\nWHILE [#1 LT 2] DO1\n#2=0\nWHILE [#2 LT 2] DO2\nG0 X[#1*10+#2]\n#2=[#2+1]\nEND2\n#1=[#1+1]\nEND1\nG0 X9.\nM30\n"
+    text = (
+        "#1=0\nWHILE [#1 LT 2] DO1\n#2=0\nWHILE [#2 LT 2] DO2\nG0 X[#1*10+#2]\n#2=[#2+1]\nEND2\n#1=[#1+1]\nEND1\nG0 "
+        "X9.\nM30\n"
+    )
     assert way(text, Dialect.FANUC) == [0, 1, 10, 11, 9]
 
 
@@ -83,7 +95,11 @@ def test_nothing_is_read_behind_the_end() -> None:
     [
         ("F1\no1 while [1]\nG1 X1\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:4: this goes on for ever"),
         ("N1 G0 X1.\nGOTO 1\n", Dialect.FANUC, "a.ngc:2: this goes on for ever"),
-        ("#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),
+        (
+            "#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n",
+            Dialect.LINUXCNC,
+            "a.ngc:2: loops, calls and cycles repeat more than",
+        ),
         ("O1\nM98 P1\nM99\n", Dialect.FANUC, "subroutines call one another more than 10 deep"),
         ("o1 sub\no1 call\no1 endsub\no1 call\n", Dialect.LINUXCNC, "subroutines call one another more than 9 deep"),
         ("F100\nG81 G91 X1 Z-1 R1 L99999999\n", Dialect.LINUXCNC, "a.ngc:2: loops, calls and cycles repeat more than"),

@@ -20,7 +20,10 @@ def test_a_per_cent_sign_at_the_end_alone_skips_nothing(dialect: Dialect) -> Non
 
 @pytest.mark.parametrize("dialect", list(Dialect))
 def test_g80_goes_with_any_motion(dialect: Dialect) -> None:
-    assert ends(read("G21 G0 G17 G40 G80 G90\nG80 G0 X5.\nG1 G80 X6. F100.\nM2\n", dialect))[-2:] == [(5, 0, 0), (6, 0, 0)]
+    assert ends(read("G21 G0 G17 G40 G80 G90\nG80 G0 X5.\nG1 G80 X6. F100.\nM2\n", dialect))[-2:] == [
+        (5, 0, 0),
+        (6, 0, 0),
+    ]
 
 
 @pytest.mark.parametrize("dialect", OTHERS)
@@ -37,7 +40,16 @@ def test_home_with_a_motion_word(text: str) -> None:
 
 def test_the_next_hole_is_reached_level() -> None:
     text = "G21 G0 Z50.\nG99 G81 X1. Z-1. R2. F100.\nG98 X2.\nG80\nM30\n"
-    assert ends(read(text, Dialect.FANUC)) == [(0, 0, 50), (1, 0, 50), (1, 0, 2), (1, 0, -1), (1, 0, 2), (2, 0, 2), (2, 0, -1), (2, 0, 50)]
+    assert ends(read(text, Dialect.FANUC)) == [
+        (0, 0, 50),
+        (1, 0, 50),
+        (1, 0, 2),
+        (1, 0, -1),
+        (1, 0, 2),
+        (2, 0, 2),
+        (2, 0, -1),
+        (2, 0, 50),
+    ]
 
 
 @pytest.mark.parametrize("code", ["G5.1 Q1", "G05.1 Q1 R5", "G05 P10000", "G8 P1", "G103 P1"])
@@ -59,7 +71,8 @@ def test_a_macro_gets_its_arguments_by_their_letters() -> None:
 
 
 @pytest.mark.parametrize(
-    ("code", "words"), [("G12 I5. F10.", "a circular pocket"), ("G70 I5. L4", "a circle of holes"), ("G150 X1.", "a pocket")]
+    ("code", "words"),
+    [("G12 I5. F10.", "a circular pocket"), ("G70 I5. L4", "a circle of holes"), ("G150 X1.", "a pocket")],
 )
 def test_cycles_of_the_controls_own_are_refused_by_name(code: str, words: str) -> None:
     assert f"{words}" in told(f"G21\n{code}\n", Dialect.HAAS)
@@ -76,7 +89,9 @@ def test_slashed_blocks_are_told() -> None:
 
 
 def test_numbers_and_units_that_settings_decide_are_told() -> None:
-    assert any("without a decimal point count in 0.001 mm" in text for text in warnings("G21 G0 X10\nM30\n", Dialect.HAAS))
+    assert any(
+        "without a decimal point count in 0.001 mm" in text for text in warnings("G21 G0 X10\nM30\n", Dialect.HAAS)
+    )
     assert not warnings("G21 G0 X10. Y0 Z-.5\nN100 G1 X1. F100 S1000\n(X10)\nM30\n", Dialect.HAAS)
     assert any("names no units" in text for text in warnings("G0 X1.\nM30\n", Dialect.FANUC))
 

@@ -1,4 +1,5 @@
-"""Random texts, some seconds of them here and some minutes with `-m long`: whatever is read, nothing breaks and everything is told.
+"""Random texts, some seconds of them here and some minutes with `-m long`: whatever is read, nothing breaks and
+everything is told.
 
 The lane and the core must give the same bits: every text is read with the lane, and by the core alone.
 """

@@ -13,20 +13,23 @@ from tests.conftest import ROOT
 GOLDEN = sorted((ROOT / "tests" / "gcode" / "golden").iterdir())
 
 
-@pytest.mark.parametrize(("text", "dialect"), [
-    ("", Dialect.LINUXCNC),
-    ("G21\nG1 X1 F100\n", Dialect.LINUXCNC),
-    ("; for grbl 1.1\nG21\n", Dialect.GRBL),
-    ("$H\nG21\n", Dialect.GRBL),
-    ("(Mach3 mill)\nO1000\n", Dialect.MACH3),
-    ("O<bore> sub\n", Dialect.LINUXCNC),
-    ("N10 o100 if [#1 GT 2]\n", Dialect.LINUXCNC),
-    ("G64 P0.01\n", Dialect.LINUXCNC),
-    ("%\nO1234 (PLATE)\nG21\n", Dialect.FANUC),
-    ("WHILE [#1 LT 5] DO1\n", Dialect.FANUC),
-    ("O1000\nG54.1 P3\n", Dialect.FANUC),
-    ("O1000\nG187 P3\n", Dialect.HAAS),
-])
+@pytest.mark.parametrize(
+    ("text", "dialect"),
+    [
+        ("", Dialect.LINUXCNC),
+        ("G21\nG1 X1 F100\n", Dialect.LINUXCNC),
+        ("; for grbl 1.1\nG21\n", Dialect.GRBL),
+        ("$H\nG21\n", Dialect.GRBL),
+        ("(Mach3 mill)\nO1000\n", Dialect.MACH3),
+        ("O<bore> sub\n", Dialect.LINUXCNC),
+        ("N10 o100 if [#1 GT 2]\n", Dialect.LINUXCNC),
+        ("G64 P0.01\n", Dialect.LINUXCNC),
+        ("%\nO1234 (PLATE)\nG21\n", Dialect.FANUC),
+        ("WHILE [#1 LT 5] DO1\n", Dialect.FANUC),
+        ("O1000\nG54.1 P3\n", Dialect.FANUC),
+        ("O1000\nG187 P3\n", Dialect.HAAS),
+    ],
+)
 def test_what_only_one_control_says_tells(text: str, dialect: Dialect) -> None:
     assert guess_dialect(text.encode()) is dialect
 

@@ -20,15 +20,26 @@ def test_nothing_breaks_the_reader(name: str) -> None:
 
 
 REFUSED = {
-    "brackets in brackets": (1, "longer than"), "brackets, many lines": (1, "deep"), "parameters of parameters": (2, "deep"),
-    "a long sum of parameters": (2, ""), "a tower of powers": (1, "no value"),
-    "division by zero": (1, "zero"), "modulo zero": (1, "zero"),
-    "root of a negative": (1, "no value"), "logarithm of zero": (1, "no value"), "exponent of a million": (1, "no value"),
-    "a loop without end": (3, "for ever"), "a do loop without end": (3, "repeat"), "repeats without end": (1, "repeat"),
-    "a subroutine that calls itself": (2, "deep"), "numbers that are none": (1, "expected"),
-    "far away": (1, "away"), "turns without end": (2, "turns"), "an unknown subroutine": (1, "subroutine"),
+    "brackets in brackets": (1, "longer than"),
+    "brackets, many lines": (1, "deep"),
+    "parameters of parameters": (2, "deep"),
+    "a long sum of parameters": (2, ""),
+    "a tower of powers": (1, "no value"),
+    "division by zero": (1, "zero"),
+    "modulo zero": (1, "zero"),
+    "root of a negative": (1, "no value"),
+    "logarithm of zero": (1, "no value"),
+    "exponent of a million": (1, "no value"),
+    "a loop without end": (3, "for ever"),
+    "a do loop without end": (3, "repeat"),
+    "repeats without end": (1, "repeat"),
+    "a subroutine that calls itself": (2, "deep"),
+    "numbers that are none": (1, "expected"),
+    "far away": (1, "away"),
+    "turns without end": (2, "turns"),
+    "an unknown subroutine": (1, "subroutine"),
     "utf-8 that is none": (3, "begins no word"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", REFUSED)

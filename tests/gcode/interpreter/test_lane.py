@@ -25,7 +25,13 @@ def moving(**changes: object) -> Plain:
 
 
 def test_a_line_in_every_way_of_writing_it() -> None:
-    texts = ("G1X1.5Y-2F100", "g01 x+1.5 y-2. f100", " G 1 X 1 . 5 Y - 2 F 1 0 0 ", "(a;b)G1(c)X1.5Y-2(d)F100;(e", "F100.0\tY-02X01.50 G1")
+    texts = (
+        "G1X1.5Y-2F100",
+        "g01 x+1.5 y-2. f100",
+        " G 1 X 1 . 5 Y - 2 F 1 0 0 ",
+        "(a;b)G1(c)X1.5Y-2(d)F100;(e",
+        "F100.0\tY-02X01.50 G1",
+    )
     for text in texts:
         rows, at = lane(text + "\n")
         assert at == (len(text) + 1, 2), text
@@ -47,7 +53,14 @@ def test_it_changes_what_is_in_force() -> None:
 def test_incremental_words_do_not_make_an_axis_known() -> None:
     plain = moving(absolute=False, position=np.array([1.0, 2.0, 3.0]), shift=np.array([50.0, 0.0, 0.0]))
     rows, _ = lane("X1 Y-1\nX1", plain)
-    assert [row[END] for row in rows] == [(2.0, 1.0, 3.0), (3.0, 1.0, 3.0)] and plain.known.tolist() == [-1, -1, -1, 0, 0, -1]
+    assert [row[END] for row in rows] == [(2.0, 1.0, 3.0), (3.0, 1.0, 3.0)] and plain.known.tolist() == [
+        -1,
+        -1,
+        -1,
+        0,
+        0,
+        -1,
+    ]
 
 
 def test_shift_and_scale() -> None:
@@ -56,31 +69,118 @@ def test_shift_and_scale() -> None:
     assert rows[0][END] == (1 * 0.00254 + 1.0, 25.4, 0.0) and rows[0][FEED] == 254.0
 
 
-@pytest.mark.parametrize(("plane", "text", "centre"), [
-    (0, "G2 X1 Y1 I1 J0", (1.0, 0.0, 0.0)), (1, "G2 Z1 X1 K1 I0", (0.0, 0.0, 1.0)), (2, "G2 Y1 Z1 J1 K0", (0.0, 1.0, 0.0)),
-    (0, "G3 X2 I1 Z5", (1.0, 0.0, 0.0)), (0, "G3 X0 I-4", (-4.0, 0.0, 0.0)), (0, "G2 X2 R1", (1.0, 0.0, 0.0)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("plane", "text", "centre"),
+    [
+        (0, "G2 X1 Y1 I1 J0", (1.0, 0.0, 0.0)),
+        (1, "G2 Z1 X1 K1 I0", (0.0, 0.0, 1.0)),
+        (2, "G2 Y1 Z1 J1 K0", (0.0, 1.0, 0.0)),
+        (0, "G3 X2 I1 Z5", (1.0, 0.0, 0.0)),
+        (0, "G3 X0 I-4", (-4.0, 0.0, 0.0)),
+        (0, "G2 X2 R1", (1.0, 0.0, 0.0)),
+    ],
+)
 def test_arcs_in_every_plane(plane: int, text: str, centre: tuple[float, ...]) -> None:
     rows, at = lane(text, moving(plane=plane))
     assert at == (len(text), 2) and rows[0][CENTRE] == centre and rows[0][PLANE] == plane and rows[0][TURNS] == 1
 
 
 def test_absolute_centres_take_the_shift() -> None:
-    rows, _ = lane("G2 X1 Y1 I1 J0", moving(arc_absolute=True, shift=np.array([10.0, 20.0, 0.0]), position=np.array([10.0, 20.0, 5.0])))
+    rows, _ = lane(
+        "G2 X1 Y1 I1 J0",
+        moving(arc_absolute=True, shift=np.array([10.0, 20.0, 0.0]), position=np.array([10.0, 20.0, 5.0])),
+    )
     assert rows[0][CENTRE] == (11.0, 20.0, 5.0)
 
 
 NOT_PLAIN = [
-    "M3", "S100", "T1", "/X1", "%", "O100", "X#1", "X[1]", "#1=2", "G4 P1", "G90 X1", "G17", "G53 X1", "G80", "G1.1 X1", "G2.0 X1 I1",
-    "G5 X1", "X1 X2", "G1 G1 X1", "G0 G1 X1", "F1 F2 X1", "X1 N5", "N-1 X1", "N1.5 X1", "N X1", "X1e3", "X1 P2", "X1 H1", "X1 A1", "X",
-    "X.", "X-", "X+-1", "X1.2.3", "X1-2", "X--1", "X(c)1", "X1(c).5", "(open", "(a(b) X1", "(a) X1 (b", "X1\x00", "X1\x01", "(a\x02)",
-    ";a\x03", "X1 \xe9", "{", "X1\r", "X1 F0", "X1 F-1", "F-0.", "F1e9", "G1", "G0", "G2 I1", "X1 I1", "G1 X1 R1", "G1 X1 K1", "G2 X1",
-    "G2 X2 I1 R1", "G2 X2 I1 K0", "G2 X2 K1", "G2 Z1 I0 J0", "G2 X0 R1", "G2 X2 R0",
-    "G2 X0.01 R0.009", "G2 X2 R0.99", "G2 X2 I1.1", "G2 X0.001 I0.0005",
-    "G2 Z1 R1", "I1", "R1", "X1234567", "X9999999999999999", "X1.0000000000000001", "X" + "1 " * 600, "(" + "a" * 2000 + ")",
-    "G3 X1 I0.5 J[0]", "G 4", "X0x10", "Xnan", "Xinf", "X1_0", "G99999999999999999999", "N99999999999999999999 X1",
+    "M3",
+    "S100",
+    "T1",
+    "/X1",
+    "%",
+    "O100",
+    "X#1",
+    "X[1]",
+    "#1=2",
+    "G4 P1",
+    "G90 X1",
+    "G17",
+    "G53 X1",
+    "G80",
+    "G1.1 X1",
+    "G2.0 X1 I1",
+    "G5 X1",
+    "X1 X2",
+    "G1 G1 X1",
+    "G0 G1 X1",
+    "F1 F2 X1",
+    "X1 N5",
+    "N-1 X1",
+    "N1.5 X1",
+    "N X1",
+    "X1e3",
+    "X1 P2",
+    "X1 H1",
+    "X1 A1",
+    "X",
+    "X.",
+    "X-",
+    "X+-1",
+    "X1.2.3",
+    "X1-2",
+    "X--1",
+    "X(c)1",
+    "X1(c).5",
+    "(open",
+    "(a(b) X1",
+    "(a) X1 (b",
+    "X1\x00",
+    "X1\x01",
+    "(a\x02)",
+    ";a\x03",
+    "X1 \xe9",
+    "{",
+    "X1\r",
+    "X1 F0",
+    "X1 F-1",
+    "F-0.",
+    "F1e9",
+    "G1",
+    "G0",
+    "G2 I1",
+    "X1 I1",
+    "G1 X1 R1",
+    "G1 X1 K1",
+    "G2 X1",
+    "G2 X2 I1 R1",
+    "G2 X2 I1 K0",
+    "G2 X2 K1",
+    "G2 Z1 I0 J0",
+    "G2 X0 R1",
+    "G2 X2 R0",
+    "G2 X0.01 R0.009",
+    "G2 X2 R0.99",
+    "G2 X2 I1.1",
+    "G2 X0.001 I0.0005",
+    "G2 Z1 R1",
+    "I1",
+    "R1",
+    "X1234567",
+    "X9999999999999999",
+    "X1.0000000000000001",
+    "X" + "1 " * 600,
+    "(" + "a" * 2000 + ")",
+    "G3 X1 I0.5 J[0]",
+    "G 4",
+    "X0x10",
+    "Xnan",
+    "Xinf",
+    "X1_0",
+    "G99999999999999999999",
+    "N99999999999999999999 X1",
     "F99999999999999999999",
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize("text", NOT_PLAIN)
@@ -92,11 +192,18 @@ def test_whatever_is_unusual_is_left_alone(text: str) -> None:
     assert plain.feed == 100.0 and plain.motion == 1 and plain.known.tolist() == [0, -1, 0, -1, -1, -1]
 
 
-@pytest.mark.parametrize(("text", "plain"), [
-    ("X1", {"motion": -1}), ("X1", {"feed": math.nan}), ("G2 X1 I0.5", {"feed": math.nan}), ("X1 ;c", {"semicolon_comments": False}),
-    ("G2 X1 I0.5", {"arc_absolute": True}), ("X1", {"position": np.array([1e6, 0.0, 0.0]), "absolute": False}),
-    ("X1", {"scale": 2e6, "bare_scale": 2e6}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("X1", {"motion": -1}),
+        ("X1", {"feed": math.nan}),
+        ("G2 X1 I0.5", {"feed": math.nan}),
+        ("X1 ;c", {"semicolon_comments": False}),
+        ("G2 X1 I0.5", {"arc_absolute": True}),
+        ("X1", {"position": np.array([1e6, 0.0, 0.0]), "absolute": False}),
+        ("X1", {"scale": 2e6, "bare_scale": 2e6}),
+    ],
+)
 def test_what_is_in_force_can_make_a_line_unusual(text: str, plain: dict[str, object]) -> None:
     assert lane(text, moving(**plain)) == ([], (0, 1))
     assert lane(text, moving())[0] or "G2" in text
@@ -115,7 +222,9 @@ def test_it_does_no_more_lines_than_asked_and_goes_on_from_there() -> None:
 
 signs, blanks = st.sampled_from(["", "-", "+"]), st.sampled_from(["", "", " ", "\t", "  "])
 written = st.one_of(
-    st.from_regex(r"\A[0-9]{1,4}\.?\Z"), st.from_regex(r"\A[0-9]{0,4}\.[0-9]{1,10}\Z"), st.decimals(0, 9999, places=4).map(str)
+    st.from_regex(r"\A[0-9]{1,4}\.?\Z"),
+    st.from_regex(r"\A[0-9]{0,4}\.[0-9]{1,10}\Z"),
+    st.decimals(0, 9999, places=4).map(str),
 )
 comments = st.sampled_from(["", "", "", "(text)", "(T1 ; D=6)", "(MSG,hi)", "(é)"])
 
@@ -129,7 +238,11 @@ def lines(draw: st.DrawFn) -> str:
         kind = ""
     words = [kind] + [_word(draw, letter) for letter in letters]
     number = draw(st.sampled_from(["", "", "N10 ", "n7"]))
-    return number + draw(blanks).join(word + draw(comments) for word in words) + draw(st.sampled_from(["", "", ";end", " "]))
+    return (
+        number
+        + draw(blanks).join(word + draw(comments) for word in words)
+        + draw(st.sampled_from(["", "", ";end", " "]))
+    )
 
 
 def _word(draw: st.DrawFn, letter: str) -> str:
@@ -149,11 +262,20 @@ def arcs(draw: st.DrawFn) -> str:
 
 plains = st.builds(
     lambda scale, bare, shift, absolute, position: Plain(
-        position=np.array(position), motion=1, feed=10.0, scale=scale, bare_scale=scale * bare, absolute=absolute, shift=np.array(shift)
+        position=np.array(position),
+        motion=1,
+        feed=10.0,
+        scale=scale,
+        bare_scale=scale * bare,
+        absolute=absolute,
+        shift=np.array(shift),
     ),
-    st.sampled_from([1.0, 25.4]), st.sampled_from([1.0, 0.001]), st.tuples(*[st.floats(-100, 100)] * 3), st.booleans(),
+    st.sampled_from([1.0, 25.4]),
+    st.sampled_from([1.0, 0.001]),
     st.tuples(*[st.floats(-100, 100)] * 3),
-)  # fmt: skip
+    st.booleans(),
+    st.tuples(*[st.floats(-100, 100)] * 3),
+)
 
 
 @settings(max_examples=examples(300), deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -177,5 +299,8 @@ def _assert_same(texts: list[str], plain: Plain) -> None:
     rows, at = lane(data, plain)
     assert at[0] == len(data.encode()), data[at[0] :]
     assert same_bits(rows, oracle.rows)
-    assert same_bits([tuple(plain.position)], [tuple(oracle.plain.position)]) and plain.known.tolist() == oracle.plain.known.tolist()
+    assert (
+        same_bits([tuple(plain.position)], [tuple(oracle.plain.position)])
+        and plain.known.tolist() == oracle.plain.known.tolist()
+    )
     assert (plain.motion, plain.feed) == (oracle.plain.motion, oracle.plain.feed)

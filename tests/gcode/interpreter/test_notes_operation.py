@@ -31,7 +31,9 @@ def test_what_every_post_writes_tells_its_contours(name):
         read = read_program(data, ReadOptions(post.dialect))
         told = dict(zip(read.motions.line.tolist(), contour_motions(data, read).tolist(), strict=True))
         own = slice(file.first, file.first + len(file.nc.lines))
-        moves = zip(file.nc.lines.tolist(), program.moves.operation[own].tolist(), program.moves.kind[own].tolist(), strict=True)
+        moves = zip(
+            file.nc.lines.tolist(), program.moves.operation[own].tolist(), program.moves.kind[own].tolist(), strict=True
+        )
         feeds = [(line, operation in contour) for line, operation, kind in moves if kind != MoveKind.RAPID]
         assert feeds
         assert [(line, told[line]) for line, _ in feeds] == feeds
@@ -39,7 +41,10 @@ def test_what_every_post_writes_tells_its_contours(name):
 
 @pytest.mark.parametrize("ends", [b"\n", b"\r\n", b"\r"])
 def test_a_contour_reaches_to_the_next_operation(ends):
-    text = HEAD + b"(Contour T2: depth 1 mm)\nG1 X5\nG1 Y5\n(Pocket T2: depth 1 mm)\nG1 X9\n(Contour T2: depth 2 mm)\nG1 X1\nM2\n"
+    text = (
+        HEAD + b"(Contour T2: depth 1 mm)\nG1 X5\nG1 Y5\n(Pocket T2: depth 1 mm)\nG1 X9\n(Contour T2: depth 2 mm)\nG1 "
+        b"X1\nM2\n"
+    )
     assert contours_of(text.replace(b"\n", ends)) == [5, 6, 10]
 
 
@@ -48,7 +53,9 @@ def test_a_contour_ends_at_a_tool_change():
 
 
 @pytest.mark.parametrize(
-    "comment", [b"(the Contour T2: is next)", b"(Contour Tool)", b"G4 P1 (Contour T2: depth)", b"(contour T2: depth)", b""])
+    "comment",
+    [b"(the Contour T2: is next)", b"(Contour Tool)", b"G4 P1 (Contour T2: depth)", b"(contour T2: depth)", b""],
+)
 def test_other_words_are_no_contour(comment):
     assert contours_of(HEAD + comment + b"\nG1 X5\nM2\n") == []
 
@@ -59,7 +66,9 @@ def test_comments_behind_a_semicolon_and_at_the_very_beginning_count():
 
 
 def test_two_hundred_thousand_lines_take_no_time():
-    lines = b"".join(b"(Contour T1: depth %d mm)\n" % k if k % 50 == 0 else b"G1 X%d.5 F100\n" % k for k in range(200_000))
+    lines = b"".join(
+        b"(Contour T1: depth %d mm)\n" % k if k % 50 == 0 else b"G1 X%d.5 F100\n" % k for k in range(200_000)
+    )
     program = read_program(lines)
     begun = time.process_time()  # of this process alone, whatever else the machine does
     found = contour_motions(lines, program)

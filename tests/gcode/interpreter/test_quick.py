@@ -1,4 +1,6 @@
-"""The compiled lane for lines of any kind: it does what the reader's core does block by block, to the last bit, and leaves it the rest."""
+"""The compiled lane for lines of any kind: it does what the reader's core does block by block, to the last bit, and
+leaves it the rest.
+"""
 
 import math
 from unittest.mock import patch
@@ -50,18 +52,98 @@ def test_lines_of_every_kind_are_read_alike(dialect: Dialect) -> None:
 
 
 DONE = [
-    "G17 G90 G21", "S1000 M3", "M3 S[100*2]", "M8", "M7 M8", "M9", "T2", "M6", "G4 P0.5", "M0", "M1", "G54", "G40", "G49", "G80", "G94",
-    "#1=2", "#[1+1]=[#1*3]", "G1 X[#1+1] F100", "G1 X-#1", "G1 Y[2 mod 3]", "G1 X ATAN[1]/[2]", "G1 X[2**3]", "G1 X#[1+0]", "G1",
-    "G2 I1", "G98", "G99", "G90.1", "G91", "N5 G91 G1 X1", "G81 X1 Y2 Z-3 R1", "G82 Z-1 R1 P0.1", "G83 Z-5 R1 Q2", "G73 Z-5 R1 Q2",
-    "G85 Z-1 R0", "G89 Z-1 R0 P1", "G91 G81 X1 Z-1 R0 L3", "g 1 x 1 . 5", "G1 X1 (a) Y[1+1] ;b", "G1 X[sin[30]*cos[60]-tan[10]+sqrt[4]]",
-    "G1 X[abs[-1]+fix[1.5]+fup[1.5]+round[1.5]+ln[2]+exp[1]+acos[0.5]+asin[0.5]]", "G1 X[[1 lt 2] and [2 ge 2]]",
-]  # fmt: skip
+    "G17 G90 G21",
+    "S1000 M3",
+    "M3 S[100*2]",
+    "M8",
+    "M7 M8",
+    "M9",
+    "T2",
+    "M6",
+    "G4 P0.5",
+    "M0",
+    "M1",
+    "G54",
+    "G40",
+    "G49",
+    "G80",
+    "G94",
+    "#1=2",
+    "#[1+1]=[#1*3]",
+    "G1 X[#1+1] F100",
+    "G1 X-#1",
+    "G1 Y[2 mod 3]",
+    "G1 X ATAN[1]/[2]",
+    "G1 X[2**3]",
+    "G1 X#[1+0]",
+    "G1",
+    "G2 I1",
+    "G98",
+    "G99",
+    "G90.1",
+    "G91",
+    "N5 G91 G1 X1",
+    "G81 X1 Y2 Z-3 R1",
+    "G82 Z-1 R1 P0.1",
+    "G83 Z-5 R1 Q2",
+    "G73 Z-5 R1 Q2",
+    "G85 Z-1 R0",
+    "G89 Z-1 R0 P1",
+    "G91 G81 X1 Z-1 R0 L3",
+    "g 1 x 1 . 5",
+    "G1 X1 (a) Y[1+1] ;b",
+    "G1 X[sin[30]*cos[60]-tan[10]+sqrt[4]]",
+    "G1 X[abs[-1]+fix[1.5]+fup[1.5]+round[1.5]+ln[2]+exp[1]+acos[0.5]+asin[0.5]]",
+    "G1 X[[1 lt 2] and [2 ge 2]]",
+]
 LEFT = [
-    "G1 X#<name>", "#<name>=1", "O1 if [1]", "G41 D1", "G43 H1", "G10 L2 P1 X1", "G92 X1", "G28", "G53 G0 X1", "G20", "G55", "G64 P0.1",
-    "G1 X1 A2", "G84 Z-1 R1", "M2", "M98 P1", "G1 X1 X2", "G1 G0 X1", "M3 M4", "M7 M9", "G81 Z-1", "G83 Z-1 R1", "G1 X1 P2", "G1 X1 R2",
-    "X[1/0]", "X[1", "X1]", "X[sqrt[-1]]", "X#0", "X#5221", "#5001=1", "X[0**-1]", "X exists[#1]", "G1 X1 F0", "S-1", "T1.5", "G4",
-    "G4 P-1", "G82 Z-1 R1", "G81 Z2 R1", "G81 Z-1 R1 L0", "G80 X1", "/X1", "@1", "G1.5", "M400",
-]  # fmt: skip
+    "G1 X#<name>",
+    "#<name>=1",
+    "O1 if [1]",
+    "G41 D1",
+    "G43 H1",
+    "G10 L2 P1 X1",
+    "G92 X1",
+    "G28",
+    "G53 G0 X1",
+    "G20",
+    "G55",
+    "G64 P0.1",
+    "G1 X1 A2",
+    "G84 Z-1 R1",
+    "M2",
+    "M98 P1",
+    "G1 X1 X2",
+    "G1 G0 X1",
+    "M3 M4",
+    "M7 M9",
+    "G81 Z-1",
+    "G83 Z-1 R1",
+    "G1 X1 P2",
+    "G1 X1 R2",
+    "X[1/0]",
+    "X[1",
+    "X1]",
+    "X[sqrt[-1]]",
+    "X#0",
+    "X#5221",
+    "#5001=1",
+    "X[0**-1]",
+    "X exists[#1]",
+    "G1 X1 F0",
+    "S-1",
+    "T1.5",
+    "G4",
+    "G4 P-1",
+    "G82 Z-1 R1",
+    "G81 Z2 R1",
+    "G81 Z-1 R1 L0",
+    "G80 X1",
+    "/X1",
+    "@1",
+    "G1.5",
+    "M400",
+]
 
 
 @pytest.mark.parametrize("text", DONE)
@@ -92,7 +174,10 @@ def _lines_done(text: str) -> int:
 
 
 def test_values_in_closed_form() -> None:
-    text = "#1=3 #2=4\n#3=[sqrt[#1**2+#2**2]]\nG0 X#3 Y[-7 mod 5] Z[2*3+4/2-1]\nX[atan[1]/[1]] Y[sin[30]] Z[1+2*3**2]\nM2\n"
+    text = (
+        "#1=3 #2=4\n#3=[sqrt[#1**2+#2**2]]\nG0 X#3 Y[-7 mod 5] Z[2*3+4/2-1]\nX[atan[1]/[1]] Y[sin[30]] "
+        "Z[1+2*3**2]\nM2\n"
+    )
     ends = read_program(text.encode()).motions.end
     assert np.allclose(ends, [[5.0, 3.0, 7.0], [45.0, 0.5, 19.0]], rtol=0, atol=1e-12)
 
@@ -132,4 +217,8 @@ def test_states_and_cycles_last_over_many_calls() -> None:
     """More lines than the lane does at once."""
     lines = [f"S{k % 7} M{3 + k % 3} X{k % 11} Z[{k % 5}*2]" for k in range(10_000)]
     program = assert_same("\n".join(["G1 F100", *lines, "M2", ""]), ReadOptions())
-    assert len(program.motions) == 10_001 and len(program.states) <= 22 and math.isclose(program.motions.end[-1, 0], 9_999 % 11)
+    assert (
+        len(program.motions) == 10_001
+        and len(program.states) <= 22
+        and math.isclose(program.motions.end[-1, 0], 9_999 % 11)
+    )

@@ -20,7 +20,9 @@ def axes(draw: st.DrawFn, least: int = 1) -> str:
 
 @st.composite
 def arcs(draw: st.DrawFn) -> str:
-    """Half a circle and a full one, from wherever the tool is, in words that cannot contradict one another; back to G90."""
+    """Half a circle and a full one, from wherever the tool is, in words that cannot contradict one another; back to
+    G90.
+    """
     plane = draw(st.sampled_from(sorted(planes)))
     first, second, i, j = planes[plane]
     radius, turns = draw(st.decimals(1, 30, places=2)), draw(st.sampled_from(["", "", " P2"]))
@@ -40,27 +42,63 @@ def holes(draw: st.DrawFn) -> str:
 
 
 offsets = st.one_of(
-    st.builds("G10 L2 P{} {}".format, st.integers(1, 9), axes()), st.builds("G10 L20 P{} {}".format, st.integers(1, 9), axes()),
-    st.builds("{}".format, st.sampled_from(["G54", "G55", "G56", "G59.1", "G59.3", "G92.1", "G92.2", "G92.3", "G49", "G28", "G30"])),
-    st.builds("G92 {}".format, axes()), st.builds("G52 {}".format, axes()), st.builds("G28 {}".format, axes()),
+    st.builds("G10 L2 P{} {}".format, st.integers(1, 9), axes()),
+    st.builds("G10 L20 P{} {}".format, st.integers(1, 9), axes()),
+    st.builds(
+        "{}".format,
+        st.sampled_from(["G54", "G55", "G56", "G59.1", "G59.3", "G92.1", "G92.2", "G92.3", "G49", "G28", "G30"]),
+    ),
+    st.builds("G92 {}".format, axes()),
+    st.builds("G52 {}".format, axes()),
+    st.builds("G28 {}".format, axes()),
     st.sampled_from(["G43 H1", "G43 H2", "G0 Z7\nT3 M6", "G43.1 Z5", "G28.1", "G30.1"]),
-)  # fmt: skip
-"""Before a tool change Z moves: the interpreter without a machine asks itself where it is then, and forgets a new length offset."""
+)
+"""Before a tool change Z moves: the interpreter without a machine asks itself where it is then, and forgets a new
+length offset.
+"""
 
 moves = st.one_of(
-    st.builds("G0 {}".format, axes()), st.builds("G1 {}".format, axes()), axes().map("G1 {}".format),
-    st.builds("G91 G1 {}\nG90".format, axes()), st.builds("G53 G0 {}".format, axes()),
-)  # fmt: skip
+    st.builds("G0 {}".format, axes()),
+    st.builds("G1 {}".format, axes()),
+    axes().map("G1 {}".format),
+    st.builds("G91 G1 {}\nG90".format, axes()),
+    st.builds("G53 G0 {}".format, axes()),
+)
 flow = st.one_of(
     st.builds("#1={}\n#2=[#1*2-1]\nG1 X#1 Y[#2/3] Z[abs[#1]]".format, lengths),
     st.builds(LOOP.format, st.uuids().map(lambda unique: unique.int % 10**6), st.integers(0, 4)),
-)  # fmt: skip
-others = st.sampled_from([
-    "G20", "G21", "G61", "G64 P0.01", "G4 P0.1", "S100 M3", "M5", "F50", "G94 F60", "(text)", "", "G0", "/G0 X1", "N5 G1 Y1",
-])  # fmt: skip
-turned = st.sampled_from([
-    "G10 L2 P1 R30", "G10 L2 P2 R-15", "G54", "G55", "G10 L2 P1 R0", "G10 L2 P1 X5", "G53 G0 X1", "G2 X20 R30", "G3 I4 J-2",
-])  # fmt: skip
+)
+others = st.sampled_from(
+    [
+        "G20",
+        "G21",
+        "G61",
+        "G64 P0.01",
+        "G4 P0.1",
+        "S100 M3",
+        "M5",
+        "F50",
+        "G94 F60",
+        "(text)",
+        "",
+        "G0",
+        "/G0 X1",
+        "N5 G1 Y1",
+    ]
+)
+turned = st.sampled_from(
+    [
+        "G10 L2 P1 R30",
+        "G10 L2 P2 R-15",
+        "G54",
+        "G55",
+        "G10 L2 P1 R0",
+        "G10 L2 P1 X5",
+        "G53 G0 X1",
+        "G2 X20 R30",
+        "G3 I4 J-2",
+    ]
+)
 programs = st.lists(st.one_of(moves, moves, arcs(), holes(), offsets, flow, others), min_size=1, max_size=12).map(
     lambda lines: "\n".join(["G21 F100 G0 X1 Y2 Z3", *lines, "M2\n"])
 )

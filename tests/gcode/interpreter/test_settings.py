@@ -17,15 +17,29 @@ def last(program: NcProgram) -> ModalState:
 
 
 def test_every_motion_knows_what_is_in_force() -> None:
-    text = "G20 G18 G91 G91.1 G61.1 T7 M6 G43 S1500 M4 M8 G55 G99\nG0 X1\nG17 G21 G90 M5 G64 P0.02 Q0.01 G54 G98\nM9\nM7\nG1 X5 F300\nM2\n"
+    text = (
+        "G20 G18 G91 G91.1 G61.1 T7 M6 G43 S1500 M4 M8 G55 G99\nG0 X1\nG17 G21 G90 M5 G64 P0.02 Q0.01 G54 "
+        "G98\nM9\nM7\nG1 X5 F300\nM2\n"
+    )
     program = read(text, tool_table={7: ToolOffset((0, 0, 50), 6)})
     first, second = program.states[program.motions.state[0]], last(program)
-    assert (first.units, first.plane, first.absolute, first.tool, first.length_offset) == (Units.INCH, Plane.ZX, False, 7, 7)
+    assert (first.units, first.plane, first.absolute, first.tool, first.length_offset) == (
+        Units.INCH,
+        Plane.ZX,
+        False,
+        7,
+        7,
+    )
     assert (first.speed, first.spindle, first.flood, first.mist, first.work_offset) == (1500, -1, True, False, "G55")
     assert (first.path, first.path_tolerance, first.retract_to_r) == ("G61.1", 0.0, True)
     assert (second.units, second.plane, second.absolute, second.spindle) == (Units.MM, Plane.XY, True, 0)
     assert (second.flood, second.mist) == (False, True)
-    assert (second.path, second.path_tolerance, second.work_offset, second.retract_to_r) == ("G64 P0.02 Q0.01", 0.02, "G54", False)
+    assert (second.path, second.path_tolerance, second.work_offset, second.retract_to_r) == (
+        "G64 P0.02 Q0.01",
+        0.02,
+        "G54",
+        False,
+    )
     assert program.motions.line.tolist() == [2, 6]
 
 
@@ -50,10 +64,18 @@ def test_feed_modes() -> None:
 
 
 def test_offsets_add_up() -> None:
-    text = "G10 L2 P1 X10 Y20 Z1\nG10 L2 P2 X100\nG0 X1 Y1 Z1\nG55 X1\nG54 G92 X0\nG0 X2\nG92.2\nX2\nG92.3\nX2\nG92.1 X2\nM2\n"
+    text = (
+        "G10 L2 P1 X10 Y20 Z1\nG10 L2 P2 X100\nG0 X1 Y1 Z1\nG55 X1\nG54 G92 X0\nG0 X2\nG92.2\nX2\nG92.3\nX2\nG92.1 "
+        "X2\nM2\n"
+    )
     assert ends(read(text.replace("G92.1 X2", "G92.1\nX2"))) == [
-        (11, 21, 2), (101, 21, 2), (103, 21, 2), (12, 21, 2), (103, 21, 2), (12, 21, 2),
-    ]  # fmt: skip
+        (11, 21, 2),
+        (101, 21, 2),
+        (103, 21, 2),
+        (12, 21, 2),
+        (103, 21, 2),
+        (12, 21, 2),
+    ]
 
 
 def test_local_offsets_of_linuxcnc_and_fanuc() -> None:
@@ -76,8 +98,17 @@ def test_work_offsets_from_where_the_tool_is() -> None:
 def test_machine_coordinates_and_home() -> None:
     text = "G10 L2 P1 X10\nG0 X1 Y5 Z3\nG53 G0 X0\nG28 Z9\nG28\nG0 X1\nG28.1\nG0 X5\nG28\nM2\n"
     assert ends(read(text)) == [
-        (11, 5, 3), (0, 5, 3), (0, 5, 9), (0, 5, 0), (0, 5, 0), (0, 0, 0), (11, 0, 0), (15, 0, 0), (15, 0, 0), (11, 0, 0),
-    ]  # fmt: skip
+        (11, 5, 3),
+        (0, 5, 3),
+        (0, 5, 9),
+        (0, 5, 0),
+        (0, 5, 0),
+        (0, 0, 0),
+        (11, 0, 0),
+        (15, 0, 0),
+        (15, 0, 0),
+        (11, 0, 0),
+    ]
 
 
 def test_tool_length_moves_the_controlled_point_not_the_machine() -> None:
@@ -104,9 +135,12 @@ def told_with_table(text: str) -> str:
 def test_events() -> None:
     program = read("T4\nM6\nG4 P1.5\nG0 X1\nM0\nM1\nM30\n")
     assert [(event.kind, event.before, event.line, event.value) for event in program.events] == [
-        (EventKind.TOOL_CHANGE, 0, 2, 4), (EventKind.DWELL, 0, 3, 1.5), (EventKind.STOP, 1, 5, 0), (EventKind.OPTIONAL_STOP, 1, 6, 0),
+        (EventKind.TOOL_CHANGE, 0, 2, 4),
+        (EventKind.DWELL, 0, 3, 1.5),
+        (EventKind.STOP, 1, 5, 0),
+        (EventKind.OPTIONAL_STOP, 1, 6, 0),
         (EventKind.END, 1, 7, 0),
-    ]  # fmt: skip
+    ]
 
 
 def test_numbers_without_a_point() -> None:

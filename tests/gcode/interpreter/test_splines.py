@@ -1,4 +1,6 @@
-"""Splines are the curves that LinuxCNC's interpreter drives, point for point; what it refuses, and worse, is refused."""
+"""Splines are the curves that LinuxCNC's interpreter drives, point for point; what it refuses, and worse, is
+refused.
+"""
 
 import math
 
@@ -9,7 +11,15 @@ from hypothesis import strategies as st
 
 from app.gcode.interpreter.fault import Fault
 from app.gcode.interpreter.reader import read_program
-from app.gcode.interpreter.splines import OpenFanucNurbs, OpenNurbs, check_plane, cubic, first_offset, quadratic, second_offset
+from app.gcode.interpreter.splines import (
+    OpenFanucNurbs,
+    OpenNurbs,
+    check_plane,
+    cubic,
+    first_offset,
+    quadratic,
+    second_offset,
+)
 from app.geometry.arcs.nurbs import nurbs_points
 from app.model.motion import Nurbs, Plane
 from tests.examples import examples
@@ -24,7 +34,9 @@ weight = st.integers(20, 400).map(lambda k: k / 100)
 
 
 def assert_driven(curve: Nurbs, text: str, line: int) -> None:
-    """Assert that the curve of a line is this one for our reader, and its points those of the interpreter, evenly spread."""
+    """Assert that the curve of a line is this one for our reader, and its points those of the interpreter, evenly
+    spread.
+    """
     program = f"{HEAD}{text}\nM2\n"
     assert_read(curve, program, line)
     theirs = np.array([motion.end for motion in exact_motions(program) if motion.line == line])
@@ -47,7 +59,9 @@ def assert_read(curve: Nurbs, program: str, line: int) -> None:
 
 @settings(max_examples=examples(25), deadline=None)
 @given(st.lists(st.tuples(place, place, weight), min_size=2, max_size=8), weight, st.integers(0, 9), st.booleans())
-def test_nurbs_of_control_points(points: list[tuple[float, float, float]], first: float, order: int, increments: bool) -> None:
+def test_nurbs_of_control_points(
+    points: list[tuple[float, float, float]], first: float, order: int, increments: bool
+) -> None:
     order = min(order, len(points) + 1)
     block, base = OpenNurbs(START), START if increments else (0.0, 0.0)
     block.add(None, None, first)
@@ -103,11 +117,20 @@ def test_lengths_in_inches_with_offsets() -> None:
 @pytest.mark.parametrize(
     ("text", "letter"),
     [
-        ("G5 X1 Y1 I1 P1 Q1", "J"), ("G5 X1 Y1 J1 P1 Q1", "I"), ("G5 X1 Y1 P1", "Q"), ("G5 X1 Y1 Q1", "P"), ("G5.2 X1 P1", "Y"),
-        ("G5.2 Y1 P1", "X"), ("G5.2 X1 Y1 P1\nP2", "X"), ("G5.2 P1\nX1 Y1", "P"), ("G5.2 P1\nX1 Y1 P0", "P"), ("G5.2 P1\nX1 Y1 P-1", "P"),
-        ("G5.2 X1 Y1 P1\nG5.3", ""), ("G5.2 X1 Y1 P1 L4\nX2 Y2 P1\nG5.3", ""),
+        ("G5 X1 Y1 I1 P1 Q1", "J"),
+        ("G5 X1 Y1 J1 P1 Q1", "I"),
+        ("G5 X1 Y1 P1", "Q"),
+        ("G5 X1 Y1 Q1", "P"),
+        ("G5.2 X1 P1", "Y"),
+        ("G5.2 Y1 P1", "X"),
+        ("G5.2 X1 Y1 P1\nP2", "X"),
+        ("G5.2 P1\nX1 Y1", "P"),
+        ("G5.2 P1\nX1 Y1 P0", "P"),
+        ("G5.2 P1\nX1 Y1 P-1", "P"),
+        ("G5.2 X1 Y1 P1\nG5.3", ""),
+        ("G5.2 X1 Y1 P1 L4\nX2 Y2 P1\nG5.3", ""),
     ],
-)  # fmt: skip
+)
 def test_what_linuxcnc_refuses_is_refused(text: str, letter: str) -> None:
     with pytest.raises(AssertionError, match="refused"):
         exact_motions(f"{HEAD}{text}\nM2\n")
@@ -141,9 +164,17 @@ def test_nonsense_that_linuxcnc_takes_is_refused_all_the_same() -> None:
 
 
 MANUAL = [
-    (0.0, (0.0, 0.0, 0.0)), (0.0, (300.0, 0.0, 100.0)), (0.0, (700.0, 0.0, 100.0)), (0.0, (1300.0, 0.0, -100.0)),
-    (0.5, (1700.0, 0.0, -100.0)), (0.5, (2000.0, 0.0, 0.0)), (1.0, None), (1.0, None), (1.0, None), (1.0, None),
-]  # fmt: skip
+    (0.0, (0.0, 0.0, 0.0)),
+    (0.0, (300.0, 0.0, 100.0)),
+    (0.0, (700.0, 0.0, 100.0)),
+    (0.0, (1300.0, 0.0, -100.0)),
+    (0.5, (1700.0, 0.0, -100.0)),
+    (0.5, (2000.0, 0.0, 0.0)),
+    (1.0, None),
+    (1.0, None),
+    (1.0, None),
+    (1.0, None),
+]
 
 
 def test_the_example_of_the_fanuc_manual() -> None:
@@ -156,7 +187,9 @@ def test_the_example_of_the_fanuc_manual() -> None:
     assert (curve.degree, len(curve.points), curve.knots.tolist()) == (3, 6, [0, 0, 0, 0, 0.5, 0.5, 1, 1, 1, 1])
     ends = nurbs_points(curve, np.array([0.0, 1.0]))
     assert ends.tolist() == [[0, 0, 0], [2000, 0, 0]]
-    first_piece = np.array([(0.0, 0.0), (300.0, 100.0), (700.0, 100.0), (1000.0, 0.0)])  # 1000 = halfway from 700 to 1300
+    first_piece = np.array(
+        [(0.0, 0.0), (300.0, 100.0), (700.0, 100.0), (1000.0, 0.0)]
+    )  # 1000 = halfway from 700 to 1300
     x, z = np.array([1, 3, 3, 1]) @ first_piece / 8
     assert nurbs_points(curve, np.array([0.25])) == pytest.approx(np.array([[x, 0.0, z]]))
 
@@ -174,7 +207,9 @@ def test_a_quarter_circle_of_fanuc_is_round() -> None:
     assert points[:, 2] == pytest.approx(5.0, abs=1e-12)
 
 
-def refused(order: int | None, blocks: list[tuple[float | None, tuple[float, float, float] | None, float | None]]) -> str:
+def refused(
+    order: int | None, blocks: list[tuple[float | None, tuple[float, float, float] | None, float | None]]
+) -> str:
     with pytest.raises(Fault) as fault:
         block = OpenFanucNurbs((0.0, 0.0, 0.0), order)
         for knot, point, weight in blocks:
@@ -191,7 +226,9 @@ def test_what_fanuc_refuses() -> None:
     assert "never fall" in refused(2, [(1.0, a, None), (0.5, b, None)])
     assert "weight of 0" in refused(2, [(0.0, a, 0.0)])
     assert "not where the tool is" in refused(2, [(0.0, b, None)])
-    assert "control point comes after" in refused(2, [(0.0, a, None), (0.0, b, None), (1.0, None, None), (1.0, b, None)])
+    assert "control point comes after" in refused(
+        2, [(0.0, a, None), (0.0, b, None), (1.0, None, None), (1.0, b, None)]
+    )
     assert "has 1 control points and 3 knots" in refused(2, [(0.0, a, None), (0.0, None, None), (1.0, None, None)])
     assert "must be alike" in refused(2, [(0.0, a, None), (0.5, b, None), (1.0, None, None), (1.0, None, None)])
     assert "must be alike" in refused(2, [(0.0, a, None), (0.0, b, None), (1.0, None, None), (2.0, None, None)])

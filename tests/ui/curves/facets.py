@@ -12,6 +12,8 @@ def facets(count: int = 60, each: int = 12, radius: float = 20.0) -> str:
     angles = np.linspace(0, 2 * math.pi, count + 1)
     ends = radius * np.column_stack([np.cos(angles), np.sin(angles)])
     share = np.arange(each) / each
-    points = np.concatenate([(ends[:-1, None] + share[None, :, None] * np.diff(ends, axis=0)[:, None]).reshape(-1, 2), ends[-1:]])
+    points = np.concatenate(
+        [(ends[:-1, None] + share[None, :, None] * np.diff(ends, axis=0)[:, None]).reshape(-1, 2), ends[-1:]]
+    )
     lines = "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in points[1:])
     return f"{HEAD}G1 F300 {lines}G0 Z5\nM2\n"

@@ -23,8 +23,12 @@ HEAD = "G21 G90 G17 G94\nT1 M6\nS1000 M3\nG0 X20 Y0 Z5\nG1 Z-1 F100\n"
 def ring(radius: float = 20.0, count: int = 200) -> str:
     """A circle of chords, then a lone corner of two lines that nothing can make shorter."""
     angles = [2 * math.pi * k / count for k in range(1, count + 1)]
-    chords = "".join(f"G1 X{radius * math.cos(a):.4f} Y{radius * math.sin(a):.4f} F300\n" if k == 0
-                     else f"X{radius * math.cos(a):.4f} Y{radius * math.sin(a):.4f}\n" for k, a in enumerate(angles))
+    chords = "".join(
+        f"G1 X{radius * math.cos(a):.4f} Y{radius * math.sin(a):.4f} F300\n"
+        if k == 0
+        else f"X{radius * math.cos(a):.4f} Y{radius * math.sin(a):.4f}\n"
+        for k, a in enumerate(angles)
+    )
     return f"{HEAD}{chords}G0 Z5\nG0 X40 Y0\nG1 Z-1 F100\nX60 F300\nY30\nG0 Z5\nM2\n"
 
 
@@ -59,7 +63,9 @@ def test_without_a_program_there_is_nothing_to_smooth(wiring) -> None:
     wiring.showing.show_view(View.CURVES)
     window = wiring.window_
     assert window.views.empty.isVisible() and "no NC program" in window.views.empty.sentence.text()
-    assert window.curves_panel.isVisible() and not window.curves_panel.smooth.isEnabled() and not window.side.isVisible()
+    assert (
+        window.curves_panel.isVisible() and not window.curves_panel.smooth.isEnabled() and not window.side.isVisible()
+    )
 
 
 def test_before_it_is_smoothed_the_program_is_shown_as_it_is(opened) -> None:
@@ -87,13 +93,20 @@ def test_smoothing_shows_both_paths_the_certificate_and_the_deviation(smooth) ->
 def test_what_stayed_says_why_under_the_mouse(smooth) -> None:
     view = curves_of(smooth)
     why = [view.path.described(row) for row in range(len(view.curves.now.shapes)) if view.curves.why(row)]
-    assert why and all("stays as it was: it would not take fewer blocks" in words or "too short" in words for words in why)
+    assert why and all(
+        "stays as it was: it would not take fewer blocks" in words or "too short" in words for words in why
+    )
     arcs = view.curves.layers[Side.XY].curves.only
     assert all("stays" not in view.path.described(int(row)) for row in arcs)
     motions = view.curves.now.program.motions
     lines = view.curves.now.source.data.decode().split("\n")
-    assert all("X60" in lines[motions.line[row] - 1] or "Y30" in lines[motions.line[row] - 1] or "Z" in lines[motions.line[row] - 1]
-               for row in range(len(motions)) if view.curves.why(row)), "lines are those of the text that is saved"
+    assert all(
+        "X60" in lines[motions.line[row] - 1]
+        or "Y30" in lines[motions.line[row] - 1]
+        or "Z" in lines[motions.line[row] - 1]
+        for row in range(len(motions))
+        if view.curves.why(row)
+    ), "lines are those of the text that is saved"
 
 
 def test_a_click_on_the_plot_marks_and_centres_the_place(qtbot, smooth) -> None:
@@ -226,7 +239,9 @@ def test_other_sides_and_the_comb_are_shown(qtbot, smooth) -> None:
     assert view.path.grab().toImage() != before
     comb = view.curves.comb
     size = np.linalg.norm(comb.tooth, axis=1)
-    assert np.mean(np.isclose(size, 1 / 20, rtol=0.1)) > 0.8 and comb.tall == pytest.approx(1 / 20, rel=0.1), "a ring bends evenly"
+    assert np.mean(np.isclose(size, 1 / 20, rtol=0.1)) > 0.8 and comb.tall == pytest.approx(1 / 20, rel=0.1), (
+        "a ring bends evenly"
+    )
 
 
 def test_a_place_that_is_looked_at_stays_when_it_is_smoothed_again(qtbot, smooth) -> None:
@@ -259,9 +274,15 @@ def click(choice, value) -> None:
 def test_only_fields_that_matter_are_seen(opened) -> None:
     form = opened.window_.curves_panel.points
     late = (form.before, form.after, form.move_to, form.select)
-    assert form.method() is None and not any(field.isVisible() for field in (form.epsilon, form.ends, form.others, *late))
+    assert form.method() is None and not any(
+        field.isVisible() for field in (form.epsilon, form.ends, form.others, *late)
+    )
     click(form.points, True)
-    assert form.epsilon.isVisible() and form.others.isVisible() and not any(field.isVisible() for field in (*late, form.share, form.reach))
+    assert (
+        form.epsilon.isVisible()
+        and form.others.isVisible()
+        and not any(field.isVisible() for field in (*late, form.share, form.reach))
+    )
     click(form.ends, Ends.RATIO)
     assert form.share.isVisible() and not form.reach.isVisible()
     click(form.others, "corrected")
@@ -286,10 +307,16 @@ def test_points_are_told_apart_and_counted(qtbot, faceted, others, effective, co
     assert points.told_apart and len(points.was) == 721
     state = np.bincount(points.state, minlength=3)
     assert (state[PointState.EFFECTIVE], state[PointState.CORRECTED]) == (effective, corrected) and state.sum() == 721
-    assert panel.figures["Effective"].text() == f"{effective} of 721" and panel.figures["Corrected"].text() == str(corrected)
+    assert panel.figures["Effective"].text() == f"{effective} of 721" and panel.figures["Corrected"].text() == str(
+        corrected
+    )
     view.path.zoom_by(6.0)
     words = [row.words for row in view.path._key()]
-    assert ("Left out" in words, "Corrected" in words, "Effective" in words) == (state[PointState.INVALID] > 0, corrected > 0, True)
+    assert ("Left out" in words, "Corrected" in words, "Effective" in words) == (
+        state[PointState.INVALID] > 0,
+        corrected > 0,
+        True,
+    )
     radius = np.hypot(*points.places[points.state != PointState.INVALID][:, :2].T)
     assert abs(radius - 20).max() <= 0.03
 

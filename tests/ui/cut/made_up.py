@@ -1,4 +1,6 @@
-"""A cut that a few lines of numpy can make: sweeps of ball and flat tools over a box, with everything the view can show."""
+"""A cut that a few lines of numpy can make: sweeps of ball and flat tools over a box, with everything the view can
+show.
+"""
 
 from __future__ import annotations
 
@@ -102,6 +104,16 @@ def made_up(n=1024):
     deviation[(move >= 0) & (heights < -6.5)] = -0.3
     deviation[(heights > -1.5) & (move >= 0)] = 1.2
     return CutPicture(
-        heights, 0.0, 0.0, SIDE / n, FLOOR, TOP, move, CutMoves(np.arange(12, 12 + len(rows), dtype=np.int32), tools, tools - 1),
-        deviation.astype(np.float32), 0.01, (heights > -0.9) & (move >= 0), CutPaths(starts, ends, looks),
-    )  # fmt: skip
+        heights,
+        0.0,
+        0.0,
+        SIDE / n,
+        FLOOR,
+        TOP,
+        move,
+        CutMoves(np.arange(12, 12 + len(rows), dtype=np.int32), tools, tools - 1),
+        deviation.astype(np.float32),
+        0.01,
+        (heights > -0.9) & (move >= 0),
+        CutPaths(starts, ends, looks),
+    )

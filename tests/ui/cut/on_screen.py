@@ -33,12 +33,12 @@ def pixels(window):
     image = window.screen().grabWindow(window.winId()).toImage()
     image = image.convertToFormat(image.Format.Format_RGB888)
     flat = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
-    return flat[:, :3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+    return flat[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
 
 
 def metal_share(window, view):
     """Share of the view that is not its ground."""
-    shown = pixels(window)[:view.height(), :view.width()]
+    shown = pixels(window)[: view.height(), : view.width()]
     ground = np.array(view.colours.theme.canvas.getRgb()[:3])
     return float((np.abs(shown - ground).max(axis=2) > 12).mean())
 

@@ -18,11 +18,23 @@ CANVAS, STOCK, METAL = (0.0, 0.0, 0.25), (100, 100, 100), (200, 200, 200)
 LIGHT = np.array([-0.45, 0.62, 0.64]) / np.linalg.norm([-0.45, 0.62, 0.64])
 AMBIENT, DIRECT = 0.4, 0.5
 LOOK = CutLook(
-    CANVAS, tuple(v / 255 for v in STOCK), (1.0, 0.0, 0.0),
-    ((0.0, 0.0, 1.0, 1.0), (0.0, 1.0, 0.0, 1.0), (1.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 1.0)), strength=(AMBIENT, DIRECT, 0.0),
-)  # fmt: skip
-INKS = Inks(METAL, ((255, 0, 0), (0, 255, 0), (0, 0, 255)), ((255, 255, 255), (0, 0, 0)), ((0, 0, 0), (255, 255, 255)),
-            (255, 0, 0), METAL, (0, 0, 255), (255, 0, 255), STOCK)
+    CANVAS,
+    tuple(v / 255 for v in STOCK),
+    (1.0, 0.0, 0.0),
+    ((0.0, 0.0, 1.0, 1.0), (0.0, 1.0, 0.0, 1.0), (1.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 1.0)),
+    strength=(AMBIENT, DIRECT, 0.0),
+)
+INKS = Inks(
+    METAL,
+    ((255, 0, 0), (0, 255, 0), (0, 0, 255)),
+    ((255, 255, 255), (0, 0, 0)),
+    ((0, 0, 0), (255, 255, 255)),
+    (255, 0, 0),
+    METAL,
+    (0, 0, 255),
+    (255, 0, 255),
+    STOCK,
+)
 SIZE = (320, 240)
 
 
@@ -62,7 +74,9 @@ def seen(picture, view, size=SIZE):
 
 
 def brightness(camera, slope_x, slope_y):
-    """Share of a colour that the light leaves of it where metal has these slopes; steps of the formula, not of the shader."""
+    """Share of a colour that the light leaves of it where metal has these slopes; steps of the formula, not of the
+    shader.
+    """
     square = slope_x**2 + slope_y**2
     gain = 1 + (GAIN - 1) / (1 + square / LIMIT**2)
     normal = np.stack([-gain * slope_x, -gain * slope_y, np.ones_like(square)]) / np.sqrt(1 + gain**2 * square)
@@ -79,7 +93,9 @@ def places_of_pixels(camera, z, size=SIZE):
 
 
 def assert_alike(got, expected, name, folder, share=0.002, most=24):
-    """Fail where more than a share of the pixels differ by more than `most`, leaving got, expected and difference behind."""
+    """Fail where more than a share of the pixels differ by more than `most`, leaving got, expected and difference
+    behind.
+    """
     import cv2
 
     difference = np.abs(got.astype(int) - expected.astype(int))

@@ -44,7 +44,9 @@ def program(text=TEXT):
 
 
 def slot_part():
-    """What the slot should be: 4 mm wide and 2 mm deep, round the middle line, with square ends that the tool does not reach."""
+    """What the slot should be: 4 mm wide and 2 mm deep, round the middle line, with square ends that the tool does not
+    reach.
+    """
     document = Document()
     document.run("rect 8,13 32,17")
     job = replace(document.job, tools=(TOOL,), operations=(PocketOperation(Cut(1, 2.0, 2.0)),))

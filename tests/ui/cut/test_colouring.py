@@ -46,7 +46,9 @@ def test_order_of_moves_is_told_by_their_lines():
     assert (made.key.ticks[0].text, made.key.ticks[-1].text) == ("line 10", "line 30")
 
 
-@pytest.mark.parametrize(("deviation", "colour"), [(0.0, INKS.right), (0.009, INKS.right), (3.0, INKS.left), (-3.0, INKS.gouge)])
+@pytest.mark.parametrize(
+    ("deviation", "colour"), [(0.0, INKS.right), (0.009, INKS.right), (3.0, INKS.left), (-3.0, INKS.gouge)]
+)
 def test_deviation_within_tolerance_is_plain_and_the_worst_has_the_full_colour(deviation, colour):
     values = np.array([[3.0, deviation], [-3.0, 0.0]], np.float32)
     made = colouring(picture(deviation=values), CutColour.DEVIATION, INKS)
@@ -63,7 +65,11 @@ def test_a_small_gouge_is_not_taken_for_right_beside_a_large_one():
 
 def test_what_no_tool_reaches_is_told_apart_from_what_is_left():
     values = np.array([[0.0, 1.0], [1.0, 0.0]], np.float32)
-    made = colouring(picture(deviation=values, unreachable=values.astype(bool) & [[True, True], [False, True]]), CutColour.DEVIATION, INKS)
+    made = colouring(
+        picture(deviation=values, unreachable=values.astype(bool) & [[True, True], [False, True]]),
+        CutColour.DEVIATION,
+        INKS,
+    )
     assert made.values[0, 1] == OUT_OF_REACH
     assert made.values[1, 0] < OUT_OF_REACH
     assert made.values[0, 0] == STOCK

@@ -44,7 +44,7 @@ def view(qtbot, picture):
 def pixels(view):
     image = view.grab().toImage().convertToFormat(view.grab().toImage().Format.Format_RGB888)
     flat = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
-    return flat[:, :3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+    return flat[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
 
 
 def on_screen(view, place):
@@ -54,8 +54,17 @@ def on_screen(view, place):
 
 def hover(view, at):
     nothing = Qt.MouseButton.NoButton
-    QApplication.sendEvent(view, QMouseEvent(QEvent.Type.MouseMove, QPointF(at), view.mapToGlobal(QPointF(at)), nothing, nothing,
-                                             Qt.KeyboardModifier.NoModifier))
+    QApplication.sendEvent(
+        view,
+        QMouseEvent(
+            QEvent.Type.MouseMove,
+            QPointF(at),
+            view.mapToGlobal(QPointF(at)),
+            nothing,
+            nothing,
+            Qt.KeyboardModifier.NoModifier,
+        ),
+    )
 
 
 def drag(qtbot, view, button, by):
@@ -108,15 +117,32 @@ def test_middle_drag_shifts_and_does_not_turn(qtbot, view, picture):
 def test_wheel_zooms_at_the_mouse(qtbot, view):
     at = QPointF(250, 320)
     held, scale = view.probe(at), view.camera.scale
-    view.wheelEvent(QWheelEvent(at, view.mapToGlobal(at), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton,
-                                Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False))
+    view.wheelEvent(
+        QWheelEvent(
+            at,
+            view.mapToGlobal(at),
+            QPoint(),
+            QPoint(0, 240),
+            Qt.MouseButton.NoButton,
+            Qt.KeyboardModifier.NoModifier,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        )
+    )
     assert view.camera.scale == pytest.approx(scale * 1.44)
     now = on_screen(view, held.place)
     assert abs(now.x() - 250) <= 1 and abs(now.y() - 320) <= 1
 
 
-@pytest.mark.parametrize(("key", "standard"), [(Qt.Key.Key_1, StandardView.TOP), (Qt.Key.Key_2, StandardView.FRONT),
-                                               (Qt.Key.Key_3, StandardView.RIGHT), (Qt.Key.Key_4, StandardView.ISOMETRIC)])
+@pytest.mark.parametrize(
+    ("key", "standard"),
+    [
+        (Qt.Key.Key_1, StandardView.TOP),
+        (Qt.Key.Key_2, StandardView.FRONT),
+        (Qt.Key.Key_3, StandardView.RIGHT),
+        (Qt.Key.Key_4, StandardView.ISOMETRIC),
+    ],
+)
 def test_digits_are_standard_views(qtbot, view, key, standard):
     view.camera = view.camera.orbited(0.4, 0.2, np.zeros(3))
     qtbot.keyClick(view, key)
@@ -146,7 +172,10 @@ def test_probe_tells_place_depth_tool_and_line(qtbot, view, picture):
     hover(view, on_screen(view, (*place, 0.0)))
     assert view.hit is not None
     row, column = view.hit.row, view.hit.column
-    assert (column, row) == (pytest.approx(place[0] / picture.pitch, abs=2), pytest.approx(place[1] / picture.pitch, abs=2))
+    assert (column, row) == (
+        pytest.approx(place[0] / picture.pitch, abs=2),
+        pytest.approx(place[1] / picture.pitch, abs=2),
+    )
     move = picture.move[row, column]
     assert f"T{picture.moves.tool[move]}" in told[-1]
     assert f"line {picture.moves.line[move]}" in told[-1]
@@ -234,7 +263,7 @@ def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
 
 def test_cut_curves_and_surfaces_stand_between_paths_and_nc():
     names = [view.name for view in View]
-    assert names[names.index("PATHS") + 1:] == ["CUT", "CURVES", "SURFACES", "NC"]
+    assert names[names.index("PATHS") + 1 :] == ["CUT", "CURVES", "SURFACES", "NC"]
 
 
 def fails(scene):

@@ -25,7 +25,9 @@ def context():
 def wave(cells, corner=(0.0, 0.0), side=10.0):
     """Heights of one and the same wave on a square, in as many cells as wanted."""
     x, y = (low + (np.arange(cells) + 0.5) * side / cells for low in corner)
-    return CutPicture((-3.0 + np.sin(x)[None] * np.cos(y)[:, None]).astype(np.float32), *corner, side / cells, -10.0, 0.0)
+    return CutPicture(
+        (-3.0 + np.sin(x)[None] * np.cos(y)[:, None]).astype(np.float32), *corner, side / cells, -10.0, 0.0
+    )
 
 
 def painted(context, picture, camera, detail=None, colour=CutColour.DEPTH, **more):

@@ -64,7 +64,9 @@ def test_areas_of_the_histogram_are_those_of_the_cells(shown):
     cell, deviation = picture.pitch**2, picture.deviation
     assert made.gouge == pytest.approx(np.sum(deviation < -picture.tolerance) * cell, rel=0.01)
     assert made.beyond == pytest.approx(np.sum(picture.unreachable) * cell, rel=0.01)
-    assert made.left == pytest.approx(np.sum((deviation > picture.tolerance) & ~picture.unreachable) * cell, abs=2 * cell)
+    assert made.left == pytest.approx(
+        np.sum((deviation > picture.tolerance) & ~picture.unreachable) * cell, abs=2 * cell
+    )
     assert len(made.borders) == len(made.areas) + 1 and np.all(np.diff(made.borders) > 0)
     assert made.right > 50.0
     assert float(made.areas.sum()) == pytest.approx(made.gouge + made.right + made.left)

@@ -60,7 +60,13 @@ def test_facets_lie_where_their_corners_do_and_nowhere_else(context, budget):
     mask = np.zeros((SIZE[1], SIZE[0]), np.uint8)
     lifted = CAMERA.axes[2] * 3.0 / CAMERA.scale
     for quad in wedges.quads:
-        cv2.fillPoly(mask, [np.round((CAMERA.project(quad + lifted, SIZE)[:, :2] - 0.5) * 16).astype(np.int32)], 255, cv2.LINE_8, 4)
+        cv2.fillPoly(
+            mask,
+            [np.round((CAMERA.project(quad + lifted, SIZE)[:, :2] - 0.5) * 16).astype(np.int32)],
+            255,
+            cv2.LINE_8,
+            4,
+        )
     seen, rim = np.abs(got - bare).max(axis=2) > 6, np.ones((3, 3), np.uint8)
     assert np.mean(seen[cv2.erode(mask, rim) > 0]) > 0.995 and not np.any(seen[cv2.dilate(mask, rim) == 0])
 
@@ -69,7 +75,7 @@ def test_cylinders_and_wedges_have_hues_of_their_own_and_the_metal_shines_throug
     blue, orange, bare = painted(context, trough((0, 0)), trough((1, 1)), None)
     seen = np.abs(blue - bare).max(axis=2) > 6
     assert np.median((blue - orange)[seen][:, 2]) > 60 and np.median((orange - blue)[seen][:, 0]) > 40
-    both, = painted(context, trough((0, 1)))
+    (both,) = painted(context, trough((0, 1)))
     left, right = (CAMERA.project(np.array([[x, 5.0, -2.0]]), SIZE)[0] for x in (2.6, 7.4))
     assert np.array_equal(both[round(left[1]), round(left[0])], blue[round(left[1]), round(left[0])])
     assert np.array_equal(both[round(right[1]), round(right[0])], orange[round(right[1]), round(right[0])])
@@ -77,6 +83,7 @@ def test_cylinders_and_wedges_have_hues_of_their_own_and_the_metal_shines_throug
 
 def test_edges_are_dark_and_go_where_they_would_cover_everything(context):
     near, bare = painted(context, trough((0, 0)), None)
+
     def dark(image, ground):
         seen = np.abs(image - ground).max(axis=2) > 6
         return (image[seen].max(axis=1) < 110).mean()
@@ -92,5 +99,5 @@ def test_facets_under_metal_show_faintly_and_far_off_ones_are_seen(context):
     assert 0 < np.abs(under - bare).max() < 40
     wedges = trough()
     off = replace(wedges, quads=(wedges.quads + 300.0 * CAMERA.axes[2]).astype(np.float32))
-    high, = painted(context, off)
+    (high,) = painted(context, off)
     assert (np.abs(high - bare).max(axis=2) > 6).sum() > 3000

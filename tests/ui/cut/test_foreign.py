@@ -16,6 +16,7 @@ PROGRAM = "G21 G90\nT1 M6\nS8000 M3\nG0 X10 Y15 Z5\nG1 Z-2 F200\nG1 X30 F400\nG0
 @pytest.fixture
 def opened(qtbot, computed, tmp_path):
     """Open a text as a program in the NC view and ask for its cut."""
+
     def act(text, name="slot.ngc"):
         path = tmp_path / name
         path.write_text(text)
@@ -25,6 +26,7 @@ def opened(qtbot, computed, tmp_path):
         qtbot.waitUntil(lambda: computed.cutting.foreign_worker.busy, timeout=WAIT_MS)
         qtbot.waitUntil(lambda: not computed.cutting.foreign_worker.busy, timeout=WAIT_MS)
         return computed
+
     qtbot.waitUntil(lambda: computed.cutting.cut is not None, timeout=WAIT_MS)
     return act
 

@@ -54,7 +54,10 @@ def cut_deeper(heights, floor=-7.5):
 @given(st.integers(1, 90), st.integers(1, 90), st.data())
 def test_the_relief_of_a_part_is_that_of_the_whole(rows, columns, data):
     heights = wavy(rows, columns)
-    cuts = [slice(*sorted(data.draw(st.lists(st.integers(0, count), min_size=2, max_size=2, unique=True)))) for count in heights.shape]
+    cuts = [
+        slice(*sorted(data.draw(st.lists(st.integers(0, count), min_size=2, max_size=2, unique=True))))
+        for count in heights.shape
+    ]
     assert np.array_equal(relief_part(heights, 0.1, *cuts), relief(heights, 0.1)[cuts[0], cuts[1]])
 
 
@@ -88,7 +91,12 @@ def frames(budget=0):
     """Whole and near, larger and smaller than a pixel a cell, from above and from below."""
     low, high = np.array([0.0, 0.0, -10.0]), np.array([10.0, 8.6, 0.0])
     whole = Camera().fitted(low, high, SIZE)
-    cameras = (whole, whole.zoomed(0.3, (160, 120), SIZE), whole.zoomed(6.0, (160, 120), SIZE), replace(whole, pitch=-0.7))
+    cameras = (
+        whole,
+        whole.zoomed(0.3, (160, 120), SIZE),
+        whole.zoomed(6.0, (160, 120), SIZE),
+        replace(whole, pitch=-0.7),
+    )
     return [Frame(camera, SIZE, LOOK, budget) for camera in cameras]
 
 
@@ -111,16 +119,25 @@ def test_while_it_moves_a_patch_is_seen_too_and_differs_only_where_pixels_hold_m
     patch = patch_of(after, values_of(fresh, CutColour.DEPTH, of(before).span), fresh.pitch, CHANGED)
     patched, filled = painted(context, frames(1 << 14), of(before), [patch]), painted(context, frames(1 << 14), fresh)
     assert np.array_equal(patched[2], filled[2])
-    assert all(np.abs(got.astype(int) - expected.astype(int)).mean() < 2.0 for got, expected in zip(patched, filled, strict=True))
+    assert all(
+        np.abs(got.astype(int) - expected.astype(int)).mean() < 2.0
+        for got, expected in zip(patched, filled, strict=True)
+    )
 
 
 def test_metal_that_comes_back_is_not_left_out_of_sight(context):
     low = np.full((64, 64), -9.5, np.float32)
     full = np.full((64, 64), -0.0, np.float32)
-    camera = Camera(pitch=0.5).fitted(np.array([0.0, 0.0, -10.0]), np.array([10.0, 10.0, 0.0]), SIZE).zoomed(5.0, (160, 40), SIZE)
+    camera = (
+        Camera(pitch=0.5)
+        .fitted(np.array([0.0, 0.0, -10.0]), np.array([10.0, 10.0, 0.0]), SIZE)
+        .zoomed(5.0, (160, 40), SIZE)
+    )
     frame, values = [Frame(camera, SIZE, LOOK)], np.zeros((64, 64), np.uint8)
-    got, = painted(context, frame, of(low), [patch_of(full, values, 10 / 64, (slice(0, 64), slice(0, 64)))], CutColour.METAL)
-    expected, = painted(context, frame, of(full), [Patch(0, 0, full, values, relief(full, 10 / 64))], CutColour.METAL)
+    (got,) = painted(
+        context, frame, of(low), [patch_of(full, values, 10 / 64, (slice(0, 64), slice(0, 64)))], CutColour.METAL
+    )
+    (expected,) = painted(context, frame, of(full), [Patch(0, 0, full, values, relief(full, 10 / 64))], CutColour.METAL)
     assert np.array_equal(got, expected)
 
 

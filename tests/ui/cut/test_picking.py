@@ -22,8 +22,13 @@ def by_search(picture, ray, section=None):
     for row in range(picture.rows):
         for column in range(picture.columns):
             corner = np.array([picture.x0 + column * picture.pitch, picture.y0 + row * picture.pitch])
-            planes = [(np.eye(3)[k] * s, s * v) for k in (0, 1) for s, v in ((1, corner[k] + picture.pitch), (-1, corner[k]))]
-            planes += [(np.array([0, 0, 1.0]), float(picture.heights[row, column])), (np.array([0, 0, -1.0]), -picture.floor)]
+            planes = [
+                (np.eye(3)[k] * s, s * v) for k in (0, 1) for s, v in ((1, corner[k] + picture.pitch), (-1, corner[k]))
+            ]
+            planes += [
+                (np.array([0, 0, 1.0]), float(picture.heights[row, column])),
+                (np.array([0, 0, -1.0]), -picture.floor),
+            ]
             if section is not None:
                 planes.append((np.array([*section.normal, 0.0]), section.offset))
             begin, end = -np.inf, np.inf

@@ -101,7 +101,9 @@ def test_colours_chosen_on_the_way_are_of_the_moment(qtbot, page):
     player.go(50)
     settle(qtbot, page)
     view.set_colour(CutColour.DEVIATION)
-    qtbot.waitUntil(lambda: view.colours.told is CutColour.DEVIATION and CutColour.DEVIATION in view.picture.values, timeout=10_000)
+    qtbot.waitUntil(
+        lambda: view.colours.told is CutColour.DEVIATION and CutColour.DEVIATION in view.picture.values, timeout=10_000
+    )
     settle(qtbot, page)
     end, now = player.shown.picture, view.picture
     left = now.heights > end.heights + 0.5
@@ -204,7 +206,9 @@ def test_a_click_on_the_plot_goes_there(qtbot, page):
     assert "mm²" in words
     nothing = Qt.MouseButton.NoButton
     place = QPointF(200, 30)
-    QApplication.sendEvent(plot, QMouseEvent(QEvent.Type.MouseMove, place, plot.mapToGlobal(place), nothing, nothing, NONE))
+    QApplication.sendEvent(
+        plot, QMouseEvent(QEvent.Type.MouseMove, place, plot.mapToGlobal(place), nothing, nothing, NONE)
+    )
 
 
 def test_a_place_is_picked_on_the_metal_of_the_moment(qtbot, page):

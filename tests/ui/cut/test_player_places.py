@@ -1,4 +1,6 @@
-"""The cut is played while other things go on: other views, other cuts, other surfaces, waits, failures, the window's end."""
+"""The cut is played while other things go on: other views, other cuts, other surfaces, waits, failures, the window's
+end.
+"""
 
 from dataclasses import replace
 
@@ -45,7 +47,9 @@ def test_what_is_not_seen_is_not_played_and_nothing_piles_up(qtbot, computed, pa
     computed.showing.show_view(View.CUT)
     qtbot.waitUntil(lambda: page.view.painting.fine and not waiting, timeout=20_000)
     shown = page.view.surface._scene._whole
-    data = np.frombuffer(page.view.surface.work(lambda _: shown._heights.read()), np.float32).reshape(page.view.picture.heights.shape)
+    data = np.frombuffer(page.view.surface.work(lambda _: shown._heights.read()), np.float32).reshape(
+        page.view.picture.heights.shape
+    )
     assert np.array_equal(data, page.view.picture.heights)
 
 

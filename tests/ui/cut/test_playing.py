@@ -16,7 +16,9 @@ from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 from tests.ui.cut.test_cut_view import on_screen, pixels
 
-BALL = Tool(1, 6.0, ToolKind.BALL, flute_length=12.0, stick_out=25.0, shank_diameter=6.0, holder=((0.0, 9.0), (15.0, 9.0)))
+BALL = Tool(
+    1, 6.0, ToolKind.BALL, flute_length=12.0, stick_out=25.0, shank_diameter=6.0, holder=((0.0, 9.0), (15.0, 9.0))
+)
 TIP = (34.0, 50.0, -9.0)
 
 

@@ -48,7 +48,13 @@ def shots():
         heights[place], values[place] = -3.0, 0
         whole = Whole(picture, colouring(picture, CutColour.METAL, INKS)) if k == 0 else None
         camera = Camera(target=(5.0, 5.0, 0.0), pitch=1.5, scale=8.0) if k == COUNT - 1 else None
-        yield Shot(whole, (patch_of(heights, values, picture.pitch, place),), tool, (10 * (k + 1) * 10 / 64, 5.0, -3.0), camera=camera)
+        yield Shot(
+            whole,
+            (patch_of(heights, values, picture.pitch, place),),
+            tool,
+            (10 * (k + 1) * 10 / 64, 5.0, -3.0),
+            camera=camera,
+        )
 
 
 def directly():

@@ -29,7 +29,9 @@ def test_the_picture_is_what_the_view_shows(qtbot, wiring, tmp_path: Path):
     wiring.cut_saving.save(tmp_path / "cut")
     saved = QImage(str(tmp_path / "cut.png"))
     assert saved.size() == view.grab().size()
-    assert saved.convertToFormat(QImage.Format.Format_RGB888) == view.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    assert saved.convertToFormat(QImage.Format.Format_RGB888) == view.grab().toImage().convertToFormat(
+        QImage.Format.Format_RGB888
+    )
 
 
 def test_without_a_cut_and_without_a_folder_it_says_so(qtbot, wiring, tmp_path: Path):

@@ -98,7 +98,7 @@ def test_coarse_triangles_take_their_normals_from_every_cell(context):
 
 def test_a_step_shows_a_wall_as_high_as_it_is(context):
     heights = np.zeros((N, N))
-    heights[:, N // 2:] = -6.0
+    heights[:, N // 2 :] = -6.0
     picture = flat_picture(heights)
     camera = seen(picture, StandardView.RIGHT)
     image = painted(context, picture, camera)
@@ -106,7 +106,7 @@ def test_a_step_shows_a_wall_as_high_as_it_is(context):
     column = SIZE[0] // 2
     filled = np.flatnonzero(~ground[:, column])
     assert len(filled) == pytest.approx(10.0 * camera.scale, abs=1.5)
-    wall = image[filled[0]:filled[0] + int(6.0 * camera.scale) - 3, column]
+    wall = image[filled[0] : filled[0] + int(6.0 * camera.scale) - 3, column]
     front = image[filled[-1] - 10, column]
     lit = AMBIENT + DIRECT * max(float((LIGHT @ camera.axes)[0]), 0.0)
     assert np.all(wall[6:, 0] > 0.5 * lit * METAL[0])
@@ -154,7 +154,9 @@ def test_colours_of_a_palette_reach_the_screen_cell_by_cell(context):
 def test_a_section_takes_away_what_lies_beyond_it_and_shows_a_hatched_face(context):
     picture = flat_picture(np.full((N, N), -2.0))
     camera = seen(picture, StandardView.FRONT)
-    whole, open_ = (painted(context, picture, camera, section=section) for section in (None, Section((0.0, -1.0), -5.0)))
+    whole, open_ = (
+        painted(context, picture, camera, section=section) for section in (None, Section((0.0, -1.0), -5.0))
+    )
     silhouette = [~np.all(image == GROUND, axis=2) for image in (whole, open_)]
     assert np.array_equal(*silhouette)
     assert len(np.unique(whole[silhouette[0]], axis=0)) < 6
@@ -162,12 +164,17 @@ def test_a_section_takes_away_what_lies_beyond_it_and_shows_a_hatched_face(conte
     share = np.mean((face[:, 0] - face[:, 1]) > 20)
     assert 0.08 < share < 0.25
     from_right = seen(picture, StandardView.RIGHT)
-    both = (painted(context, picture, from_right), painted(context, picture, from_right, section=Section((0.0, -1.0), -5.0)))
+    both = (
+        painted(context, picture, from_right),
+        painted(context, picture, from_right, section=Section((0.0, -1.0), -5.0)),
+    )
     widths = [np.any(~np.all(image == GROUND, axis=2), axis=0).sum() for image in both]
     assert widths[1] == pytest.approx(widths[0] / 2, abs=1.5)
 
 
-@pytest.mark.parametrize(("look", "period", "drawn"), [(Look.CONTOUR, 9.0, 5.5), (Look.RAPID, 5.0, 2.0), (Look.CUT, 0.0, 0.0)])
+@pytest.mark.parametrize(
+    ("look", "period", "drawn"), [(Look.CONTOUR, 9.0, 5.5), (Look.RAPID, 5.0, 2.0), (Look.CUT, 0.0, 0.0)]
+)
 def test_contours_are_dashed_rapids_dotted_and_pockets_solid(context, look, period, drawn):
     paths = CutPaths(np.array([[0.5, 5.0, 1.0]]), np.array([[9.5, 5.0, 1.0]]), np.array([look], np.uint8))
     picture = flat_picture(np.full((N, N), -1.0), paths=paths)

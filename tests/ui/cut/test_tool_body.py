@@ -1,6 +1,5 @@
 """The tool in the picture, against the projection of its outline."""
 
-
 from dataclasses import replace
 from itertools import pairwise
 
@@ -19,9 +18,12 @@ from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 
 TOOLS = [
     Tool(1, 2.0, flute_length=3.0, stick_out=6.0, shank_diameter=1.2, holder=((0.0, 1.6), (2.0, 2.4), (4.0, 2.4))),
-    Tool(1, 3.0, ToolKind.BALL, flute_length=3.0, overall_length=9.0), Tool(1, 3.0, ToolKind.BULL, corner_radius=0.5),
-    Tool(1, 3.0, ToolKind.V, tip_angle=1.0), Tool(1, 3.0, ToolKind.DRILL), Tool(1, 3.0, ToolKind.TAPER, tip_angle=0.4, tip_diameter=1.0),
-]  # fmt: skip
+    Tool(1, 3.0, ToolKind.BALL, flute_length=3.0, overall_length=9.0),
+    Tool(1, 3.0, ToolKind.BULL, corner_radius=0.5),
+    Tool(1, 3.0, ToolKind.V, tip_angle=1.0),
+    Tool(1, 3.0, ToolKind.DRILL),
+    Tool(1, 3.0, ToolKind.TAPER, tip_angle=0.4, tip_diameter=1.0),
+]
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +63,9 @@ def silhouette(tool, camera, tip, turns=720):
     for low, high in pairwise(points):
         for share in np.linspace(0, 1, 60):
             height, radius = low + share * (high - low)
-            ring = np.array(tip) + np.column_stack([radius * np.cos(angles), radius * np.sin(angles), np.full(turns, height)])
+            ring = np.array(tip) + np.column_stack(
+                [radius * np.cos(angles), radius * np.sin(angles), np.full(turns, height)]
+            )
             px = camera.project(ring, SIZE)[:, :2] - 0.5
             cv2.fillPoly(mask, [np.round(px * 2**shift).astype(np.int32)], 255, cv2.LINE_8, shift)
     return mask > 0
@@ -74,8 +78,8 @@ def test_its_silhouette_is_that_of_the_outline(context, tool, moving):
 
     picture, tip = flat_picture(np.full((32, 32), -9.0)), (4.0, 5.5, -5.0)
     camera = Camera(target=(5.0, 5.0, 0.0), scale=14.0)
-    with_it, = painted(context, picture, camera, tool, [tip], budget=4096 * moving)
-    without, = painted(context, picture, camera, budget=4096 * moving)
+    (with_it,) = painted(context, picture, camera, tool, [tip], budget=4096 * moving)
+    (without,) = painted(context, picture, camera, budget=4096 * moving)
     got, expected = differs(with_it, without, 3), silhouette(tool, camera, tip)
     rim = np.ones((3, 3), np.uint8)
     sure, most = cv2.erode(expected.astype(np.uint8), rim), cv2.dilate(expected.astype(np.uint8), rim)
@@ -87,12 +91,12 @@ def test_the_metal_under_it_can_be_judged_and_cutting_part_shank_and_holder_are_
     tool, tip = TOOLS[0], (5.0, 5.0, -1.0)
     stripes = flat_picture(np.where(np.arange(64) % 16 < 8, -1.0, -4.0) * np.ones((64, 1)))
     camera = seen(stripes, StandardView.TOP)
-    with_it, = painted(context, stripes, camera, tool, [tip])
-    without, = painted(context, stripes, camera)
+    (with_it,) = painted(context, stripes, camera, tool, [tip])
+    (without,) = painted(context, stripes, camera)
     under = silhouette(tool, camera, tip) & ~silhouette(Tool(1, 1.0, stick_out=9.0), camera, tip)
     assert np.corrcoef(with_it[under].mean(axis=1), without[under].mean(axis=1))[0, 1] > 0.9
     front = seen(flat_picture(np.full((32, 32), -9.9)), StandardView.FRONT)
-    image, = painted(context, flat_picture(np.full((32, 32), -9.9)), front, tool, [(5.0, 5.0, -7.0)])
+    (image,) = painted(context, flat_picture(np.full((32, 32), -9.9)), front, tool, [(5.0, 5.0, -7.0)])
     heights = {Part.CUTTING: 1.5, Part.SHANK: 4.5, Part.HOLDER: 9.0}
     places = front.project(np.array([[5.0, 5.0, -7.0 + height] for height in heights.values()]), SIZE)
     cutting, shank, holder = (image[round(y), round(x) - 3] for x, y, _ in places)
@@ -103,8 +107,10 @@ def test_the_metal_under_it_can_be_judged_and_cutting_part_shank_and_holder_are_
 def test_what_another_part_hides_does_not_shine_through(context):
     picture, tool = flat_picture(np.full((32, 32), -5.0)), TOOLS[0]
     camera = seen(picture, StandardView.TOP)
-    above, = painted(context, picture, camera, tool, [(5.0, 5.0, -5.0)])
-    other, = painted(context, picture, camera, replace(tool, diameter=1.0, shank_diameter=2.0, flute_length=1.0), [(5.0, 5.0, -5.0)])
+    (above,) = painted(context, picture, camera, tool, [(5.0, 5.0, -5.0)])
+    (other,) = painted(
+        context, picture, camera, replace(tool, diameter=1.0, shank_diameter=2.0, flute_length=1.0), [(5.0, 5.0, -5.0)]
+    )
     assert np.array_equal(above, other)
 
 
@@ -122,9 +128,9 @@ def test_another_place_needs_no_more_than_a_place(context):
 def test_it_is_seen_however_far_it_stands_off_and_a_section_leaves_it_whole(context):
     picture, tool = flat_picture(np.full((32, 32), -1.0)), TOOLS[1]
     camera = Camera(target=(5.0, 5.0, 200.0), scale=14.0)
-    bare, = painted(context, picture, camera)
+    (bare,) = painted(context, picture, camera)
     for section in (None, Section((1.0, 0.0), 2.0)):
-        high, = painted(context, picture, camera, tool, [(5.0, 5.0, 198.0)], section=section)
+        (high,) = painted(context, picture, camera, tool, [(5.0, 5.0, 198.0)], section=section)
         assert differs(high, bare).sum() > 1500
 
 
@@ -133,8 +139,8 @@ def test_behind_metal_it_shows_faintly(context):
     heights[:16] = 0.0
     picture, tool = flat_picture(heights), Tool(1, 3.0, flute_length=3.0, overall_length=5.0)
     camera = seen(picture, StandardView.FRONT)
-    hidden, = painted(context, picture, camera, tool, [(5.0, 6.0, -7.0)])
-    bare, = painted(context, picture, camera)
+    (hidden,) = painted(context, picture, camera, tool, [(5.0, 6.0, -7.0)])
+    (bare,) = painted(context, picture, camera)
     change = np.abs(hidden - bare).max(axis=2)
     assert np.count_nonzero(change > 3) > 300 and change.max() < 60
 

@@ -15,9 +15,13 @@ from tests.examples import examples
 
 HOLDER = ((0.0, 10.0), (20.0, 10.0), (20.0, 16.0), (32.0, 16.0))
 SHAPES = {
-    ToolKind.FLAT: {}, ToolKind.BALL: {}, ToolKind.BULL: {"corner_radius": 1.2}, ToolKind.V: {"tip_angle": 1.2, "tip_diameter": 0.4},
-    ToolKind.DRILL: {"tip_angle": 2.0}, ToolKind.TAPER: {"tip_angle": 0.3, "tip_diameter": 1.5},
-}  # fmt: skip
+    ToolKind.FLAT: {},
+    ToolKind.BALL: {},
+    ToolKind.BULL: {"corner_radius": 1.2},
+    ToolKind.V: {"tip_angle": 1.2, "tip_diameter": 0.4},
+    ToolKind.DRILL: {"tip_angle": 2.0},
+    ToolKind.TAPER: {"tip_angle": 0.3, "tip_diameter": 1.5},
+}
 
 
 def made(kind=ToolKind.FLAT, **more):
@@ -44,7 +48,9 @@ def test_the_end_is_the_cutter_that_the_engine_cuts_with(kind):
 
 
 def test_flutes_shank_and_holder_are_where_the_tool_says():
-    outline = outline_of(made(ToolKind.BALL, flute_length=14.0, overall_length=60.0, stick_out=28.0, shank_diameter=8.0, holder=HOLDER))
+    outline = outline_of(
+        made(ToolKind.BALL, flute_length=14.0, overall_length=60.0, stick_out=28.0, shank_diameter=8.0, holder=HOLDER)
+    )
     found = parts(outline)
     assert list(found) == [Part.CUTTING, Part.SHANK, Part.HOLDER]
     assert found[Part.CUTTING][-1].tolist() == [14.0, 3.0]
@@ -55,7 +61,11 @@ def test_flutes_shank_and_holder_are_where_the_tool_says():
 
 def test_what_is_not_told_is_made_up():
     bare = parts(outline_of(made()))
-    assert bare[Part.CUTTING][-1].tolist() == [18.0, 3.0] and bare[Part.SHANK].tolist() == [[18.0, 3.0], [36.0, 3.0], [36.0, 0.0]]
+    assert bare[Part.CUTTING][-1].tolist() == [18.0, 3.0] and bare[Part.SHANK].tolist() == [
+        [18.0, 3.0],
+        [36.0, 3.0],
+        [36.0, 0.0],
+    ]
     short = parts(outline_of(made(stick_out=20.0)))
     assert short[Part.CUTTING][-1, 0] == pytest.approx(12.0) and short[Part.SHANK][-1].tolist() == [20.0, 0.0]
     assert outline_of(made(overall_length=50.0, stick_out=20.0)).height == 50.0
@@ -70,7 +80,9 @@ def test_a_cones_flutes_end_with_it_and_known_ones_end_on_it():
     cut_short = parts(outline_of(made(ToolKind.V, flute_length=2.0, shank_diameter=4.0)))
     border = (2.0, 0.2 + 2.0 * math.tan(0.6))
     assert cut_short[Part.CUTTING][-1] == pytest.approx(border) and cut_short[Part.SHANK][0] == pytest.approx(border)
-    assert cut_short[Part.SHANK][1] == pytest.approx((cone, 3.0)) and cut_short[Part.SHANK][2] == pytest.approx((cone, 2.0))
+    assert cut_short[Part.SHANK][1] == pytest.approx((cone, 3.0)) and cut_short[Part.SHANK][2] == pytest.approx(
+        (cone, 2.0)
+    )
 
 
 LENGTHS = st.one_of(st.just(0.0), st.floats(0.5, 90.0))
@@ -81,8 +93,14 @@ LENGTHS = st.one_of(st.just(0.0), st.floats(0.5, 90.0))
 @example(ToolKind.BALL, 0.0, 0.0, 1.5, 0.0, HOLDER)
 def test_every_tool_is_one_closed_outline(kind, flutes, overall, stick_out, shank, holder):
     most = overall or 1e9
-    tool = made(kind, flute_length=min(flutes, most), overall_length=overall, stick_out=min(stick_out, most), shank_diameter=shank,
-                holder=holder)  # fmt: skip
+    tool = made(
+        kind,
+        flute_length=min(flutes, most),
+        overall_length=overall,
+        stick_out=min(stick_out, most),
+        shank_diameter=shank,
+        holder=holder,
+    )
     outline = outline_of(tool)
     points = [stretch.points for stretch in outline.stretches]
     assert points[0][0].tolist() == [0.0, 0.0] and points[-1][-1, 1] == 0.0

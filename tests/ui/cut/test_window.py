@@ -44,7 +44,9 @@ def test_all_metal_that_is_seen_lies_in_the_part(yaw, pitch, section):
     camera = zoomed(7.0, yaw=yaw, pitch=pitch)
     picture = waves()
     x0, y0, x1, y1 = wanted(Sighted(picture, None, camera, SIZE, section), CELLS)
-    met = [pick(picture, camera.ray(at, SIZE), section) for at in np.random.default_rng(3).uniform((0, 0), SIZE, (150, 2))]
+    met = [
+        pick(picture, camera.ray(at, SIZE), section) for at in np.random.default_rng(3).uniform((0, 0), SIZE, (150, 2))
+    ]
     places = np.array([hit.place for hit in met if hit is not None])
     assert len(places) > 30
     assert np.mean((places[:, 0] >= x0) & (places[:, 0] <= x1) & (places[:, 1] >= y0) & (places[:, 1] <= y1)) > 0.97
@@ -63,7 +65,9 @@ def test_cells_are_never_finer_than_a_micrometre_and_the_part_never_leaves_the_s
 
 def test_a_wall_seen_from_the_side_is_a_slim_part():
     picture = waves()
-    camera = Camera().seen_from(StandardView.FRONT).fitted(picture.low, picture.high, SIZE).zoomed(8.0, (300.0, 250.0), SIZE)
+    camera = (
+        Camera().seen_from(StandardView.FRONT).fitted(picture.low, picture.high, SIZE).zoomed(8.0, (300.0, 250.0), SIZE)
+    )
     x0, y0, x1, y1 = wanted(Sighted(picture, None, camera, SIZE, None), CELLS)
     assert y0 == 0.0 and 0 < y1 - y0 < x1 - x0
 

@@ -55,8 +55,11 @@ def test_what_is_wrong_is_underlined_in_place_and_a_click_goes_there(qtbot, wiri
     settle(qtbot, text)
     assert text.page.problem is not None and (text.page.problem.line, text.page.problem.column) == (2, 10)
     assert text.page.verdict.text().startswith("Line 2, column 10: ") and text.page.editor.gutter.wrong == 2
-    marks = [mark for mark in text.page.editor.extraSelections()
-             if mark.format.underlineStyle() == QTextCharFormat.UnderlineStyle.WaveUnderline]
+    marks = [
+        mark
+        for mark in text.page.editor.extraSelections()
+        if mark.format.underlineStyle() == QTextCharFormat.UnderlineStyle.WaveUnderline
+    ]
     assert [mark.cursor.selectedText() for mark in marks] == ["wide"]
     qtbot.mouseClick(text.page.verdict, Qt.MouseButton.LeftButton)
     cursor = text.page.editor.textCursor()
@@ -112,7 +115,14 @@ def test_the_text_of_the_drawing_draws_it(qtbot, wiring, text) -> None:
 
 def test_the_log_saved_as_a_file_draws_the_identical_part(qtbot, wiring, text, tmp_path) -> None:
     document = wiring.document
-    for line in ("rect 0,0 40,20 round 3", "circle 20,10 5 as hole", "line 50,0 60,5", "undo", "layer holes", "circle 8,10 2"):
+    for line in (
+        "rect 0,0 40,20 round 3",
+        "circle 20,10 5 as hole",
+        "line 50,0 60,5",
+        "undo",
+        "layer holes",
+        "circle 8,10 2",
+    ):
         document.run(line)
     document.select([document.part.entities[-1].id])
     wiring.run("array 3 1 @12,0")
@@ -156,7 +166,9 @@ def test_blocks_are_indented_and_closed_while_typing(qtbot, text) -> None:
 def test_an_offer_is_taken_by_key_and_by_click(qtbot, text) -> None:
     editor = text.page.editor
     qtbot.keyClicks(editor, "cir")
-    assert editor.list.isVisible() and editor.list.current is not None and editor.list.current.form.startswith("circle P")
+    assert (
+        editor.list.isVisible() and editor.list.current is not None and editor.list.current.form.startswith("circle P")
+    )
     qtbot.keyClick(editor, Qt.Key.Key_Return)
     qtbot.keyClicks(editor, "0,0 sq")
     assert editor.list.isVisible()

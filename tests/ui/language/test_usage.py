@@ -29,16 +29,34 @@ def test_every_function_is_told_from_a_command_of_its_name() -> None:
 
 def test_ways_of_a_command_and_its_own_words() -> None:
     arc = usage_of("ar")
-    assert arc is not None and len(arc.forms) == 4 and arc.forms[3] == ("arc on P", "onward from the curve drawn last, without a corner")
+    assert (
+        arc is not None
+        and len(arc.forms) == 4
+        and arc.forms[3] == ("arc on P", "onward from the curve drawn last, without a corner")
+    )
     assert {"centre", "cw", "radius", "large"} <= set(arc.options)
 
 
 def test_what_a_line_is_made_of() -> None:
     line = 'circle mid(a, b) 1in+2 as hole # "x"'
-    found = {line[start:start + length]: ink for start, length, ink in pieces(line)}
-    assert found == {"circle": Ink.COMMAND, "mid": Ink.FUNCTION, "1in": Ink.NUMBER, "2": Ink.NUMBER, "as": Ink.BLOCK, '# "x"': Ink.REMARK}
+    found = {line[start : start + length]: ink for start, length, ink in pieces(line)}
+    assert found == {
+        "circle": Ink.COMMAND,
+        "mid": Ink.FUNCTION,
+        "1in": Ink.NUMBER,
+        "2": Ink.NUMBER,
+        "as": Ink.BLOCK,
+        '# "x"': Ink.REMARK,
+    }
     assert [ink for _, _, ink in pieces('rotate 0,0 3 copy; layer "a#b"')] == [
-        Ink.COMMAND, Ink.NUMBER, Ink.NUMBER, Ink.NUMBER, Ink.OPTION, Ink.COMMAND, Ink.TEXT]
+        Ink.COMMAND,
+        Ink.NUMBER,
+        Ink.NUMBER,
+        Ink.NUMBER,
+        Ink.OPTION,
+        Ink.COMMAND,
+        Ink.TEXT,
+    ]
     assert pieces("bolt place size") == [] and pieces("1in2")[0][1] == 1
 
 

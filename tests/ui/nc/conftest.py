@@ -17,5 +17,7 @@ def small(qtbot, wiring, tmp_path):
 def computed(qtbot, wiring):
     """The sample part, computed, and its program read."""
     wiring.files.open_sample()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT and nc_of(wiring).shown is not None, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: wiring.computation.state is State.CURRENT and nc_of(wiring).shown is not None, timeout=WAIT_MS
+    )
     return wiring

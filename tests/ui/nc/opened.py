@@ -11,5 +11,7 @@ def nc_of(wiring):
 def open_file(qtbot, wiring, path):
     """Open a program as the user would, and wait until it is read."""
     wiring.files.open_file(path)
-    qtbot.waitUntil(lambda: nc_of(wiring).shown is not None and nc_of(wiring).shown.source.path == path, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: nc_of(wiring).shown is not None and nc_of(wiring).shown.source.path == path, timeout=WAIT_MS
+    )
     return nc_of(wiring)

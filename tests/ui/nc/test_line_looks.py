@@ -12,7 +12,9 @@ from app.ui.views.nc.program_text import program_text
 from app.ui.views.nc.text_paint import LINE_PX
 from app.ui.views.nc.text_view import NcTextView
 
-PROGRAM = b"G21 G90 G17\nT2 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX40\nG0 Z5\nT1 M6\nG0 X0\nG1 Z-1\nG3 X0 Y20 J10\nG1 X9 Z5\nM2\n"
+PROGRAM = (
+    b"G21 G90 G17\nT2 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX40\nG0 Z5\nT1 M6\nG0 X0\nG1 Z-1\nG3 X0 Y20 J10\nG1 X9 Z5\nM2\n"
+)
 
 
 @pytest.fixture
@@ -24,7 +26,19 @@ def looks():
 
 def test_lines_tell_rapids_plunges_and_the_order_of_their_tool(looks):
     assert looks.by_tool.tolist() == [
-        NOTHING, NOTHING, RAPID, PLUNGE, CUT, RAPID, NOTHING, RAPID, PLUNGE, CUT + 1, CUT + 1, NOTHING]
+        NOTHING,
+        NOTHING,
+        RAPID,
+        PLUNGE,
+        CUT,
+        RAPID,
+        NOTHING,
+        RAPID,
+        PLUNGE,
+        CUT + 1,
+        CUT + 1,
+        NOTHING,
+    ]
 
 
 def test_lines_tell_the_kind_of_motion(looks):
@@ -32,11 +46,17 @@ def test_lines_tell_the_kind_of_motion(looks):
     assert kind_of(int(looks.by_motion[10])) is MotionKind.LINE
 
 
-@pytest.mark.parametrize(("colour", "row", "expected"), [
-    (PathColour.TOOL, 4, tool_colour(0, LIGHT)), (PathColour.TOOL, 9, tool_colour(1, LIGHT)), (PathColour.TOOL, 2, LIGHT.rapid),
-    (PathColour.MOTION, 9, motion_colour(MotionKind.ARC_CCW, LIGHT)), (PathColour.MOTION, 3, LIGHT.plunge),
-    (PathColour.TOOL, 0, LIGHT.canvas),
-])
+@pytest.mark.parametrize(
+    ("colour", "row", "expected"),
+    [
+        (PathColour.TOOL, 4, tool_colour(0, LIGHT)),
+        (PathColour.TOOL, 9, tool_colour(1, LIGHT)),
+        (PathColour.TOOL, 2, LIGHT.rapid),
+        (PathColour.MOTION, 9, motion_colour(MotionKind.ARC_CCW, LIGHT)),
+        (PathColour.MOTION, 3, LIGHT.plunge),
+        (PathColour.TOOL, 0, LIGHT.canvas),
+    ],
+)
 def test_bars_are_painted(qtbot, looks, colour, row, expected):
     view = NcTextView()
     qtbot.addWidget(view)

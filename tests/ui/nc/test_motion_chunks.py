@@ -1,4 +1,6 @@
-"""What is painted: contours in dashes that go on from block to block, and no way to a place that only the machine knows."""
+"""What is painted: contours in dashes that go on from block to block, and no way to a place that only the machine
+knows.
+"""
 
 from dataclasses import replace
 
@@ -50,7 +52,9 @@ def runs(on):
 @pytest.mark.parametrize("step", [40.0, 0.5, 0.13])
 def test_a_contour_is_dashed_evenly_whatever_its_blocks(colour, step):
     ends = np.minimum(np.arange(1, round(40 / step) + 1) * step, 40)
-    blocks = "".join(f"G{1 if k % 3 else 2} X{x:.3f} Y5{'' if k % 3 else ' R9999'}\n" for k, x in enumerate(ends.tolist()))
+    blocks = "".join(
+        f"G{1 if k % 3 else 2} X{x:.3f} Y5{'' if k % 3 else ' R9999'}\n" for k, x in enumerate(ends.tolist())
+    )
     on = row_of_pixels(shapes_of(f"{START}(Contour T1: depth 1 mm)\n{blocks}M2\n"), colour)
     lengths = runs(on)
     assert len(lengths) > 60
@@ -72,9 +76,15 @@ def test_a_second_pass_keeps_the_dashes_of_the_first():
 HOMING = "G21 G90\nG0 X1 Y1 Z5\nG1 Z0 F100\nX9 Z1\n{home}\nG0 X9 Y9\nG1 Z1\nX0 Y9 Z1\nM30\n"
 
 
-@pytest.mark.parametrize(("home", "dialect", "sides"), [
-    ("G53 G0 Z0", Dialect.LINUXCNC, (Side.XZ, Side.YZ)), ("G28 X4 Y4 Z7", Dialect.LINUXCNC, tuple(Side)),
-    ("G91 G28 Z0.\nG90", Dialect.FANUC, (Side.XZ, Side.YZ)), ("G30 X3 Y3 Z7", Dialect.LINUXCNC, tuple(Side))])
+@pytest.mark.parametrize(
+    ("home", "dialect", "sides"),
+    [
+        ("G53 G0 Z0", Dialect.LINUXCNC, (Side.XZ, Side.YZ)),
+        ("G28 X4 Y4 Z7", Dialect.LINUXCNC, tuple(Side)),
+        ("G91 G28 Z0.\nG90", Dialect.FANUC, (Side.XZ, Side.YZ)),
+        ("G30 X3 Y3 Z7", Dialect.LINUXCNC, tuple(Side)),
+    ],
+)
 def test_ways_to_the_machines_home_and_back_are_not_painted(home, dialect, sides):
     text = HOMING.format(home=home) if dialect is not Dialect.FANUC else HOMING.replace(" Z5", " Z5.").format(home=home)
     shapes = shapes_of(text, dialect)

@@ -45,7 +45,9 @@ def test_helix_climbs_evenly_through_all_its_turns():
 
 
 def test_spline_runs_through_its_ends_and_its_middle():
-    curve = Nurbs(np.array([[0, 0, 0], [5, 10, 0], [10, 0, 0]], float), np.ones(3), np.array([0, 0, 0, 1, 1, 1], float), 2)
+    curve = Nurbs(
+        np.array([[0, 0, 0], [5, 10, 0], [10, 0, 0]], float), np.ones(3), np.array([0, 0, 0, 1, 1, 1], float), 2
+    )
     motions = motions_of([(MotionKind.SPLINE, (10.0, 0.0, 0.0), 1)])
     object.__setattr__(motions, "splines", {0: curve})
     points = outline(shape_motions(NcProgram(motions)), 0)
@@ -55,8 +57,17 @@ def test_spline_runs_through_its_ends_and_its_middle():
 
 
 def test_looks_tell_rapids_plunges_and_cuts():
-    shapes = shape_motions(program_of([
-        (RAPID, (0, 0, 5), 1), (LINE, (0, 0, -1), 2), (LINE, (9, 0, -1), 3), (LINE, (9, 0, 5), 4), (LINE, (9, 5, 0), 5)]))
+    shapes = shape_motions(
+        program_of(
+            [
+                (RAPID, (0, 0, 5), 1),
+                (LINE, (0, 0, -1), 2),
+                (LINE, (9, 0, -1), 3),
+                (LINE, (9, 0, 5), 4),
+                (LINE, (9, 5, 0), 5),
+            ]
+        )
+    )
     assert shapes.look.tolist() == [Look.RAPID, Look.PLUNGE, Look.CUT, Look.CUT, Look.CUT]
 
 
@@ -72,7 +83,9 @@ def test_elements_begin_anew_after_a_gap_and_after_a_jump():
 
 
 def test_lines_of_loops_find_all_their_motions():
-    shapes = shape_motions(program_of([(LINE, (1, 0, 0), 5), (LINE, (2, 0, 0), 6), (LINE, (3, 0, 0), 5), (LINE, (4, 0, 0), 9)]))
+    shapes = shape_motions(
+        program_of([(LINE, (1, 0, 0), 5), (LINE, (2, 0, 0), 6), (LINE, (3, 0, 0), 5), (LINE, (4, 0, 0), 9)])
+    )
     assert shapes.of_rows(4, 4).tolist() == [0, 2]
     assert shapes.of_rows(4, 5).tolist() == [0, 2, 1]
     assert shapes.of_rows(6, 7).tolist() == []
@@ -80,8 +93,10 @@ def test_lines_of_loops_find_all_their_motions():
     assert shapes.before_row(3) is None
 
 
-@pytest.mark.parametrize(("side", "at", "found"), [
-    (Side.XY, (5, 0.2), 0), (Side.XZ, (10.1, 2), 1), (Side.YZ, (3, 5.1), 2), (Side.XY, (5, 3), None)])
+@pytest.mark.parametrize(
+    ("side", "at", "found"),
+    [(Side.XY, (5, 0.2), 0), (Side.XZ, (10.1, 2), 1), (Side.YZ, (3, 5.1), 2), (Side.XY, (5, 3), None)],
+)
 def test_nearest_motion_as_seen_from_a_side(side, at, found):
     shapes = shape_motions(program_of([(LINE, (10, 0, 0), 1), (LINE, (10, 0, 5), 2), (LINE, (10, 6, 5), 3)]))
     assert nearest_motion(shapes, side, at, 0.5) == found

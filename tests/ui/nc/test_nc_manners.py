@@ -1,4 +1,6 @@
-"""How the NC view shows things: only what differs of a second program, long paths in portions, no tools that draw, huge lines."""
+"""How the NC view shows things: only what differs of a second program, long paths in portions, no tools that draw, huge
+lines.
+"""
 
 import math
 
@@ -29,7 +31,11 @@ def hues(nc, theme_colour):
     nc.path.repaint_scene()
     image = nc.path.grab().toImage()
     x, y = np.meshgrid(np.arange(24, image.width()), np.arange(24, image.height()))
-    same = [(a, b) for a, b in zip(x.ravel().tolist(), y.ravel().tolist(), strict=True) if image.pixelColor(a, b) == theme_colour]
+    same = [
+        (a, b)
+        for a, b in zip(x.ravel().tolist(), y.ravel().tolist(), strict=True)
+        if image.pixelColor(a, b) == theme_colour
+    ]
     return np.array([nc.path.view.to_world(QPointF(a, b)) for a, b in same]).reshape(-1, 2)
 
 

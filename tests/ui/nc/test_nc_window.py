@@ -1,4 +1,6 @@
-"""The NC view in the window, on real programs and the real reader: line to path and back, find, problems, files, compare."""
+"""The NC view in the window, on real programs and the real reader: line to path and back, find, problems, files,
+compare.
+"""
 
 import math
 from dataclasses import replace

@@ -16,7 +16,10 @@ from tests.ui.nc.hand_made import program_of
 RAPID, LINE, CCW = MotionKind.RAPID, MotionKind.LINE, MotionKind.ARC_CCW
 FRAME = b"G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX80\nY80\nX0\nY0\nM2\n"
 TRIANGLE = b"G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX80\nY80\nX0 Y0\nM2\n"
-TWO = b"G21 G90\n(T1 flat 6 mm)\nT1 M6\n(Pocket T1: depth 1 mm)\nG1 X0 Y0 Z0 F100\nX9\n(Contour T1: depth 1 mm)\nY9\nG2 X0 Y0 R20\nM2\n"
+TWO = (
+    b"G21 G90\n(T1 flat 6 mm)\nT1 M6\n(Pocket T1: depth 1 mm)\nG1 X0 Y0 Z0 F100\nX9\n(Contour T1: depth 1 "
+    b"mm)\nY9\nG2 X0 Y0 R20\nM2\n"
+)
 
 
 def picture_of(data, side=Side.XY):
@@ -61,15 +64,25 @@ def test_a_key_without_lines_takes_no_room():
     assert beside_key(key_size([]), area) == (area, area)
 
 
-@pytest.mark.parametrize(("box", "within"), [
-    ((4, 4, 6, 6), True), ((0, 6, 3, 9), False), ((-1, -1, 11, 11), True), ((10.1, 0, 12, 20), False), ((-6, 12, -4, 22), False)])
+@pytest.mark.parametrize(
+    ("box", "within"),
+    [
+        ((4, 4, 6, 6), True),
+        ((0, 6, 3, 9), False),
+        ((-1, -1, 11, 11), True),
+        ((10.1, 0, 12, 20), False),
+        ((-6, 12, -4, 22), False),
+    ],
+)
 def test_a_slanting_line_comes_only_into_boxes_on_its_way(box, within):
     shapes = shape_motions(program_of([(RAPID, (0, 20, 5), 1), (RAPID, (0, 0, 0), 2), (LINE, (10, 10, 0), 3)]))
     assert cuts_within(shapes, Side.XY, box) is within
 
 
-@pytest.mark.parametrize(("box", "within"), [
-    ((-1, -1, 1, 1), False), ((4.5, -1, 5.5, 1), True), ((3.8, 3.8, 6, 6), False), ((3, 3, 4, 4), True)])
+@pytest.mark.parametrize(
+    ("box", "within"),
+    [((-1, -1, 1, 1), False), ((4.5, -1, 5.5, 1), True), ((3.8, 3.8, 6, 6), False), ((3, 3, 4, 4), True)],
+)
 def test_a_circle_is_where_its_line_is(box, within):
     shapes = shape_motions(program_of([(RAPID, (5, 0, 0), 1), (CCW, (5, 0, 0), 2, {"centre": (0, 0, 0)})]))
     assert cuts_within(shapes, Side.XY, box) is within
@@ -78,6 +91,13 @@ def test_a_circle_is_where_its_line_is(box, within):
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_the_key_tells_contours_by_their_dashes(theme):
     rows = picture_of(TWO).key(PathPaint(theme))
-    assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [("T1 flat 6 mm", False), ("T1 flat 6 mm, contour", True)]
+    assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [
+        ("T1 flat 6 mm", False),
+        ("T1 flat 6 mm, contour", True),
+    ]
     rows = picture_of(TWO).key(PathPaint(theme, PathColour.MOTION))
-    assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [("G1 line", False), ("G2 clockwise", False), ("Contour", True)]
+    assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [
+        ("G1 line", False),
+        ("G2 clockwise", False),
+        ("Contour", True),
+    ]

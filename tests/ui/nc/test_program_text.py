@@ -31,7 +31,9 @@ def test_a_piece_of_a_very_long_line_ends_with_it():
     assert (made.longest, made.length(1)) == (30, 1)
 
 
-@pytest.mark.parametrize(("position", "back", "row"), [(0, False, 0), (1, False, 2), (10, False, 0), (8, True, 0), (0, True, 2)])
+@pytest.mark.parametrize(
+    ("position", "back", "row"), [(0, False, 0), (1, False, 2), (10, False, 0), (8, True, 0), (0, True, 2)]
+)
 def test_finding_goes_round_both_ways(position, back, row):
     made = program_text(b"G1 X\ng2\nG1 Y\n")
     assert made.row_at(made.find("g1", position, back)) == row
@@ -51,8 +53,13 @@ def parts(line):
 
 def test_words_have_their_part():
     assert parts("N10 G1 X-1.5 F200 (feed) ; end") == [
-        ("N10", Part.LINE_NUMBER), ("G1", Part.COMMAND), (" X-1.5 ", Part.PLAIN), ("F200", Part.SETTING), ("(feed)", Part.COMMENT),
-        ("; end", Part.COMMENT)]
+        ("N10", Part.LINE_NUMBER),
+        ("G1", Part.COMMAND),
+        (" X-1.5 ", Part.PLAIN),
+        ("F200", Part.SETTING),
+        ("(feed)", Part.COMMENT),
+        ("; end", Part.COMMENT),
+    ]
 
 
 @pytest.mark.parametrize("line", ["o<bore> sub", "#<_depth> = [1 + #5]", "WHILE [#1 LT 5] DO1", "IF [#2 EQ 0] GOTO 10"])

@@ -134,12 +134,20 @@ def test_a_problem_is_underlined_marked_and_told(qtbot, view):
     plain = view.grab().toImage()
     image = problem_view(view).grab().toImage()
     y = 7 * LINE_PX + LINE_PX - 3
+
     def reddish(picture):
-        return sum(picture.pixelColor(x, y + d).red() > 1.5 * picture.pixelColor(x, y + d).green()
-                   for x in range(80, 110) for d in (-1, 0, 1))
+        return sum(
+            picture.pixelColor(x, y + d).red() > 1.5 * picture.pixelColor(x, y + d).green()
+            for x in range(80, 110)
+            for d in (-1, 0, 1)
+        )
+
     assert reddish(image) > reddish(plain) + 5
     right = view.viewport().width() - MARKS_PX // 2
-    marks = {image.pixelColor(right, y).name() for y in range(int(7 / 500 * image.height()), int(7 / 500 * image.height()) + 4)}
+    marks = {
+        image.pixelColor(right, y).name()
+        for y in range(int(7 / 500 * image.height()), int(7 / 500 * image.height()) + 4)
+    }
     assert LIGHT.error.name() in marks
     at = QPoint(100, 7 * LINE_PX + 5)
     QApplication.sendEvent(view.viewport(), QHelpEvent(QEvent.Type.ToolTip, at, view.viewport().mapToGlobal(at)))

@@ -90,7 +90,9 @@ def test_what_the_drawing_refuses_is_said_under_the_field_and_escape_brings_the_
     select(page, document, 2)
     field = page.properties.fields["sweep"]
     enter(qtbot, field, "400")
-    assert "less than 360" in field.reason.text() and field.reason.isVisible() and field.edit.property("wrong") == "true"
+    assert (
+        "less than 360" in field.reason.text() and field.reason.isVisible() and field.edit.property("wrong") == "true"
+    )
     assert document.part.curve(2) == Arc((10, 0), (0, 10), (0, 0))
     qtbot.keyClick(field.edit, Qt.Key.Key_Escape)
     assert field.edit.text() == "90.00" and field.edit.property("wrong") == "false"
@@ -113,7 +115,10 @@ def test_several_show_what_they_have_in_common(qtbot, page, document):
     select(page, document, 3, 4)
     fields = page.properties.fields
     assert list(fields) == ["radius", "diameter", "length"] and fields["radius"].edit.text() == "various"
-    assert page.properties.figures["Kinds"].value.text() == "2 circles" and page.properties.layer.box.currentText() == "holes"
+    assert (
+        page.properties.figures["Kinds"].value.text() == "2 circles"
+        and page.properties.layer.box.currentText() == "holes"
+    )
     enter(qtbot, fields["diameter"], "9")
     assert last(document) == "set diameter 9"
     assert [document.part.curve(n) for n in (3, 4)] == [Circle((5, 5), 4.5), Circle((50, 5), 4.5)]
@@ -150,7 +155,9 @@ def test_many_curves_are_added_up_while_the_window_lives(qtbot, page, document):
     figures = page.properties.figures
     qtbot.waitUntil(lambda: figures["Extent"].value.text() != "")
     one = curve_length(document.part.curve(5))
-    assert float(figures["Total length"].value.text().replace("\u2009", "").removesuffix(" mm")) == pytest.approx(1600 * one, abs=1e-2)
+    assert float(figures["Total length"].value.text().replace("\u2009", "").removesuffix(" mm")) == pytest.approx(
+        1600 * one, abs=1e-2
+    )
     document.run("move @100,0 5")
     page.refresh()
     qtbot.waitUntil(lambda: figures["Extent"].value.text() != "")
@@ -163,13 +170,19 @@ def test_a_dimension_tells_what_it_measures(page, document):
     document.load(type(document.job)(part))
     document.selection = frozenset({1})
     page.refresh()
-    assert {name: f.value.text() for name, f in page.properties.figures.items()} == {"Measures": "radius", "Figure": "R 5"}
+    assert {name: f.value.text() for name, f in page.properties.figures.items()} == {
+        "Measures": "radius",
+        "Figure": "R 5",
+    }
     assert list(page.properties.fields) == ["place"]
 
 
 def test_layers_show_their_state_and_a_click_draws_on_one(qtbot, page, document):
     rows = page.layers.rows_by_name
-    assert [(name, row.count.text(), row.property("chosen")) for name, row in rows.items()] == [("0", "2", "false"), ("holes", "2", "true")]
+    assert [(name, row.count.text(), row.property("chosen")) for name, row in rows.items()] == [
+        ("0", "2", "false"),
+        ("holes", "2", "true"),
+    ]
     assert rows["holes"].accessibleName() == "Layer holes, 2 curves, current"
     qtbot.mouseClick(rows["0"], Qt.MouseButton.LeftButton, pos=QPoint(150, 10))
     page.refresh()
@@ -187,7 +200,10 @@ def test_layers_are_dragged_and_stepped_into_another_order(qtbot, page, document
         page.refresh()
     qtbot.mouseRelease(row, Qt.MouseButton.LeftButton)
     assert list(page.layers.rows_by_name) == ["holes", "marks", "0"] == [layer.name for layer in document.part.layers]
-    assert [line.command for line in document.log[-2:]] == ['order layer "0" after "holes"', 'order layer "0" after "marks"']
+    assert [line.command for line in document.log[-2:]] == [
+        'order layer "0" after "holes"',
+        'order layer "0" after "marks"',
+    ]
     row.setFocus()
     qtbot.keyClick(row, Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
     page.refresh()
@@ -200,7 +216,12 @@ def test_layers_are_dragged_and_stepped_into_another_order(qtbot, page, document
 
 def test_eye_lock_and_colour_are_lines(qtbot, page, document):
     row = page.layers.rows_by_name["holes"]
-    for button, line in ((row.eye, 'hide "holes"'), (row.bolt, 'lock "holes"'), (row.eye, 'show "holes"'), (row.bolt, 'unlock "holes"')):
+    for button, line in (
+        (row.eye, 'hide "holes"'),
+        (row.bolt, 'lock "holes"'),
+        (row.eye, 'show "holes"'),
+        (row.bolt, 'unlock "holes"'),
+    ):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
         page.refresh()
         assert last(document) == line
@@ -234,7 +255,10 @@ def test_a_double_click_renames(qtbot, page, document):
     qtbot.keyClicks(row.edit, "bolt holes")
     qtbot.keyClick(row.edit, Qt.Key.Key_Return)
     page.refresh()
-    assert last(document) == 'rename layer "holes" to "bolt holes"' and list(page.layers.rows_by_name) == ["0", "bolt holes"]
+    assert last(document) == 'rename layer "holes" to "bolt holes"' and list(page.layers.rows_by_name) == [
+        "0",
+        "bolt holes",
+    ]
     row = page.layers.rows_by_name["bolt holes"]
     row.begin_rename()
     qtbot.keyClicks(row.edit, "x")
@@ -277,11 +301,20 @@ def test_the_menu_of_a_layer_puts_the_selection_there(page, document):
 
 def test_history_goes_back_and_forth_by_a_click_and_by_enter(qtbot, page, document):
     listed = page.history.list
-    assert [listed.item(at).text() for at in range(listed.count())] == ["Beginning", "Line", "Arc", "Layer", "Circle", "Circle"]
+    assert [listed.item(at).text() for at in range(listed.count())] == [
+        "Beginning",
+        "Line",
+        "Arc",
+        "Layer",
+        "Circle",
+        "Circle",
+    ]
     assert listed.currentRow() == 5
     qtbot.mouseClick(listed.viewport(), Qt.MouseButton.LeftButton, pos=listed.visualItemRect(listed.item(2)).center())
     page.refresh()
-    assert len(document.part.entities) == 2 and page.history.remark.text() == "3 taken back" and last(document) == "undo 3"
+    assert (
+        len(document.part.entities) == 2 and page.history.remark.text() == "3 taken back" and last(document) == "undo 3"
+    )
     assert listed.item(3).foreground().color() == LIGHT.muted and listed.item(2).foreground().color() == LIGHT.ink
     listed.setCurrentRow(5)
     qtbot.keyClick(listed, Qt.Key.Key_Return)

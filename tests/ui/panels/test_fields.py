@@ -11,15 +11,26 @@ from app.core.errors import HitofudeError
 from app.ui.framework.fields import Spec
 from app.ui.framework.section import Row
 
-_CONTROL, _ALT, _NONE = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.AltModifier, Qt.KeyboardModifier.NoModifier
+_CONTROL, _ALT, _NONE = (
+    Qt.KeyboardModifier.ControlModifier,
+    Qt.KeyboardModifier.AltModifier,
+    Qt.KeyboardModifier.NoModifier,
+)
 
 
-@pytest.mark.parametrize(("key", "modifier", "kept"), [
-    (Qt.Key.Key_D, _CONTROL, True), (Qt.Key.Key_Up, _ALT, True), (Qt.Key.Key_Down, _ALT, True), (Qt.Key.Key_Delete, _NONE, True),
-    (Qt.Key.Key_S, _CONTROL, False),
-])
+@pytest.mark.parametrize(
+    ("key", "modifier", "kept"),
+    [
+        (Qt.Key.Key_D, _CONTROL, True),
+        (Qt.Key.Key_Up, _ALT, True),
+        (Qt.Key.Key_Down, _ALT, True),
+        (Qt.Key.Key_Delete, _NONE, True),
+        (Qt.Key.Key_S, _CONTROL, False),
+    ],
+)
 def test_a_row_keeps_its_keys_from_the_windows_shortcuts(
-        qapp: QApplication, key: Qt.Key, modifier: Qt.KeyboardModifier, kept: bool) -> None:
+    qapp: QApplication, key: Qt.Key, modifier: Qt.KeyboardModifier, kept: bool
+) -> None:
     row = Row(QLabel("pocket"))
     event = QKeyEvent(QEvent.Type.ShortcutOverride, key, modifier)
     event.ignore()
@@ -27,16 +38,27 @@ def test_a_row_keeps_its_keys_from_the_windows_shortcuts(
     assert event.isAccepted() is kept
 
 
-@pytest.mark.parametrize(("spec", "text", "reason"), [
-    (Spec("Flutes", "", 1, 100, 0, False), "1.5", "Flutes is 1.5; use a whole number."),
-    (Spec("T number", "", 1, 9999, 0, False), "0", "T number is 0; use 1 to 9999."),
-    (Spec("Angle", "°", 0.06, 45, 2, False), "90", "Angle is 90°; use 0.06 to 45."),
-    (Spec("Speed", "rpm", 1, 200_000, 0, False), "100rpm", "Speed is in rpm; type the number alone."),
-    (Spec("Speed", "rpm", 1, 200_000, 0, False), "100 mm", "Speed is in rpm; type the number alone."),
-    (Spec("Flutes", "", 1, 100, 0, False), "2in", "Flutes has no unit; type the number alone."),
-    (Spec("Speed", "rpm", 1, 200_000, 0, False), "99999999", "The value is too large; numbers go up to 10 000 000."),
-    (Spec("Speed", "rpm", 1, 200_000, 0, False), "abc", "'abc' is no number; write a number such as 12.5 or 1in+8mm."),
-])
+@pytest.mark.parametrize(
+    ("spec", "text", "reason"),
+    [
+        (Spec("Flutes", "", 1, 100, 0, False), "1.5", "Flutes is 1.5; use a whole number."),
+        (Spec("T number", "", 1, 9999, 0, False), "0", "T number is 0; use 1 to 9999."),
+        (Spec("Angle", "°", 0.06, 45, 2, False), "90", "Angle is 90°; use 0.06 to 45."),
+        (Spec("Speed", "rpm", 1, 200_000, 0, False), "100rpm", "Speed is in rpm; type the number alone."),
+        (Spec("Speed", "rpm", 1, 200_000, 0, False), "100 mm", "Speed is in rpm; type the number alone."),
+        (Spec("Flutes", "", 1, 100, 0, False), "2in", "Flutes has no unit; type the number alone."),
+        (
+            Spec("Speed", "rpm", 1, 200_000, 0, False),
+            "99999999",
+            "The value is too large; numbers go up to 10 000 000.",
+        ),
+        (
+            Spec("Speed", "rpm", 1, 200_000, 0, False),
+            "abc",
+            "'abc' is no number; write a number such as 12.5 or 1in+8mm.",
+        ),
+    ],
+)
 def test_a_field_says_what_to_type(spec: Spec, text: str, reason: str) -> None:
     with pytest.raises(HitofudeError) as wrong:
         spec.read(text)

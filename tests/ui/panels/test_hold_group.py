@@ -76,13 +76,18 @@ def test_an_outline_of_its_own_stays_until_another_is_chosen(document, group) ->
 
 
 def test_every_named_holder_is_offered(group) -> None:
-    assert [group.holder.box.itemText(k) for k in range(group.holder.box.count())] == [UNKNOWN, *(each.name for each in named_holders())]
+    assert [group.holder.box.itemText(k) for k in range(group.holder.box.count())] == [
+        UNKNOWN,
+        *(each.name for each in named_holders()),
+    ]
 
 
 def test_the_drawing_shows_the_holder(document, group) -> None:
     def ink() -> int:
         image = group.picture.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
-        pixels = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())[:, : image.width()]
+        pixels = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())[
+            :, : image.width()
+        ]
         return int(np.sum(pixels != pixels[-1, -1]))
 
     bare = ink()

@@ -71,10 +71,14 @@ def test_the_list_holds_every_kind_with_its_icon_and_words(qtbot, panel):
     assert not library.add_button.isEnabled()
 
 
-@pytest.mark.parametrize(("kind", "about"), [
-    (ToolKind.FLAT, "Flat end mill, 2 flutes"), (ToolKind.DRILL, "Drill, 2 flutes, 118°"),
-    (ToolKind.V, "V cutter, 1 flute, 30°, tip 0.1 mm"),
-])
+@pytest.mark.parametrize(
+    ("kind", "about"),
+    [
+        (ToolKind.FLAT, "Flat end mill, 2 flutes"),
+        (ToolKind.DRILL, "Drill, 2 flutes, 118°"),
+        (ToolKind.V, "V cutter, 1 flute, 30°, tip 0.1 mm"),
+    ],
+)
 def test_what_a_tool_is_for_is_said_before_it_is_taken(panel, kind, about):
     panel.library.choose(next(tool for tool in panel.library.shown if tool.kind is kind and tool.diameter >= 3))
     lines = panel.library.details.text().splitlines()
@@ -92,10 +96,16 @@ def test_a_drill_is_put_into_the_job_and_drills(qtbot, document, panel, words):
     document.job.cutter(DrillOperation(Cut(added.number)))
 
 
-@pytest.mark.parametrize(("text", "found"), [
-    ("flat 1.5", ["Flat 1.5 mm"]), ("end mill flat 12 mm", ["Flat 12 mm"]), ("FLAT 8MM", ["Flat 8 mm"]),
-    ("drill 4.2", ["Drill 4.2 mm, M5 tap"]), ("v cutter 60", ["V 60 deg 6 mm"]),
-])
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("flat 1.5", ["Flat 1.5 mm"]),
+        ("end mill flat 12 mm", ["Flat 12 mm"]),
+        ("FLAT 8MM", ["Flat 8 mm"]),
+        ("drill 4.2", ["Drill 4.2 mm, M5 tap"]),
+        ("v cutter 60", ["V 60 deg 6 mm"]),
+    ],
+)
 def test_the_search_knows_words_and_diameters(qtbot, panel, text, found):
     search(qtbot, panel, text)
     assert [tool.name for tool in panel.library.shown] == found
@@ -189,8 +199,10 @@ def wiring(qtbot):
 
 def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, wiring):
     window = wiring.window_
-    for name, data in (("mine.csv", b"number,diameter_mm,name\n5,7.5,Own cutter\n"),
-                       ("lib.toml", write_tools("x.toml", ToolLibrary("Lib", (Tool(6, 9.5, name="Other"),))))):
+    for name, data in (
+        ("mine.csv", b"number,diameter_mm,name\n5,7.5,Own cutter\n"),
+        ("lib.toml", write_tools("x.toml", ToolLibrary("Lib", (Tool(6, 9.5, name="Other"),)))),
+    ):
         (tmp_path / name).write_bytes(data)
         wiring.tools.take(tmp_path / name)
         assert window.notice.text.text() == f"1 tool of {name} in the library."
@@ -221,7 +233,9 @@ def test_what_is_wrong_with_a_file_is_said_and_nothing_is_kept(tmp_path, wiring)
     assert not own_folder().exists()
 
 
-@pytest.mark.parametrize(("name", "units"), [("t.toml", Units.MM), ("t.csv", Units.MM), ("t.tbl", Units.MM), ("t.tbl", Units.INCH)])
+@pytest.mark.parametrize(
+    ("name", "units"), [("t.toml", Units.MM), ("t.csv", Units.MM), ("t.tbl", Units.MM), ("t.tbl", Units.INCH)]
+)
 def test_the_jobs_tools_are_exported(tmp_path, wiring, name, units):
     wiring.tools.write(tmp_path / name, units)
     library, _ = read_tools(name, (tmp_path / name).read_bytes(), units)
@@ -238,7 +252,10 @@ def test_every_kind_has_its_fields_and_can_be_cut_with(document, panel, kind):
     form.kind.box.activated.emit(list(KINDS).index(kind))
     tool = document.job.tools[1]
     assert (tool.kind, tool.tip_angle) == (kind, USUAL_ANGLES.get(kind, 0.0))
-    shown = {name for name, field in (("corner_radius", form.corner), ("tip_angle", form.angle), ("tip_diameter", form.tip))
-             if field.isVisible()}
+    shown = {
+        name
+        for name, field in (("corner_radius", form.corner), ("tip_angle", form.angle), ("tip_diameter", form.tip))
+        if field.isVisible()
+    }
     assert shown == shape_keys(kind)
     cutter_of(tool)

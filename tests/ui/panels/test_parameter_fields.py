@@ -1,4 +1,6 @@
-"""The form of an operation comes from the declarations: a parameter that is added shows by itself, and what it shows is what is set."""
+"""The form of an operation comes from the declarations: a parameter that is added shows by itself, and what it shows is
+what is set.
+"""
 
 import pytest
 
@@ -31,7 +33,11 @@ def test_the_fields_are_those_of_the_kind(form, kind):
     form.show_operation(job_of(kind), 0, None)
     shown = {key for key, each in form.fields.items() if not each.field.isHidden()}
     operation = job_of(kind).operations[0]
-    assert shown == {key for key, placed in parameters_of(kind).items() if placed.has_effect(operation)} - {"tool", "enabled", "tab_places"}
+    assert shown == {key for key, placed in parameters_of(kind).items() if placed.has_effect(operation)} - {
+        "tool",
+        "enabled",
+        "tab_places",
+    }
 
 
 def test_a_kind_from_outside_is_set_in_the_form(form):
@@ -47,7 +53,10 @@ def test_a_kind_from_outside_is_set_in_the_form(form):
     fields["grain"].buttons[Grain.ACROSS].click()
     fields["twice"].switch.click()
     (made,) = document.job.operations
-    assert {key: parameters_of(EngraveOperation)[key].of(made) for key in ASKED} == {**ASKED, "slant": pytest.approx(ASKED["slant"])}
+    assert {key: parameters_of(EngraveOperation)[key].of(made) for key in ASKED} == {
+        **ASKED,
+        "slant": pytest.approx(ASKED["slant"]),
+    }
     assert document.undo_name == "Change twice"
 
 

@@ -119,9 +119,13 @@ def test_the_paper_shows_the_line_where_it_will_be(qtbot, plotted) -> None:
     scale, middle = preview.px_per_mm, preview.width() / 2
     row = [y for y in range(preview.height()) if picture.pixelColor(round(middle), y).value() < 200]
     assert picture.pixelColor(round(middle - 55 * scale), row[len(row) // 2]).value() > 200
-    ys = [y for y in row if picture.pixelColor(round(middle - 48 * scale), y).value() < 200
-          and picture.pixelColor(round(middle + 48 * scale), y).value() < 200
-          and picture.pixelColor(round(middle - 55 * scale), y).value() > 240]
+    ys = [
+        y
+        for y in row
+        if picture.pixelColor(round(middle - 48 * scale), y).value() < 200
+        and picture.pixelColor(round(middle + 48 * scale), y).value() < 200
+        and picture.pixelColor(round(middle - 55 * scale), y).value() > 240
+    ]
     assert ys
 
 
@@ -186,7 +190,9 @@ def test_the_wheel_goes_nearer_where_the_mouse_is_and_f_shows_all(qtbot, plotted
     assert preview.px_per_mm == before
 
 
-@pytest.mark.parametrize(("text", "scale"), [("1:2", 0.5), ("2 : 1", 2.0), ("50%", 0.5), ("0.25", 0.25), ("1:2.5", 0.4)])
+@pytest.mark.parametrize(
+    ("text", "scale"), [("1:2", 0.5), ("2 : 1", 2.0), ("50%", 0.5), ("0.25", 0.25), ("1:2.5", 0.4)]
+)
 def test_scales_are_read_as_people_write_them(text: str, scale: float) -> None:
     assert read_scale(text) == scale
 

@@ -1,4 +1,5 @@
-"""A new user's whole job, by the real mouse: draws fig. 2, computes, looks, exports. `python -m … FOLDER` under an X display.
+"""A new user's whole job, by the real mouse: draws fig. 2, computes, looks, exports. `python -m … FOLDER` under an X
+display.
 
 What came of it stands in FOLDER: the NC program, the log and the part as .draw files, pictures, and counts.json.
 """
@@ -17,8 +18,29 @@ from app.ui.shell.start import build
 from app.ui.shell.views import View
 from tests.ui.real_mouse.hand import Hand
 
-OUTLINE = ("6,6", "60,6", "68,14", "68,30", "a", "76,38", "68,46", "68,60", "60,60", "60,70", "44,70", "a", "36,62", "28,70",
-           "20,76", "6,76", "6,50", "14,44", "14,34", "6,28", "close")
+OUTLINE = (
+    "6,6",
+    "60,6",
+    "68,14",
+    "68,30",
+    "a",
+    "76,38",
+    "68,46",
+    "68,60",
+    "60,60",
+    "60,70",
+    "44,70",
+    "a",
+    "36,62",
+    "28,70",
+    "20,76",
+    "6,76",
+    "6,50",
+    "14,44",
+    "14,34",
+    "6,28",
+    "close",
+)
 
 
 def draw(hand: Hand) -> None:

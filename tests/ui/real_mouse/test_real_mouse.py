@@ -1,4 +1,6 @@
-"""A whole job by the real mouse under a virtual display, in a process of its own: draw fig. 2 from nothing, compute, look, export."""
+"""A whole job by the real mouse under a virtual display, in a process of its own: draw fig. 2 from nothing, compute,
+look, export.
+"""
 
 import json
 import os
@@ -35,10 +37,21 @@ def _shape(curve: Curve) -> object:
 def job(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Do the job once; return the folder of what came of it."""
     if not (shutil.which("xvfb-run") and shutil.which("xdotool")):
-        pytest.skip("xvfb-run and xdotool are needed for a virtual display with a mouse: apt install xvfb xauth xdotool")
+        pytest.skip(
+            "xvfb-run and xdotool are needed for a virtual display with a mouse: apt install xvfb xauth xdotool"
+        )
     folder, root = tmp_path_factory.mktemp("job"), Path(__file__).resolve().parents[3]
     own = {"QT_QPA_PLATFORM": "xcb", "HITOFUDE_CONFIG": str(folder / "config"), "PYTHONPATH": str(root)}
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1400x900x24", sys.executable, "-m", "tests.ui.real_mouse.fig2_job", str(folder)]
+    command = [
+        "xvfb-run",
+        "-a",
+        "-s",
+        "-screen 0 1400x900x24",
+        sys.executable,
+        "-m",
+        "tests.ui.real_mouse.fig2_job",
+        str(folder),
+    ]
     run = subprocess.run(command, cwd=root, env=os.environ | own, capture_output=True, text=True, timeout=400)
     assert run.returncode == 0, run.stderr + (folder / "counts.json").read_text("utf-8")
     return folder

@@ -25,7 +25,9 @@ def test_a_whole_session_by_keys(qtbot, operator) -> None:
     operator.until(Ask.POCKET)
     filled = operator.screen.picture.copy()
     assert shown == [120, 201, 202, 203, 204, 205, 206, 207, 208, 130]
-    assert filled.sum() > 5 * shape.sum() and not (filled & shape).any(), "the screen is rewritten with what lies inside"
+    assert filled.sum() > 5 * shape.sum() and not (filled & shape).any(), (
+        "the screen is rewritten with what lies inside"
+    )
     operator.answer("2.5")
     assert operator.screen.prompt == "POCKET TOOL OVERLAP, MM [2.5]?"
     operator.answer()
@@ -45,11 +47,16 @@ def test_a_whole_session_by_keys(qtbot, operator) -> None:
 
 def check_modern_views(qtbot, wiring) -> None:
     job = wiring.document.job
-    assert [(type(each), job.tool(each.cut.tool).radius) for each in job.operations] == [(PocketOperation, 2.5), (ContourOperation, 1.25)]
+    assert [(type(each), job.tool(each.cut.tool).radius) for each in job.operations] == [
+        (PocketOperation, 2.5),
+        (ContourOperation, 1.25),
+    ]
     assert wiring.showing.view is View.PATHS
     qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
     assert wiring.computation.made.report.data["gouge"]["max_mm"] <= 1e-6
-    assert not wiring.computation.made.program.pitch_mm or not wiring.computation.made.program.given_up_mm, "computed exactly"
+    assert not wiring.computation.made.program.pitch_mm or not wiring.computation.made.program.given_up_mm, (
+        "computed exactly"
+    )
     wiring.document.undo()
     assert not wiring.document.part.entities, "undo brings back what was there before"
 
@@ -81,11 +88,18 @@ def test_a_click_puts_the_point_under_the_mouse(qtbot, operator) -> None:
     assert operator.screen.head[1] == "X 30 Y 60.5"
 
 
-@pytest.mark.parametrize(("ask", "bad", "told"), [
-    (Ask.SHAPE, "9", "? ENTER 1, 2 OR 3."), (Ask.SHAPE, "1", "? NOTHING IS DRAWN IN THE JOB. ENTER 2 OR 3."),
-    (Ask.CONTOUR, "ABC", "? "), (Ask.CONTOUR, "0", "OUT OF RANGE"), (Ask.CONTOUR, "99", "OUT OF RANGE"),
-    (Ask.POCKET, "-3", "OUT OF RANGE"), (Ask.OVERLAP, "6", "OUT OF RANGE"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("ask", "bad", "told"),
+    [
+        (Ask.SHAPE, "9", "? ENTER 1, 2 OR 3."),
+        (Ask.SHAPE, "1", "? NOTHING IS DRAWN IN THE JOB. ENTER 2 OR 3."),
+        (Ask.CONTOUR, "ABC", "? "),
+        (Ask.CONTOUR, "0", "OUT OF RANGE"),
+        (Ask.CONTOUR, "99", "OUT OF RANGE"),
+        (Ask.POCKET, "-3", "OUT OF RANGE"),
+        (Ask.OVERLAP, "6", "OUT OF RANGE"),
+    ],
+)
 def test_a_bad_answer_is_told_and_the_line_is_empty_again(operator, ask, bad, told) -> None:
     if ask is not Ask.SHAPE:
         operator.answer("2")

@@ -7,7 +7,17 @@ from app.raster.codes import PixelCode
 from app.raster.steps import Stage
 from app.raster.trace import Chain, trace
 from app.ui.views.session1986.glyphs import CELL, line_bits, spoken, wrapped
-from app.ui.views.session1986.screen import BOTTOM, COLUMNS, HEAD_PX, MARGIN_PX, PAGE_LINES, TALK_LINES, TOP, Screen, card
+from app.ui.views.session1986.screen import (
+    BOTTOM,
+    COLUMNS,
+    HEAD_PX,
+    MARGIN_PX,
+    PAGE_LINES,
+    TALK_LINES,
+    TOP,
+    Screen,
+    card,
+)
 from app.ui.views.session1986.stills import DASH, GAP, still_of
 
 CHARACTERS = "".join(chr(code) for code in range(32, 96))
@@ -45,7 +55,9 @@ def test_the_dialogue_never_runs_into_the_picture() -> None:
     assert not screen.bits()[TOP:BOTTOM].any()
     last = line_bits(screen.asked()[-1])
     row = BOTTOM + 3 + 9 * (TALK_LINES - 1)
-    assert np.array_equal(bits[row:row + CELL, MARGIN_PX:MARGIN_PX + last.shape[1]], last), "what is typed is always seen"
+    assert np.array_equal(bits[row : row + CELL, MARGIN_PX : MARGIN_PX + last.shape[1]], last), (
+        "what is typed is always seen"
+    )
 
 
 def test_the_head_is_dark_on_light() -> None:
@@ -58,7 +70,9 @@ def test_a_page_scrolls_back_to_its_first_line_and_no_further() -> None:
     end = screen.bits()
     screen.scroll(1000)
     first = line_bits("N0")
-    assert np.array_equal(screen.bits()[HEAD_PX + 4:HEAD_PX + 4 + CELL, MARGIN_PX:MARGIN_PX + first.shape[1]], first)
+    assert np.array_equal(
+        screen.bits()[HEAD_PX + 4 : HEAD_PX + 4 + CELL, MARGIN_PX : MARGIN_PX + first.shape[1]], first
+    )
     assert screen.up == 200 + 1 - PAGE_LINES
     screen.scroll(-1000)
     assert np.array_equal(screen.bits(), end)
@@ -69,7 +83,7 @@ def test_the_cross_hair_turns_points_over() -> None:
     screen.picture[50, 10] = True
     bits = screen.bits()
     assert bits[50, 11] and not bits[50, 10] and bits[100, 60] and not bits[50, 60]
-    assert not bits[BOTTOM + 1:, 60].any()
+    assert not bits[BOTTOM + 1 :, 60].any()
 
 
 def test_the_key_card_fits() -> None:

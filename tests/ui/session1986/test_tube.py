@@ -23,7 +23,9 @@ def seen(operator) -> np.ndarray:
     return np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.width(), 4).copy()
 
 
-@pytest.mark.parametrize(("size", "side"), [((1280, 800), 800), ((1920, 1080), 800), ((1300, 1210), 1200), ((1100, 700), 700)])
+@pytest.mark.parametrize(
+    ("size", "side"), [((1280, 800), 800), ((1920, 1080), 800), ((1300, 1210), 1200), ((1100, 700), 700)]
+)
 def test_points_are_whole_squares_where_two_or_more_fit(operator, size, side) -> None:
     operator.wiring.window_.resize(*size)
     rect = operator.tube.screen_rect()
@@ -31,7 +33,7 @@ def test_points_are_whole_squares_where_two_or_more_fit(operator, size, side) ->
     assert (rect.width(), rect.height()) == (side, side)
     if side % 400:
         return
-    lit = seen(operator)[rect.top():rect.bottom() + 1, rect.left():rect.right() + 1, 1] > 140
+    lit = seen(operator)[rect.top() : rect.bottom() + 1, rect.left() : rect.right() + 1, 1] > 140
     k = side // 400
     assert np.array_equal(lit, np.kron(operator.screen.bits(), np.ones((k, k), bool)))
 
@@ -75,8 +77,12 @@ def test_the_window_s_keys_rest(qtbot, operator) -> None:
     fired: list[str] = []
     for name in ("open", "export", "compute", "undo", "view_cut"):
         window.actions_[name].triggered.connect(lambda _=False, name=name: fired.append(name))
-    for key, modifiers in ((Qt.Key.Key_F5, Qt.KeyboardModifier.NoModifier), (Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier),
-                           (Qt.Key.Key_4, Qt.KeyboardModifier.ControlModifier), (Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)):
+    for key, modifiers in (
+        (Qt.Key.Key_F5, Qt.KeyboardModifier.NoModifier),
+        (Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier),
+        (Qt.Key.Key_4, Qt.KeyboardModifier.ControlModifier),
+        (Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier),
+    ):
         operator.key(key, modifiers)
     assert fired == [] and operator.screen.typed == ""
     window.canvas.setFocus()
@@ -108,4 +114,6 @@ def test_the_screen_after_each_process_looks_as_it_did_when_it_was_looked_at(ope
         cv2.imwrite(str(tmp_path / f"{name}.png"), bits.astype(np.uint8) * 255)
     for name, bits in pictures.items():
         expected = cv2.imread(str(SNAPSHOTS / f"{name}.png"), cv2.IMREAD_GRAYSCALE)
-        assert np.array_equal(bits[:_MEASURED], expected[:_MEASURED] > 0), f"the screen after {name} looks otherwise: {tmp_path}/{name}.png"
+        assert np.array_equal(bits[:_MEASURED], expected[:_MEASURED] > 0), (
+            f"the screen after {name} looks otherwise: {tmp_path}/{name}.png"
+        )

@@ -19,4 +19,6 @@ def staged(qtbot, wiring):
 
 def show_stages(qtbot, wiring):
     """Wait until the stages are there."""
-    qtbot.waitUntil(lambda: not wiring.staging.worker.busy and wiring.window_.views.stages.film is not None, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: not wiring.staging.worker.busy and wiring.window_.views.stages.film is not None, timeout=WAIT_MS
+    )

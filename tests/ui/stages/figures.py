@@ -1,7 +1,8 @@
-"""Figures 2 and 5 of the 1986 text, redrawn by the view itself: `python -m tests.ui.stages.figures` renews the stored ones.
+"""Figures 2 and 5 of the 1986 text, redrawn by the view itself: `python -m tests.ui.stages.figures` renews the stored
+ones.
 
-2a the shape, 2b its offset area filled, 2c the paths; 5a an offset contour, 5b its pixels, 5c the directions of the chain
-code, 5d the filled area with its marks. Look at them after they were renewed.
+2a the shape, 2b its offset area filled, 2c the paths; 5a an offset contour, 5b its pixels, 5c the directions of the
+chain code, 5d the filled area with its marks. Look at them after they were renewed.
 """
 
 from __future__ import annotations
@@ -114,21 +115,29 @@ def rose() -> QImage:
 
 def figures() -> dict[str, Callable[[], QImage]]:
     """Return how each figure is drawn, by its name."""
+
     def part(number: int) -> Callable[[], QImage]:
         return lambda: stage(view_of(sample_job(), 400), number)
 
     def small(number: int) -> Callable[[], QImage]:
         return lambda: stage(view_of(small_job(), _SMALL, _LARGE), number)
 
-    return {"2a": part(110), "2b": part(130), "2c": part(140), "5a": offset_contour,
-            "5b": small(201), "5c": rose, "5d": small(208)}
+    return {
+        "2a": part(110),
+        "2b": part(130),
+        "2c": part(140),
+        "5a": offset_contour,
+        "5b": small(201),
+        "5c": rose,
+        "5d": small(208),
+    }
 
 
 def pixels_of(image: QImage) -> np.ndarray:
     """Return an image as (rows, cols, 3) numbers."""
     image = image.convertToFormat(QImage.Format.Format_RGB888)
     data = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
-    return data[:, :3 * image.width()].reshape(image.height(), image.width(), 3).astype(np.int16)
+    return data[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(np.int16)
 
 
 def main() -> None:

@@ -12,7 +12,9 @@ DARK_INK, PAPER = 40, 230
 
 
 def scan(path: Path) -> Path:
-    """Write a frame with a ring in it, bars from the frame to the ring, which make T junctions, and a square; lines are 2 px wide."""
+    """Write a frame with a ring in it, bars from the frame to the ring, which make T junctions, and a square; lines are
+    2 px wide.
+    """
     picture = np.full((240, 360), PAPER, np.uint8)
     cv2.rectangle(picture, (20, 20), (220, 220), DARK_INK, 2)
     cv2.circle(picture, (120, 120), 50, DARK_INK, 2)

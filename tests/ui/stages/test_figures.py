@@ -1,4 +1,6 @@
-"""Figures 2a to 2c and 5a to 5d of the text as the view draws them: the same as the stored ones, which were looked at."""
+"""Figures 2a to 2c and 5a to 5d of the text as the view draws them: the same as the stored ones, which were looked
+at.
+"""
 
 import numpy as np
 import pytest
@@ -7,7 +9,9 @@ from PySide6.QtGui import QImage
 from tests.ui.stages.figures import FOLDER, figures, pixels_of
 
 _DIFFERENT, _SHARE = 60, 0.015
-"""How far a colour may be off before a pixel counts as another, and how many may be: letters look otherwise in another font."""
+"""How far a colour may be off before a pixel counts as another, and how many may be: letters look otherwise in another
+font.
+"""
 
 ALL = figures()
 
@@ -23,5 +27,6 @@ def test_a_figure_is_drawn_as_it_was_looked_at(qapp, tmp_path, name):
         got.save(str(tmp_path / f"fig{name}-got.png"))
         shades = np.ascontiguousarray(255 - np.minimum(difference, 255), np.uint8)
         QImage(shades.data, shades.shape[1], shades.shape[0], shades.shape[1], QImage.Format.Format_Grayscale8).save(
-            str(tmp_path / f"fig{name}-difference.png"))
+            str(tmp_path / f"fig{name}-difference.png")
+        )
     assert wrong <= _SHARE, f"{wrong:.1%} of the picture differs: see {tmp_path} and {FOLDER}"

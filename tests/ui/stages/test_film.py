@@ -36,7 +36,11 @@ def reel(job):
 
 def test_every_stage_comes_back_in_any_order(reel, planes):
     projector = Projector(reel.film)
-    order = [*range(len(planes)), *reversed(range(len(planes))), *np.random.default_rng(2).permutation(len(planes)).tolist()]
+    order = [
+        *range(len(planes)),
+        *reversed(range(len(planes))),
+        *np.random.default_rng(2).permutation(len(planes)).tolist(),
+    ]
     for at in order:
         projector.show(at)
         assert np.array_equal(projector.plane, planes[at].plane), at
@@ -58,7 +62,9 @@ def test_steps_and_parts_are_found(reel):
     last = max(k for k, still in enumerate(film.stills) if still.number == 301)
     assert film.seek_step(301, last) == first
     second = film.seek_part(first, 1)
-    assert {film.stills[first].region, film.stills[second].region} == {1, 2} and film.stills[second - 1].region == film.stills[first].region
+    assert {film.stills[first].region, film.stills[second].region} == {1, 2} and film.stills[
+        second - 1
+    ].region == film.stills[first].region
     assert film.seek_part(second, -1) == first
     assert film.seek_part(len(film) - 1, 1) == len(film) - 1 and film.seek_part(0, -1) == 0
 

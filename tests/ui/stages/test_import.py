@@ -28,6 +28,8 @@ from tests.ui.stages.scan import DARK_INK, PAPER, scan
 from tests.ui.stages.test_stages_view import type_value
 
 LEFT = Qt.MouseButton.LeftButton
+
+
 @pytest.fixture
 def opened(qtbot, wiring, tmp_path):
     wiring.files.open_file(scan(tmp_path / "scan.png"))
@@ -54,7 +56,11 @@ def test_a_picture_is_shown_as_it_is_read(opened):
     view = window.views.stages
     assert not view.rail.isVisible() and not view.player.isVisible() and not window.views.empty.isVisible()
     image, colours = view.pixels.grab().toImage(), inks(LIGHT)
-    for (col, row), code in (((300.5, 80.5), PixelCode.INSIDE), ((240.5, 150.5), PixelCode.EMPTY), ((20.5, 150.5), PixelCode.CONTOUR)):
+    for (col, row), code in (
+        ((300.5, 80.5), PixelCode.INSIDE),
+        ((240.5, 150.5), PixelCode.EMPTY),
+        ((20.5, 150.5), PixelCode.CONTOUR),
+    ):
         assert image.pixelColor(on_screen(opened, col, row)).name() == colours[code].name(), (col, row)
     assert panel.about.text().startswith(f"360 {TIMES} 240 px") and "300 dpi is a guess" in panel.told.text()
 
@@ -63,7 +69,10 @@ def test_doubtful_places_are_listed_marked_and_gone_to(qtbot, opened):
     window, panel = opened.window_, opened.window_.import_panel
     places = opened.picturing.preview.places
     assert len(places) == panel.list.count() >= 4 and panel.doubts.text() == f"{len(places)} doubtful places"
-    assert panel.list.item(0).text().startswith("Lines meet at column 12") and "more than two areas" in panel.list.item(0).toolTip()
+    assert (
+        panel.list.item(0).text().startswith("Lines meet at column 12")
+        and "more than two areas" in panel.list.item(0).toolTip()
+    )
     pixels = window.views.stages.pixels
     assert len(pixels.marks) == len(places)
     before = pixels.view.scale
@@ -88,7 +97,11 @@ def test_ink_can_be_told_otherwise(qtbot, opened):
     qtbot.mouseClick(panel.ink.buttons[Shows.AREAS], LEFT)
     areas = read(qtbot, opened)
     assert "ink itself is machined" in panel.kind.text()
-    assert areas.kind is Shows.AREAS and np.array_equal(areas.plane == PixelCode.INSIDE, lines.picture.ink) and not areas.places
+    assert (
+        areas.kind is Shows.AREAS
+        and np.array_equal(areas.plane == PixelCode.INSIDE, lines.picture.ink)
+        and not areas.places
+    )
     type_value(qtbot, panel.despeckle, "5000")
     assert read(qtbot, opened).picture.ink.sum() < lines.picture.ink.sum()
 
@@ -127,8 +140,13 @@ def test_a_used_picture_is_the_part_on_its_own_pixels(qtbot, opened):
     show_stages(qtbot, opened)
     view = window.views.stages
     assert view.rail.isVisible() and not panel.isVisible() and view.film.shape == (242, 362)
-    assert opened.document.job.tools == tools and opened.document.part.entities and window.file_label.text() == "scan.png"
-    assert f"picture's own 362 {TIMES} 242 px" in window.stages_panel.bitmap.text() and not window.stages_panel.points.isVisible()
+    assert (
+        opened.document.job.tools == tools and opened.document.part.entities and window.file_label.text() == "scan.png"
+    )
+    assert (
+        f"picture's own 362 {TIMES} 242 px" in window.stages_panel.bitmap.text()
+        and not window.stages_panel.points.isVisible()
+    )
     opened.compute()
     qtbot.waitUntil(lambda: opened.computation.state is State.CURRENT, timeout=60_000)
     made = opened.computation.made
@@ -180,7 +198,9 @@ def test_a_dropped_picture_is_taken_and_a_damaged_one_refused(qtbot, wiring, tmp
 def import_of(qtbot, wiring, path):
     """Read a picture and wait for its preview."""
     wiring.files.open_file(path)
-    qtbot.waitUntil(lambda: wiring.picturing.preview is not None and wiring.picturing.preview.reading.path == path, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: wiring.picturing.preview is not None and wiring.picturing.preview.reading.path == path, timeout=WAIT_MS
+    )
 
 
 def test_a_gap_is_named_at_one_place_everywhere(qtbot, wiring, tmp_path):

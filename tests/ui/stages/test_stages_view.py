@@ -21,8 +21,10 @@ from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
 
 LEFT = Qt.MouseButton.LeftButton
-STAR = ("line 71.97,51.1 88.07,62.27 68.48,61.94 76.83,79.66 60.04,69.56 58.41,89.1 "
-        "48.9,71.97 37.73,88.07 38.06,68.48 20.34,76.83 30.44,60.04 71.97,51.1")
+STAR = (
+    "line 71.97,51.1 88.07,62.27 68.48,61.94 76.83,79.66 60.04,69.56 58.41,89.1 "
+    "48.9,71.97 37.73,88.07 38.06,68.48 20.34,76.83 30.44,60.04 71.97,51.1"
+)
 
 
 def screen(view, row, col):
@@ -59,8 +61,16 @@ def test_the_tab_between_draw_and_paths_shows_the_first_step(qtbot, staged):
 
 def test_keys_step_and_the_rail_ticks_what_was_reached(qtbot, staged):
     view = staged.window_.views.stages
-    for key, number in ((Qt.Key.Key_Right, 120), (Qt.Key.Key_Right, 201), (Qt.Key.Key_Left, 120), (Qt.Key.Key_End, 407),
-                        (Qt.Key.Key_Home, 110), (Qt.Key.Key_PageDown, 201), (Qt.Key.Key_PageDown, 301), (Qt.Key.Key_PageUp, 201)):
+    for key, number in (
+        (Qt.Key.Key_Right, 120),
+        (Qt.Key.Key_Right, 201),
+        (Qt.Key.Key_Left, 120),
+        (Qt.Key.Key_End, 407),
+        (Qt.Key.Key_Home, 110),
+        (Qt.Key.Key_PageDown, 201),
+        (Qt.Key.Key_PageDown, 301),
+        (Qt.Key.Key_PageUp, 201),
+    ):
         qtbot.keyClick(view.pixels, key)
         assert view.still.number == number, key
     assert view.rail.now == 201 and view.rail.reached == {110, 120}
@@ -100,7 +110,9 @@ def test_pixels_have_their_codes_colours_and_say_what_they_are(qtbot, staged):
     for code in (PixelCode.R, PixelCode.TRACED, PixelCode.EMPTY):
         window = np.argwhere(view.plane == code)
         places = [screen(view, *place) for place in window.tolist()]
-        inside = next(p for p in places if 40 < p.x() < view.pixels.width() // 2 and 40 < p.y() < view.pixels.height() - 20)
+        inside = next(
+            p for p in places if 40 < p.x() < view.pixels.width() // 2 and 40 < p.y() < view.pixels.height() - 20
+        )
         assert image.pixelColor(inside + QPoint(-1, -1)).name() == inks[code].name(), code
     qtbot.mouseMove(view.pixels, screen(view, row, col))
     assert staged.window_.status.message.text() == f"Column {col}, row {row}: R, must not count"
@@ -112,8 +124,18 @@ def test_pixels_have_their_codes_colours_and_say_what_they_are(qtbot, staged):
 def test_wheel_zooms_at_the_mouse_f_fits_the_middle_button_pans(qtbot, staged):
     pixels = staged.window_.views.stages.pixels
     at, before = QPointF(300.0, 200.0), pixels.view
-    pixels.wheelEvent(QWheelEvent(at, pixels.mapToGlobal(at), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton,
-                                  Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False))
+    pixels.wheelEvent(
+        QWheelEvent(
+            at,
+            pixels.mapToGlobal(at),
+            QPoint(),
+            QPoint(0, 240),
+            Qt.MouseButton.NoButton,
+            Qt.KeyboardModifier.NoModifier,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        )
+    )
     assert pixels.view.scale > before.scale * 1.3
     assert pixels.view.to_world(at) == pytest.approx(before.to_world(at))
     held = pixels.view.to_world(QPointF(200, 150))
@@ -137,7 +159,9 @@ def test_raster_and_letters_come_when_pixels_are_large(qtbot, staged):
         pixels.zoom_by(px / (pitch * pixels.view.scale), at)
         middle, half = screen(view, row, col), round(px * 0.7)
         image = pixels.grab().toImage()
-        return len({image.pixel(middle.x() + dx, middle.y() + dy) for dx in range(-half, half) for dy in range(-half, half)})
+        return len(
+            {image.pixel(middle.x() + dx, middle.y() + dy) for dx in range(-half, half) for dy in range(-half, half)}
+        )
 
     assert colours(RASTER_PX - 2) == 1
     small, large = colours(RASTER_PX + 3), colours(LETTER_PX + 6)
@@ -172,7 +196,11 @@ def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
     qtbot.waitUntil(lambda: wiring.staging.reel.wish.published, timeout=WAIT_MS)
     view.show_stage(view.film.seek_step(208, -1))
     count = int(np.count_nonzero(view.still.wrong))
-    assert count > 100 and f"{count} pixels wrongly" in panel.wrong.text() and f"err in {count} pixels" in panel.sentence.text()
+    assert (
+        count > 100
+        and f"{count} pixels wrongly" in panel.wrong.text()
+        and f"err in {count} pixels" in panel.sentence.text()
+    )
     row, col = np.argwhere(view.still.wrong)[count // 2].tolist()
     view.pixels.zoom_by(5.0, QPointF(screen(view, row, col)))
     assert view.pixels.grab().toImage().pixelColor(screen(view, row, col)).name() == LIGHT.gouge.name()
@@ -233,7 +261,9 @@ def test_resolution_and_pitch_and_what_they_cost(qtbot, staged):
     qtbot.waitUntil(lambda: view.film is not None and view.film.shape == (200, 200), timeout=WAIT_MS)
     assert float(panel.pitch.edit.text()) == pytest.approx(52 / 196, abs=1e-4)
     type_value(qtbot, panel.pitch, "0.4")
-    qtbot.waitUntil(lambda: staged.staging.reel is not None and staged.staging.reel.part.frame.pitch == 0.4, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: staged.staging.reel is not None and staged.staging.reel.part.frame.pitch == 0.4, timeout=WAIT_MS
+    )
     assert panel.points.value == view.film.shape[0] == 134
     type_value(qtbot, panel.points, "50")
     assert panel.points.reason.isVisible() and "100 to 2000" in panel.points.reason.text()
@@ -307,7 +337,11 @@ def test_what_gets_no_path_is_said(qtbot, staged):
         before = staged.staging.reel
         staged.window_.panel.operations.switched.emit(index, False)
         qtbot.waitUntil(lambda reel=before: staged.staging.reel is not reel, timeout=WAIT_MS)
-    assert staged.window_.views.stages.rail.numbers == (110,) and "No operation" in panel.finding.text() and panel.finding.isVisible()
+    assert (
+        staged.window_.views.stages.rail.numbers == (110,)
+        and "No operation" in panel.finding.text()
+        and panel.finding.isVisible()
+    )
     staged.window_.panel.operations.switched.emit(2, True)
     staged.run("circle 60,5 1")
     qtbot.waitUntil(lambda: "has no room for T2" in panel.finding.text(), timeout=WAIT_MS)

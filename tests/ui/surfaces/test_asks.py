@@ -9,7 +9,15 @@ from app.formats.scene.toml import read_scene, sources_of
 from app.model.curves import Arc, Circle, Line, Spline
 from app.model.part import Entity, Part
 from app.ui.views.surfaces.asks import Kind, passes_asks, scene_asks, surface_asks, tool_asks
-from app.ui.views.surfaces.fresh import FROM_CURVES, KINDS, NEW_SCENE, fresh_passes, fresh_surface, fresh_tool, surface_from_curves
+from app.ui.views.surfaces.fresh import (
+    FROM_CURVES,
+    KINDS,
+    NEW_SCENE,
+    fresh_passes,
+    fresh_surface,
+    fresh_tool,
+    surface_from_curves,
+)
 from app.usecases.drawn_sections import drawn_sections
 from app.usecases.surface import compute
 from tests.conftest import ROOT
@@ -100,7 +108,15 @@ def test_a_new_scene_is_computed() -> None:
 def part() -> Part:
     arc = Arc((10.0, 0.0), (20.0, 10.0), (10.0, 10.0))
     spline = Spline(3, ((0.0, 30.0), (5.0, 36.0), (12.0, 28.0), (20.0, 31.0)), (0.0,) * 4 + (1.0,) * 4)
-    return Part((Entity(1, Line((0.0, 0.0), (10.0, 0.0))), Entity(2, arc), Entity(3, spline), Entity(4, Circle((50.0, 0.0), 5.0))), ("0",))
+    return Part(
+        (
+            Entity(1, Line((0.0, 0.0), (10.0, 0.0))),
+            Entity(2, arc),
+            Entity(3, spline),
+            Entity(4, Circle((50.0, 0.0), 5.0)),
+        ),
+        ("0",),
+    )
 
 
 def test_curves_of_a_drawing_are_taken_as_they_are_drawn() -> None:

@@ -74,7 +74,9 @@ def test_what_is_but_said_of_a_program_is_no_move_that_is_not_proven(qtbot, wiri
     wiring.files.open_file(resource("samples", "compound.toml"))
     proven(qtbot, wiring)
     work = wiring.scenes.work
-    assert work.findings and not any(finding.counts for finding in work.findings), "it slots the full block, and that is a remark"
+    assert work.findings and not any(finding.counts for finding in work.findings), (
+        "it slots the full block, and that is a remark"
+    )
     assert wiring.window_.status.badge.property("verdict") == Level.OK.value
 
 
@@ -286,9 +288,18 @@ def test_a_new_scene_is_computed_and_has_no_file(qtbot, wiring):
     assert wiring.window_.file_label.text() == "untitled.toml"
 
 
-@pytest.mark.parametrize(("before", "after"), [("a b c", "a x c"), ("", "new"), ("old", ""), ("aaa", "aaaa"),
-                                               ("a\U0001d400b", "a\U0001d400c"),
-                                               ("\U0001d400\U0001d401", "\U0001d401"), ("one\ntwo\n", "one\n\ntwo\n")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("a b c", "a x c"),
+        ("", "new"),
+        ("old", ""),
+        ("aaa", "aaaa"),
+        ("a\U0001d400b", "a\U0001d400c"),
+        ("\U0001d400\U0001d401", "\U0001d401"),
+        ("one\ntwo\n", "one\n\ntwo\n"),
+    ],
+)
 def test_replacing_text_is_one_step_that_can_be_undone(qtbot, before, after):
     document = SceneDocument()
     document.load(before, None)

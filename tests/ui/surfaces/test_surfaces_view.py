@@ -57,7 +57,9 @@ def test_every_move_is_in_one_strand(opened):
     shown = opened.window_.views.surfaces.shown
     moves = shown.computed.moves.moves
     known = np.isfinite(moves.start).all(axis=1)
-    long = sum(np.linalg.norm(np.diff(each.points, axis=0)[each.joined[:-1]], axis=1).sum() for each in shown.space.strands)
+    long = sum(
+        np.linalg.norm(np.diff(each.points, axis=0)[each.joined[:-1]], axis=1).sum() for each in shown.space.strands
+    )
     assert sum(int(each.joined.sum()) for each in shown.space.strands) == known.sum()
     assert long == pytest.approx(np.linalg.norm(moves.end - moves.start, axis=1)[known].sum(), rel=1e-12)
 
@@ -93,7 +95,9 @@ def test_the_section_is_what_lies_on_the_plane(opened):
     assert view.at.text() == f"5 / {len(view.shown.planes)}"
     assert sum(len(each.points) - 1 for each in top) == sum(len(run.owner) for run in runs)
     assert all(each.points[:, 1].max() == 0 for each in picture.strands)
-    nearest = np.array([min(np.hypot(*(each.points - mark)[:, [0, 2]].T).min() for each in top) for mark in picture.marks])
+    nearest = np.array(
+        [min(np.hypot(*(each.points - mark)[:, [0, 2]].T).min() for each in top) for mark in picture.marks]
+    )
     assert len(nearest)
     assert nearest.max() < 1e-9
 
@@ -204,8 +208,18 @@ def test_a_row_of_the_table_goes_to_its_plane(opened):
     assert text[4] == f"{page.model.points[7].place[2]:.3f}"
 
 
-@pytest.mark.parametrize(("suffix", "begins"), [(".ngc", b"(Scene compound)"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".png", b"\x89PNG"),
-                                                (".hpgl", b"IN;"), (".csv", b"kind,tool"), (".json", b"{")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("suffix", "begins"),
+    [
+        (".ngc", b"(Scene compound)"),
+        (".svg", b"<?xml"),
+        (".pdf", b"%PDF"),
+        (".png", b"\x89PNG"),
+        (".hpgl", b"IN;"),
+        (".csv", b"kind,tool"),
+        (".json", b"{"),
+    ],
+)
 def test_ctrl_e_writes_program_plot_table_or_report(qtbot, opened, tmp_path, suffix, begins):
     path = tmp_path / f"out{suffix}"
     opened.scene_export.choose_file = lambda first: path

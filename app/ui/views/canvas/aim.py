@@ -58,8 +58,8 @@ class Aim:
 def aim(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules) -> Aim:
     """Return where a running tool aims with the mouse at a point, mm.
 
-    Points of the drawing win over straightness, straightness over rays, rays over the raster; a free point is rounded to
-    the decimal below the size of a screen px, so that lines in the log stay short.
+    Points of the drawing win over straightness, straightness over rays, rays over the raster; a free point is rounded
+    to the decimal below the size of a screen px, so that lines in the log stay short.
     """
     found = _snapped(at, tool, picture, rules)
     drawn = None
@@ -79,7 +79,9 @@ def _drawn(at: Point, tool: DrawingTool, picture: PartPicture, rules: AimRules) 
     """Return where rays draw the mouse, by themselves or to where they meet a curve that may be snapped to."""
     candidates = rays(tool.base, rules.polar, rules.acquired)
     reach = REACH_PX / rules.scale
-    near = [*picture.near_curves(at, reach)[:MOST], *picture.near_guides(at, reach)] if candidates and rules.snap else []
+    near = (
+        [*picture.near_curves(at, reach)[:MOST], *picture.near_guides(at, reach)] if candidates and rules.snap else []
+    )
     return tracked(at, candidates, rules.scale, _digits(rules.scale), near)
 
 
@@ -90,7 +92,9 @@ def rounded(at: Point, scale: float) -> Point:
 
 
 def tidy(point: Point) -> Point:
-    """Return a point without the noise of its last digits: a coordinate that is a short decimal within 1e-10 mm becomes that."""
+    """Return a point without the noise of its last digits: a coordinate that is a short decimal within 1e-10 mm becomes
+    that.
+    """
     x, y = ((short if abs((short := round(value, 6) + 0.0) - value) <= 1e-10 else value) for value in point)
     return (x, y)
 

@@ -24,7 +24,8 @@ class Aiming(QObject):
         changed(): the mouse may aim elsewhere now.
 
     Attributes:
-        snap: to points of the drawing. grid: to the raster. ortho: only across and up; Shift is the opposite while it is held.
+        snap: to points of the drawing. grid: to the raster. ortho: only across and up; Shift is the opposite while it
+            is held.
         kinds: of points of the drawing that count. forced: the one kind that the next click takes, or None.
         polar: degrees between rays that draw the mouse, or None. tracking: whether points rested on draw it.
         acquired: those points.

@@ -63,7 +63,9 @@ class AroundPicture:
 
     def paint_clamps(self, painter: QPainter, view: View, box: Box, theme: Theme) -> None:
         """Paint the keep-out areas when they come into a box in mm; the painter works in screen px."""
-        if self._clamps.isEmpty() or not self._clamps.boundingRect().intersects(QRectF(box[0], box[1], box[2] - box[0], box[3] - box[1])):
+        if self._clamps.isEmpty() or not self._clamps.boundingRect().intersects(
+            QRectF(box[0], box[1], box[2] - box[0], box[3] - box[1])
+        ):
             return
         painter.save()
         painter.setTransform(view.transform(), True)
@@ -84,16 +86,23 @@ class AroundPicture:
         around = picture.lookup.box
         if around is None:
             return
-        seen = [(dx, dy) for dx, dy in self._copies.shifts[1:]
-                if around[0] + dx <= x1 and around[2] + dx >= x0 and around[1] + dy <= y1 and around[3] + dy >= y0]
+        seen = [
+            (dx, dy)
+            for dx, dy in self._copies.shifts[1:]
+            if around[0] + dx <= x1 and around[2] + dx >= x0 and around[1] + dy <= y1 and around[3] + dy >= y0
+        ]
         painter.save()
         painter.setOpacity(painter.opacity() * _FAINT)
         for dx, dy in seen:
             moved = view.panned(dx * view.scale, -dy * view.scale)
             if len(seen) <= MOST_DRAWN:
-                for _ in picture.curve_steps(painter, moved, (x0 - dx, y0 - dy, x1 - dx, y1 - dy), theme, without=self._layers):
+                for _ in picture.curve_steps(
+                    painter, moved, (x0 - dx, y0 - dy, x1 - dx, y1 - dy), theme, without=self._layers
+                ):
                     pass
             else:
                 painter.setPen(theme.ink)
-                painter.drawRect(QRectF(moved.to_screen((around[0], around[3])), moved.to_screen((around[2], around[1]))))
+                painter.drawRect(
+                    QRectF(moved.to_screen((around[0], around[3])), moved.to_screen((around[2], around[1])))
+                )
         painter.restore()

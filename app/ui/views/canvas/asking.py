@@ -48,8 +48,8 @@ class AskingTool(DrawingTool):
 
     Attributes:
         asks: the questions. form: the line, with `{0}` for the first answer, and `{word}` for a number or a toggle.
-        toggles: words that switch something on and off. numbers: words and first values of numbers that stay as they were set;
-            whole ones are counts, which Up and Down change, too.
+        toggles: words that switch something on and off. numbers: words and first values of numbers that stay as they
+            were set; whole ones are counts, which Up and Down change, too.
         no_lengths: those numbers that are counts or angles.
         once: the tool ends with its first line. keeps: so many answers stay for the next line.
         answers: given so far. setting: the number that is being asked for, or "".
@@ -133,7 +133,9 @@ class AskingTool(DrawingTool):
     def set_value(self, word: str, value: float) -> None:
         """Change a number of the tool; a count becomes a whole number from 1."""
         if self.desk is not None:
-            self.desk.numbers[f"{self.name} {word}"] = max(1, round(value)) if isinstance(self.numbers[word], int) else value
+            self.desk.numbers[f"{self.name} {word}"] = (
+                max(1, round(value)) if isinstance(self.numbers[word], int) else value
+            )
 
     def count_on(self, by: int) -> bool:
         """Change the count that is asked about, or the first one; return False where there is none."""
@@ -157,7 +159,7 @@ class AskingTool(DrawingTool):
     def made(self) -> str:
         """Return the line of the answers, and begin anew."""
         line = self.line_of(self.answers)
-        self._keep(self.answers[:self.keeps or (1 if self.asks[0].wants is Want.SELECTION else 0)])
+        self._keep(self.answers[: self.keeps or (1 if self.asks[0].wants is Want.SELECTION else 0)])
         return line
 
     def restore(self, answers: list[Answer]) -> None:
@@ -216,7 +218,9 @@ class AskingTool(DrawingTool):
         if self.wants in (Want.SELECTION, Want.WORDS) or (self.wants is Want.CURVE and under is None) or self.setting:
             return None
         measure = self.ask.measure
-        answer: Answer = under if under is not None else cursor if measure is None else round(measure(self.answers, cursor), 6)
+        answer: Answer = (
+            under if under is not None else cursor if measure is None else round(measure(self.answers, cursor), 6)
+        )
         given = [*self.answers, answer]
         if len(given) < sum(not ask.optional for ask in self.asks):
             return None
@@ -239,7 +243,7 @@ class AskingTool(DrawingTool):
         if self.asks[0].wants is not Want.SELECTION or len(self.selection) <= MOST_SHOWN:
             return ""
         chosen = sorted(self.selection)
-        return " " + ids_text(chosen[::-(-len(chosen) // MOST_SHOWN)])
+        return " " + ids_text(chosen[:: -(-len(chosen) // MOST_SHOWN)])
 
     def _keep(self, answers: Sequence[Answer]) -> None:
         self.answers = list(answers)
@@ -271,9 +275,11 @@ def distance_from(index: int) -> Callable[[Sequence[Answer], Point], float]:
 
 def direction_from(index: int) -> Callable[[Sequence[Answer], Point], float]:
     """Return the measure of the direction in which a point lies from an answer, degrees in [0, 360)."""
+
     def measure(answers: Sequence[Answer], point: Point) -> float:
         (x, y) = point_of(answers, index)
         return math.degrees(math.atan2(point[1] - y, point[0] - x)) % 360
+
     return measure
 
 

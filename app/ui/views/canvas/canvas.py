@@ -68,7 +68,11 @@ class Canvas(Hands):
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
         self.around = AroundPicture()
-        self._trial, self._trial_picture, self._preview_picture = Difference(), overlay.TrialPicture(), overlay.TrialPicture()
+        self._trial, self._trial_picture, self._preview_picture = (
+            Difference(),
+            overlay.TrialPicture(),
+            overlay.TrialPicture(),
+        )
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | Note | None = None
         self._lit_path = QPainterPath()
@@ -110,7 +114,9 @@ class Canvas(Hands):
         self.repaint_scene()
 
     def set_program(self, program: Program | ProgramPicture | None) -> None:
-        """Show these tool paths in PATHS; None shows none. A picture that another thread has prepared costs nothing here."""
+        """Show these tool paths in PATHS; None shows none. A picture that another thread has prepared costs nothing
+        here.
+        """
         self.look_at(None)
         self._program = ProgramPicture(program) if isinstance(program, Program) else program
         self.repaint_scene()
@@ -208,7 +214,9 @@ class Canvas(Hands):
     def far_box(self) -> Box | None:
         """The box of part and paths, where they are many."""
         program = self._shown_program
-        box = union([box for box in (self.picture.box, program.box if program is not None else None) if box is not None])
+        box = union(
+            [box for box in (self.picture.box, program.box if program is not None else None) if box is not None]
+        )
         return box if box is not None and self._elements(box) > MANY else None
 
     def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
@@ -290,7 +298,11 @@ class Canvas(Hands):
             return describe_entity(lit)
         if isinstance(lit, Note):
             return describe_note(lit)
-        return describe(self._program.shapes, lit, self.document.job) if lit is not None and self._program is not None else ""
+        return (
+            describe(self._program.shapes, lit, self.document.job)
+            if lit is not None and self._program is not None
+            else ""
+        )
 
     def _paint_marks(self, painter: QPainter) -> None:
         """Paint the places that are being marked by hand."""
@@ -308,7 +320,9 @@ class Canvas(Hands):
             return
         overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.aiming.acquired), self.area, theme)
         if isinstance(tool, CarryTool):
-            for _ in self.picture.selected_steps(painter, self._carried_view(tool, self.aim.point), theme.accent, self.area):
+            for _ in self.picture.selected_steps(
+                painter, self._carried_view(tool, self.aim.point), theme.accent, self.area
+            ):
                 pass
         preview = self.runner.preview(self.aim.point)
         self._preview_picture.paint(painter, self.view, preview.trial, theme)

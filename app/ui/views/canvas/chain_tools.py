@@ -45,7 +45,7 @@ class LineTool(DrawingTool):
     def after_undo(self, last: Point) -> None:
         """Go on from where the drawing ends now; the chain is cut there, or at its first point."""
         if last in self.points:
-            del self.points[self.points.index(last) + 1:]
+            del self.points[self.points.index(last) + 1 :]
         else:
             del self.points[1:]
 
@@ -84,7 +84,11 @@ class PolylineTool(DrawingTool):
         start = self.points[0] if self.points else None
         if point == start and len(self.points) > 2 and not self.arc:
             return self.word("close")
-        self.words += ["arc", point_text(self.via), point_text(point)] if self.arc and self.via is not None else [point_text(point)]
+        self.words += (
+            ["arc", point_text(self.via), point_text(point)]
+            if self.arc and self.via is not None
+            else [point_text(point)]
+        )
         self.points.append(point)
         self.arc, self.via = False, None
         return self.finish() if point == start and len(self.points) > 2 else None
@@ -110,7 +114,7 @@ class PolylineTool(DrawingTool):
         if self.arc:
             self.arc, self.via = self.via is not None, None
         elif self.points:
-            del self.points[-1:], self.words[-3 if self.words[-3:-2] == ["arc"] else -1:]
+            del self.points[-1:], self.words[-3 if self.words[-3:-2] == ["arc"] else -1 :]
         return None
 
     def line(self, points: list[Point]) -> str:

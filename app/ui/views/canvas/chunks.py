@@ -93,7 +93,12 @@ class PartChunks:
 def _differing(a: Chunk | None, b: Chunk | None) -> list[Box]:
     """Return the boxes of the entities that only one of two chunks has."""
     of = [dict(zip(c.entities, c.boxes.tolist(), strict=True)) if c is not None else {} for c in (a, b)]
-    return [(x0, y0, x1, y1) for own, other in (of, of[::-1]) for entity, (x0, y0, x1, y1) in own.items() if entity not in other]
+    return [
+        (x0, y0, x1, y1)
+        for own, other in (of, of[::-1])
+        for entity, (x0, y0, x1, y1) in own.items()
+        if entity not in other
+    ]
 
 
 def _by_number(entities: Iterable[Entity]) -> Iterable[tuple[int, Iterable[Entity]]]:

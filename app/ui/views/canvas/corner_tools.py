@@ -35,7 +35,10 @@ class BreakTool(AskingTool):
     """In two at a point, or without what lies between two."""
 
     name = "Break"
-    asks = (Ask("click a curve where it breaks", Want.CURVE), Ask("a second point, or Enter to break at one", optional=True))
+    asks = (
+        Ask("click a curve where it breaks", Want.CURVE),
+        Ask("a second point, or Enter to break at one", optional=True),
+    )
 
     @property
     def exact(self) -> bool:
@@ -56,7 +59,10 @@ class FilletTool(AskingTool):
     """An arc that touches two curves, on the sides where they are clicked."""
 
     name = "Fillet"
-    asks = (Ask("first curve, or the radius", Want.CURVE, sets="radius"), Ask("second curve, or the radius", Want.CURVE, sets="radius"))
+    asks = (
+        Ask("first curve, or the radius", Want.CURVE, sets="radius"),
+        Ask("second curve, or the radius", Want.CURVE, sets="radius"),
+    )
     numbers: ClassVar[Mapping[str, float]] = {"radius": 5.0}
     form = "fillet {radius} {0} {1}"
 
@@ -86,7 +92,10 @@ class ChamferTool(FilletTool):
     """A straight cut across the corner of two lines."""
 
     name = "Chamfer"
-    asks = (Ask("first line, or the size", Want.CURVE, sets="size"), Ask("second line, or the size", Want.CURVE, sets="size"))
+    asks = (
+        Ask("first line, or the size", Want.CURVE, sets="size"),
+        Ask("second line, or the size", Want.CURVE, sets="size"),
+    )
     numbers: ClassVar[Mapping[str, float]] = {"size": 2.0, "second": 0.0}
 
     def line_of(self, answers: Sequence[Answer]) -> str:

@@ -29,7 +29,9 @@ MANY = 5000
 
 
 def add_curves(path: QPainterPath, curves: Iterable[Curve]) -> None:
-    """Add curves to a path in mm; one that begins where the one before ends is joined to it, which looks finer and paints faster."""
+    """Add curves to a path in mm; one that begins where the one before ends is joined to it, which looks finer and
+    paints faster.
+    """
     at: Point | None = None
     for curve in curves:
         if curve.start != at:

@@ -144,7 +144,9 @@ class DrawingTool:
         return None
 
     def typed(self, value: float) -> str | None:
-        """Take a typed number that is no distance; return a finished line, "" when it was used, None when it is a distance."""
+        """Take a typed number that is no distance; return a finished line, "" when it was used, None when it is a
+        distance.
+        """
         return None
 
     def number(self, value: float, cursor: Point) -> Point | None:
@@ -214,7 +216,10 @@ def span_label(a: Point, b: Point, unit: float, sign: str = "L") -> str:
     """Return length and angle of the way from a to b."""
     if math.dist(a, b) < WELD:
         return ""
-    return f"{sign} {length_label(math.dist(a, b), unit)}   {math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360:.2f}°"
+    return (
+        f"{sign} {length_label(math.dist(a, b), unit)}   "
+        f"{math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360:.2f}°"
+    )
 
 
 def size_label(size: Point, unit: float) -> str:

@@ -65,7 +65,12 @@ class ScaleTool(AskingTool):
     """About a centre, by a factor or from one size to another."""
 
     name = "Scale"
-    asks = (CHOOSE, Ask("centre"), Ask("factor, or a point of the old size"), Ask("a point of the new size, or the factor"))
+    asks = (
+        CHOOSE,
+        Ask("centre"),
+        Ask("factor, or a point of the old size"),
+        Ask("a point of the new size, or the factor"),
+    )
     toggles = ("copy",)
     form = "scale {1} {2} {copy}"
     once = True
@@ -91,7 +96,9 @@ class ScaleTool(AskingTool):
         if len(self.answers) < 3:
             return shown
         centre, old = point_of(self.answers, 1), point_of(self.answers, 2)
-        return Preview(helpers=shown.helpers, label=f"\u00d7 {math.dist(centre, cursor) / max(math.dist(centre, old), WELD):.4f}")
+        return Preview(
+            helpers=shown.helpers, label=f"\u00d7 {math.dist(centre, cursor) / max(math.dist(centre, old), WELD):.4f}"
+        )
 
 
 @dataclass
@@ -110,7 +117,11 @@ class ArrayTool(AskingTool):
     """Columns and rows, by the way from one place to the next across and up."""
 
     name = "Array"
-    asks = (CHOOSE, Ask("base point, or how many columns", sets="columns"), Ask("that point in the next column and row, or @dx,dy"))
+    asks = (
+        CHOOSE,
+        Ask("base point, or how many columns", sets="columns"),
+        Ask("that point in the next column and row, or @dx,dy"),
+    )
     numbers: ClassVar[Mapping[str, float]] = {"columns": 3, "rows": 2}
     no_lengths = frozenset({"columns", "rows"})
     once = True
@@ -133,7 +144,9 @@ class ArrayPolarTool(AskingTool):
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `array polar P n [over angle]`."""
         over = self.value("over")
-        return f"array polar {answer_text(answers[1])} {int(self.value('places'))}" + ("" if over == 360 else f" over {over:g}")
+        return f"array polar {answer_text(answers[1])} {int(self.value('places'))}" + (
+            "" if over == 360 else f" over {over:g}"
+        )
 
 
 @dataclass
@@ -166,7 +179,9 @@ class OffsetTool(AskingTool):
     def _away(self, point: Point) -> float:
         """Return how far the selected curve nearest to a point lies from it, mm."""
         part = self.desk.document.part if self.desk is not None else None
-        curves = [curve for number in sorted(self.selection)[:100] if part and (curve := part.curve(number)) is not None]
+        curves = [
+            curve for number in sorted(self.selection)[:100] if part and (curve := part.curve(number)) is not None
+        ]
         return round(min((math.dist(foot(curve, point), point) for curve in curves), default=0.0), 6)
 
 

@@ -1,4 +1,6 @@
-"""Drawing tools that are their questions and a form of the line: arcs, circles, slots, polygons, ellipses, splines, notes, text."""
+"""Drawing tools that are their questions and a form of the line: arcs, circles, slots, polygons, ellipses, splines,
+notes, text.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,11 @@ class ArcRadiusTool(AskingTool):
     side: bool = True
     large: bool = False
     name = "Arc"
-    asks = (Ask("start point"), Ask("end point"), Ask("radius, or a point on the arc", measure=_radius_through, sign="R"))
+    asks = (
+        Ask("start point"),
+        Ask("end point"),
+        Ask("radius, or a point on the arc", measure=_radius_through, sign="R"),
+    )
 
     def follow(self, cursor: Point) -> None:
         """See on which side of the chord the mouse is, and whether beyond half a circle."""
@@ -43,7 +49,10 @@ class ArcRadiusTool(AskingTool):
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `arc start end radius r [cw] [large]`."""
         words = "" if self.side else " cw"
-        return f"arc {' '.join(map(answer_text, answers[:2]))} radius {answer_text(answers[2])}{words}{' large' if self.large else ''}"
+        return (
+            f"arc {' '.join(map(answer_text, answers[:2]))} radius "
+            f"{answer_text(answers[2])}{words}{' large' if self.large else ''}"
+        )
 
 
 @dataclass
@@ -83,13 +92,20 @@ class RoundRectangleTool(AskingTool):
     """Opposite corners, then the radius of the round ones."""
 
     name = "Rounded rectangle"
-    asks = (Ask("first corner"), Ask("opposite corner, or @width,height"),
-            Ask("radius of the corners, or a point as far from the corner", measure=distance_from(1), sign="R"))
+    asks = (
+        Ask("first corner"),
+        Ask("opposite corner, or @width,height"),
+        Ask("radius of the corners, or a point as far from the corner", measure=distance_from(1), sign="R"),
+    )
     form = "rect {0} {1} round {2}"
 
     def draft(self, cursor: Point, under: Pick | None) -> str | None:
         """Return the rectangle already before it is round."""
-        return f"rect {point_text(self.points[0])} {point_text(cursor)}" if len(self.answers) == 1 else super().draft(cursor, under)
+        return (
+            f"rect {point_text(self.points[0])} {point_text(cursor)}"
+            if len(self.answers) == 1
+            else super().draft(cursor, under)
+        )
 
     def helpers(self, cursor: Point) -> Preview:
         """Return width and height, then the radius."""
@@ -116,8 +132,13 @@ class SlotTool(AskingTool):
     """The centres of both ends, then the width."""
 
     name = "Slot"
-    asks = (Ask("centre of one end"), Ask("centre of the other end"),
-            Ask("width, or a point on its side", measure=lambda answers, point: 2 * distance_aside(answers, point), sign="W"))
+    asks = (
+        Ask("centre of one end"),
+        Ask("centre of the other end"),
+        Ask(
+            "width, or a point on its side", measure=lambda answers, point: 2 * distance_aside(answers, point), sign="W"
+        ),
+    )
     form = "slot {0} {1} {2}"
 
 
@@ -126,8 +147,11 @@ class EllipseTool(AskingTool):
     """Centre, end of a half axis, then the other half axis."""
 
     name = "Ellipse"
-    asks = (Ask("centre"), Ask("end of a half axis", sign="a"),
-            Ask("the other half axis, or a point as far", measure=distance_aside, sign="b"))
+    asks = (
+        Ask("centre"),
+        Ask("end of a half axis", sign="a"),
+        Ask("the other half axis, or a point as far", measure=distance_aside, sign="b"),
+    )
     form = "ellipse {0} {1} {2}"
 
 
@@ -242,7 +266,9 @@ class DimensionTool(AskingTool):
         if self.answers and isinstance(self.answers[0], Pick):
             return self.asks[-1]
         if "angle" in self.on and len(self.answers) < 3:
-            return (Ask("corner of the angle"), Ask("a point of the first side"), Ask("a point of the second side"))[len(self.answers)]
+            return (Ask("corner of the angle"), Ask("a point of the first side"), Ask("a point of the second side"))[
+                len(self.answers)
+            ]
         return super().ask
 
     @property
@@ -271,7 +297,9 @@ class DimensionTool(AskingTool):
         *what, place = answers
         way = "" if isinstance(what[0], Pick) or "angle" in self.on else " ".join(self.on)
         measured = str(what[0].id) if isinstance(what[0], Pick) else " ".join(map(answer_text, what))
-        return " ".join(f"dimension {'angle' if 'angle' in self.on else ''} {measured} place {answer_text(place)} {way}".split())
+        return " ".join(
+            f"dimension {'angle' if 'angle' in self.on else ''} {measured} place {answer_text(place)} {way}".split()
+        )
 
     def draft(self, cursor: Point, under: Pick | None) -> str | None:
         """Return the line with the figure at the mouse."""

@@ -52,7 +52,9 @@ def paint_raster(painter: QPainter, view: View, area: QRectF, theme: Theme, unit
 
 
 def paint_display(painter: QPainter, view: View, area: QRectF, frame: Frame, theme: Theme) -> None:
-    """Paint the display's cells when they are near, marks at its corners and its name: it is no stock, so it has no outline."""
+    """Paint the display's cells when they are near, marks at its corners and its name: it is no stock, so it has no
+    outline.
+    """
     x0, y0, x1, y1 = frame.extent
     outline = QRectF(view.to_screen((x0, y1)), view.to_screen((x1, y0)))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
@@ -71,7 +73,9 @@ def paint_display(painter: QPainter, view: View, area: QRectF, frame: Frame, the
     painter.setFont(text_font(_FONT_PX))
     name = f"{frame.cols} {TIMES} {frame.rows} display"
     at = QPointF(_px(outline.left()), _px(outline.top()) - 6)
-    if QFontMetricsF(painter.font()).horizontalAdvance(name) < outline.width() and area.adjusted(-400, -40, 40, 40).contains(at):
+    if QFontMetricsF(painter.font()).horizontalAdvance(name) < outline.width() and area.adjusted(
+        -400, -40, 40, 40
+    ).contains(at):
         painter.drawText(at, name)
 
 
@@ -104,7 +108,9 @@ def paint_rulers(painter: QPainter, view: View, size: QSize, theme: Theme, unit:
     for value in _multiples((RULER - view.ox) / view.scale, (width - view.ox) / view.scale, minor):
         _top_mark(painter, _px(view.ox + value * view.scale), _text_at(value / unit, major / unit), (tick, theme.muted))
     for value in _multiples((view.oy - height) / view.scale, (view.oy - RULER) / view.scale, minor):
-        _left_mark(painter, _px(view.oy - value * view.scale), _text_at(value / unit, major / unit), (tick, theme.muted))
+        _left_mark(
+            painter, _px(view.oy - value * view.scale), _text_at(value / unit, major / unit), (tick, theme.muted)
+        )
     painter.fillRect(QRectF(0, 0, RULER, RULER), theme.paper)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
@@ -156,8 +162,10 @@ def _paint_raster(painter: QPainter, view: View, area: QRectF, step: float, colo
     columns = [_px(view.ox + x * view.scale) for x in _multiples(x0, x1, step)]
     rows = [_px(view.oy - y * view.scale) for y in _multiples(y0, y1, step)]
     painter.setPen(_line(colour))
-    painter.drawLines([QLineF(x, area.top(), x, area.bottom()) for x in columns]
-                      + [QLineF(area.left(), y, area.right(), y) for y in rows])
+    painter.drawLines(
+        [QLineF(x, area.top(), x, area.bottom()) for x in columns]
+        + [QLineF(area.left(), y, area.right(), y) for y in rows]
+    )
 
 
 def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: Frame, theme: Theme) -> None:
@@ -170,8 +178,10 @@ def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: Frame, them
     columns = [frame.x0 + step for step in _multiples(x0 - frame.x0, x1 - frame.x0, frame.pitch)]
     rows = [frame.y0 + step for step in _multiples(y0 - frame.y0, y1 - frame.y0, frame.pitch)]
     painter.setPen(_line(colour))
-    painter.drawLines([QLineF(x, part.top(), x, part.bottom()) for x in (_px(view.ox + c * view.scale) for c in columns)]
-                      + [QLineF(part.left(), y, part.right(), y) for y in (_px(view.oy - r * view.scale) for r in rows)])
+    painter.drawLines(
+        [QLineF(x, part.top(), x, part.bottom()) for x in (_px(view.ox + c * view.scale) for c in columns)]
+        + [QLineF(part.left(), y, part.right(), y) for y in (_px(view.oy - r * view.scale) for r in rows)]
+    )
 
 
 def _multiples(first: float, last: float, step: float) -> Iterator[float]:

@@ -31,13 +31,17 @@ class Grips:
         self.points: tuple[Point, ...] = ()
 
     def update(self, document: Document, shown: bool) -> None:
-        """Take over a document's selection; one of more than 200 has none, nor have hidden and locked layers, nor has any unless shown."""
+        """Take over a document's selection; one of more than 200 has none, nor have hidden and locked layers, nor has
+        any unless shown.
+        """
         chosen, part = document.selection, document.part
         found: list[Grip] = []
         if shown and 0 < len(chosen) <= _MOST:
             shut = {layer.name for layer in part.layers if not layer.visible or layer.locked}
             found = [grip for e in reachable(part) if e.id in chosen for grip in grips(e.curve)]
-            found += [grip for n in part.notes if n.id in chosen and n.layer not in shut for grip in note_grips(n.shape)]
+            found += [
+                grip for n in part.notes if n.id in chosen and n.layer not in shut for grip in note_grips(n.shape)
+            ]
         self.points = tuple({(round(x, 6), round(y, 6)): (x, y) for x, y in (grip.at for grip in found)}.values())
 
     def at(self, point: Point, reach: float) -> Point | None:
@@ -66,7 +70,11 @@ class HeldTool(DrawingTool):
         dx, dy = cursor[0] - self.points[0][0], cursor[1] - self.points[0][1]
         if not dx and not dy:
             return Preview()
-        span, across, up = span_label(self.points[0], cursor, self.unit), length_label(dx, self.unit), length_label(dy, self.unit)
+        span, across, up = (
+            span_label(self.points[0], cursor, self.unit),
+            length_label(dx, self.unit),
+            length_label(dy, self.unit),
+        )
         return Preview(label=f"{span}\ndx {across}   dy {up}")
 
 
@@ -88,7 +96,9 @@ class PullTool(HeldTool):
 
     def show(self, cursor: Point) -> Preview:
         """Return what the curves would become, where they would be curves."""
-        made = self.trials.of(self.line([self.points[0], cursor])).difference if self.trials is not None else Difference()
+        made = (
+            self.trials.of(self.line([self.points[0], cursor])).difference if self.trials is not None else Difference()
+        )
         return replace(super().show(cursor), trial=replace(made, gone=()))
 
 
@@ -101,7 +111,10 @@ class CarryTool(HeldTool):
     @property
     def prompt(self) -> str:
         """What is expected next."""
-        return f"{'Copy' if self.keep else 'Move'}: where to; Ctrl copies; a length towards the mouse, or @dx,dy; Esc gives up"
+        return (
+            f"{'Copy' if self.keep else 'Move'}: where to; Ctrl copies; a length towards the mouse, or @dx,dy; Esc "
+            "gives up"
+        )
 
     def line(self, points: list[Point]) -> str:
         """Return `move @dx,dy` or `copy @dx,dy`."""

@@ -37,12 +37,14 @@ class Hands(Viewport):
     """A viewport that draws and selects in a document.
 
     Attributes:
-        aiming: what helps the mouse to aim. grips: of what is selected. turns: which of several things under the mouse is meant.
+        aiming: what helps the mouse to aim. grips: of what is selected. turns: which of several things under the mouse
+            is meant.
 
     Signals:
         cursor_moved: x, y under the mouse, mm. prompt_changed: what is expected next. tool_changed: CanvasTool.
         hovered: what lies under the mouse, or "". message: the sentence of an error.
-        key_typed: a character meant for the command line. menu_wanted: where on the screen the selection's menu is asked for.
+        key_typed: a character meant for the command line. menu_wanted: where on the screen the selection's menu is
+            asked for.
     """
 
     cursor_moved = Signal(float, float)
@@ -236,7 +238,9 @@ class Hands(Viewport):
         self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Esc cancels, Enter ends, Backspace takes a point back, Del deletes, F and Home fit, Space pans; the rest is text."""
+        """Esc cancels, Enter ends, Backspace takes a point back, Del deletes, F and Home fit, Space pans; the rest is
+        text.
+        """
         action = self._keys().get(Qt.Key(event.key()))
         commanding = bool(event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier))
         if commanding:
@@ -263,10 +267,17 @@ class Hands(Viewport):
 
     def _keys(self) -> dict[Qt.Key, Callable[[], None]]:
         return {
-            Qt.Key.Key_Escape: self.cancel, Qt.Key.Key_Return: self.accept, Qt.Key.Key_Enter: self.accept,
-            Qt.Key.Key_Delete: self.delete_selection, Qt.Key.Key_Backspace: self.back, Qt.Key.Key_Home: self.fit, Qt.Key.Key_F: self.fit,
-            Qt.Key.Key_Up: lambda: self._count_on(1), Qt.Key.Key_Down: lambda: self._count_on(-1),
-            Qt.Key.Key_Space: lambda: self._hold_space(True), Qt.Key.Key_Shift: lambda: self._hold_shift(True),
+            Qt.Key.Key_Escape: self.cancel,
+            Qt.Key.Key_Return: self.accept,
+            Qt.Key.Key_Enter: self.accept,
+            Qt.Key.Key_Delete: self.delete_selection,
+            Qt.Key.Key_Backspace: self.back,
+            Qt.Key.Key_Home: self.fit,
+            Qt.Key.Key_F: self.fit,
+            Qt.Key.Key_Up: lambda: self._count_on(1),
+            Qt.Key.Key_Down: lambda: self._count_on(-1),
+            Qt.Key.Key_Space: lambda: self._hold_space(True),
+            Qt.Key.Key_Shift: lambda: self._hold_shift(True),
         }
 
     def _count_on(self, by: int) -> None:
@@ -314,7 +325,9 @@ class Hands(Viewport):
         self._tell()
 
     def _take_hold(self, position: QPointF, adding: bool) -> None:
-        """Take what is under the mouse in hand: a grip at once, the selection as soon as the mouse moves, else begin a window."""
+        """Take what is under the mouse in hand: a grip at once, the selection as soon as the mouse moves, else begin a
+        window.
+        """
         reach = PICK_PX / self.view.scale
         grip = self.grips.at(self.view.to_world(position), GRIP_PX / self.view.scale)
         if grip is not None and not adding:

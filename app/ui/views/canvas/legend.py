@@ -80,7 +80,9 @@ class EngagedScale(QWidget):
         for k, share in enumerate(STEPS, 1):
             unit = " %" if k == len(STEPS) else ""
             aside = painter.fontMetrics().horizontalAdvance(unit) / 2
-            painter.drawText(QRectF(k * wide - 20 + aside, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f}{unit}")
+            painter.drawText(
+                QRectF(k * wide - 20 + aside, 14, 40, 14), Qt.AlignmentFlag.AlignCenter, f"{100 * share:.0f}{unit}"
+            )
 
 
 class Legend(QFrame):
@@ -117,7 +119,9 @@ class Legend(QFrame):
         column.addWidget(hairline())
         column.addSpacing(8)
         column.addWidget(muted("Colour by"))
-        self.colour = ChoiceField("", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region"), (ColourBy.ENGAGEMENT, "Load")])
+        self.colour = ChoiceField(
+            "", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region"), (ColourBy.ENGAGEMENT, "Load")]
+        )
         self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("How much of the diameter is engaged along the path")
         self.colour.show_value(ColourBy.TOOL)
         self.colour.chosen.connect(self._choose_colour)
@@ -139,7 +143,11 @@ class Legend(QFrame):
     def fit_into(self, room: int) -> None:
         """Fold when there are fewer px of height than the sheet needs, and unfold again when there are enough."""
         layout = self.layout()
-        folded_px = layout.minimumSize().height() if layout is not None and self.fold.isChecked() else self.height() - self.body.height()
+        folded_px = (
+            layout.minimumSize().height()
+            if layout is not None and self.fold.isChecked()
+            else self.height() - self.body.height()
+        )
         needed = folded_px + self.body.sizeHint().height()
         if needed > room and not self.fold.isChecked():
             self._folded_for_room = True
@@ -180,7 +188,9 @@ class Legend(QFrame):
         self.adjustSize()
 
     def show_job(self, job: Job) -> None:
-        """Name the tools of the paths, and have entries for rest machining and keep-out areas only when there are any."""
+        """Name the tools of the paths, and have entries for rest machining and keep-out areas only when there are
+        any.
+        """
         for sample in (Sample.POCKET, Sample.REST, Sample.CONTOUR):
             self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, sample)}".strip())
         self.rows[Sample.REST].setVisible(bool(_tools(job.operations, Sample.REST)))

@@ -1,4 +1,6 @@
-"""Snap points that take more than one curve to find: where near curves meet, feet and tangent points of the base, the nearest point."""
+"""Snap points that take more than one curve to find: where near curves meet, feet and tangent points of the base, the
+nearest point.
+"""
 
 from __future__ import annotations
 
@@ -47,9 +49,16 @@ def near_snaps(near: Near, kinds: frozenset[SnapKind]) -> list[Snap]:
     found: list[Snap] = []
     curves = [*near.curves[:MOST], *near.guides]
     if SnapKind.INTERSECTION in kinds:
-        found += (Snap(p, SnapKind.INTERSECTION) for a, b in combinations(curves, 2) for p in meets(a, b, within=near.box))
+        found += (
+            Snap(p, SnapKind.INTERSECTION) for a, b in combinations(curves, 2) for p in meets(a, b, within=near.box)
+        )
     if near.base is not None and SnapKind.PERPENDICULAR in kinds:
-        found += (Snap(p, SnapKind.PERPENDICULAR) for curve in curves if _may_stand_square(curve, near) for p in _feet(curve, near.base))
+        found += (
+            Snap(p, SnapKind.PERPENDICULAR)
+            for curve in curves
+            if _may_stand_square(curve, near)
+            for p in _feet(curve, near.base)
+        )
     if near.base is not None and SnapKind.TANGENT in kinds:
         found += (Snap(p, SnapKind.TANGENT) for curve in curves for p in _tangents(curve, near.base))
     if SnapKind.NEAREST in kinds:
@@ -58,7 +67,8 @@ def near_snaps(near: Near, kinds: frozenset[SnapKind]) -> list[Snap]:
 
 
 def forced(near: Near, kind: SnapKind, snaps: Iterable[Snap]) -> Snap | None:
-    """Return the point of one kind that near curves have, wherever on them it lies, or that is itself near; None without one.
+    """Return the point of one kind that near curves have, wherever on them it lies, or that is itself near; None
+    without one.
 
     Args:
         snaps: snap points of curves alone that lie within reach.
@@ -101,7 +111,9 @@ def _chords(curve: Curve, near: Near) -> Points:
 
 
 def _may_stand_square(curve: Curve, near: Near) -> bool:
-    """Return whether the way from the base to an ellipse or spline stands square on it within reach; True for other curves."""
+    """Return whether the way from the base to an ellipse or spline stands square on it within reach; True for other
+    curves.
+    """
     if not isinstance(curve, Ellipse | Spline) or near.base is None:
         return True
     chords = _chords(curve, near)

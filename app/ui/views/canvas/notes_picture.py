@@ -1,4 +1,6 @@
-"""Paints points, construction lines and dimensions, and tells where they are; arrows and figures have one size on the screen."""
+"""Paints points, construction lines and dimensions, and tells where they are; arrows and figures have one size on the
+screen.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +43,9 @@ class NotesPicture:
         hidden = {layer.name for layer in part.layers if not layer.visible}
         self.notes = tuple(note for note in part.notes if note.layer not in hidden)
         self._guides = [note.shape.line for note in self.notes if isinstance(note.shape, Guide)]
-        self._places = [grip.at for note in self.notes for grip in note_grips(note.shape) if not isinstance(note.shape, Guide)]
+        self._places = [
+            grip.at for note in self.notes for grip in note_grips(note.shape) if not isinstance(note.shape, Guide)
+        ]
         self._colours = {layer.name: layer.colour for layer in part.layers}
 
     def paint(self, painter: QPainter, view: View, area: QRectF, theme: Theme) -> None:
@@ -68,7 +72,9 @@ class NotesPicture:
 
 
 def note_distance(note: Note, at: Point, reach: float) -> float:
-    """Return how far a point is from what is painted of a note, mm; a figure counts as reached within some reaches of its place."""
+    """Return how far a point is from what is painted of a note, mm; a figure counts as reached within some reaches of
+    its place.
+    """
     shape = note.shape
     if isinstance(shape, Mark):
         return math.dist(shape.at, at)
@@ -111,7 +117,9 @@ def _paint_mark(painter: QPainter, at: QPointF, look: tuple[QColor, float]) -> N
 
 
 def _paint_guide(painter: QPainter, view: View, guide: Guide, look: tuple[QColor, float], area: QRectF) -> None:
-    """Paint the piece that is seen; its dashes begin at the point it goes through, so that they stay while the view moves."""
+    """Paint the piece that is seen; its dashes begin at the point it goes through, so that they stay while the view
+    moves.
+    """
     start, middle = view.to_screen(guide.through), area.center()
     way = QPointF(math.cos(guide.angle), -math.sin(guide.angle))
     along = QPointF.dotProduct(middle - start, way)

@@ -54,7 +54,9 @@ class TrialPicture:
         """Return the paths of what goes and of what comes, mm."""
         if trial is not self._trial:
             self._trial = trial
-            self._gone, self._added = (curve_path(*(entity.curve for entity in some)) for some in (trial.gone, trial.added))
+            self._gone, self._added = (
+                curve_path(*(entity.curve for entity in some)) for some in (trial.gone, trial.added)
+            )
         return self._gone, self._added
 
     def paint(self, painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
@@ -89,8 +91,12 @@ def paint_grips(painter: QPainter, view: View, points: Sequence[Point], hot: Poi
         painter.drawRect(QRectF(at.x() - _GRIP_HALF, at.y() - _GRIP_HALF, 2 * _GRIP_HALF, 2 * _GRIP_HALF))
 
 
-def paint_tracking(painter: QPainter, view: View, what: tuple[Tracked | None, Sequence[Acquired]], area: QRectF, theme: Theme) -> None:
-    """Paint the rays that draw the mouse, dotted from edge to edge, and small crosses at the points that were rested on."""
+def paint_tracking(
+    painter: QPainter, view: View, what: tuple[Tracked | None, Sequence[Acquired]], area: QRectF, theme: Theme
+) -> None:
+    """Paint the rays that draw the mouse, dotted from edge to edge, and small crosses at the points that were rested
+    on.
+    """
     tracked, acquired = what
     painter.setPen(screen_pen(painter, theme.accent_text, 1.2))
     for known in acquired:
@@ -157,8 +163,12 @@ def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) ->
     painter.drawRect(QRectF(start, end).normalized())
 
 
-def paint_highlight(painter: QPainter, view: View, path: QPainterPath, colours: tuple[QColor, QColor], width: float = 2.5) -> None:
-    """Paint a path in mm as the thing under the mouse: a broad band of the first colour with a fine line of the second in it."""
+def paint_highlight(
+    painter: QPainter, view: View, path: QPainterPath, colours: tuple[QColor, QColor], width: float = 2.5
+) -> None:
+    """Paint a path in mm as the thing under the mouse: a broad band of the first colour with a fine line of the second
+    in it.
+    """
     glow = QColor(colours[0])
     glow.setAlphaF(0.35)
     painter.save()

@@ -58,7 +58,9 @@ class PartPicture:
         """Take over another selection; return the boxes in mm of what is or was selected, None for everything."""
         rows = [row for row, entity in enumerate(self.lookup.entities) if entity.id in ids] if ids else []
         chosen = [self.lookup.entities[row] for row in rows]
-        self._selected = [curve_path(*(e.curve for e in chosen[at:at + _BATCH])) for at in range(0, len(chosen), _BATCH)]
+        self._selected = [
+            curve_path(*(e.curve for e in chosen[at : at + _BATCH])) for at in range(0, len(chosen), _BATCH)
+        ]
         before, self._selected_boxes = self._selected_boxes, [_box(row) for row in self.lookup.boxes[rows].tolist()]
         noted, self._selected_notes = self._selected_notes, tuple(note for note in self.notes.notes if note.id in ids)
         return None if noted or self._selected_notes else before + self._selected_boxes
@@ -94,9 +96,13 @@ class PartPicture:
         finally:
             painter.restore()
 
-    def curve_steps(self, painter: QPainter, view: View, box: Box, theme: Theme, *, without: tuple[str, ...] = ()) -> Iterator[None]:
+    def curve_steps(
+        self, painter: QPainter, view: View, box: Box, theme: Theme, *, without: tuple[str, ...] = ()
+    ) -> Iterator[None]:
         """Paint what lies in a box in mm, but for some layers, with pauses; the painter works in screen px."""
-        paths = [(layer, path) for chunk in self._seen(box) for layer, path in chunk.paths.items() if layer not in without]
+        paths = [
+            (layer, path) for chunk in self._seen(box) for layer, path in chunk.paths.items() if layer not in without
+        ]
         yield from self._path_steps(painter, view, paths, (theme, FINE if self.fine else PART_WIDTH))
 
     def coarse_steps(self, painter: QPainter, view: View, theme: Theme) -> Iterator[None]:
@@ -104,8 +110,9 @@ class PartPicture:
         paths = [layered for chunk in self.lookup.chunks for layered in chunk.paths.items()]
         yield from self._path_steps(painter, view, paths, (theme, FINE))
 
-    def _path_steps(self, painter: QPainter, view: View, paths: list[tuple[str, QPainterPath]],
-                    look: tuple[Theme, float]) -> Iterator[None]:
+    def _path_steps(
+        self, painter: QPainter, view: View, paths: list[tuple[str, QPainterPath]], look: tuple[Theme, float]
+    ) -> Iterator[None]:
         painter.save()
         try:
             painter.setTransform(view.transform(), True)
@@ -118,15 +125,20 @@ class PartPicture:
             painter.restore()
 
     def _seen(self, box: Box) -> list[Chunk]:
-        return [c for c in self.lookup.chunks
-                if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]]
+        return [
+            c
+            for c in self.lookup.chunks
+            if c.box[0] <= box[2] and c.box[2] >= box[0] and c.box[1] <= box[3] and c.box[3] >= box[1]
+        ]
 
     def nearest(self, at: Point, reach: float) -> Entity | Note | None:
         """Return what is nearest to a point within `reach` mm, not on a locked layer, or None."""
         return next(iter(self.candidates(at, reach)), None)
 
     def candidates(self, at: Point, reach: float) -> list[Entity | Note]:
-        """Return everything within `reach` mm of a point that is not on a locked layer, nearest first, of equals the latest drawn."""
+        """Return everything within `reach` mm of a point that is not on a locked layer, nearest first, of equals the
+        latest drawn.
+        """
         found: list[tuple[float, int, Entity | Note]] = []
         for entity in self._near(at, reach):
             if entity.layer not in self._locked and (distance := distance_to(entity.curve, at)) <= reach:
@@ -156,8 +168,12 @@ class PartPicture:
         return self._reached(self.lookup.boxes, at, reach)
 
     def _reached(self, boxes: NDArray[np.float64], at: Point, reach: float) -> list[Entity]:
-        near = ((boxes[:, 0] <= at[0] + reach) & (boxes[:, 2] >= at[0] - reach)
-                & (boxes[:, 1] <= at[1] + reach) & (boxes[:, 3] >= at[1] - reach))
+        near = (
+            (boxes[:, 0] <= at[0] + reach)
+            & (boxes[:, 2] >= at[0] - reach)
+            & (boxes[:, 1] <= at[1] + reach)
+            & (boxes[:, 3] >= at[1] - reach)
+        )
         return [self.lookup.entities[row] for row in np.flatnonzero(near)]
 
 

@@ -11,7 +11,9 @@ from .part_picture import PartPicture
 from .snap import SnapKind
 
 
-def aimed(at: Point, tool: DrawingTool, aiming: Aiming, picture: PartPicture, steps: tuple[float, float]) -> tuple[Aim | None, Pick | None]:
+def aimed(
+    at: Point, tool: DrawingTool, aiming: Aiming, picture: PartPicture, steps: tuple[float, float]
+) -> tuple[Aim | None, Pick | None]:
     """Return the point that a click gives, None where it selects, and the curve that it picks.
 
     Args:

@@ -45,7 +45,9 @@ class PathChunk:
 
 @dataclass(frozen=True)
 class _Runs:
-    """The runs of a program as columns: style number, bytes of painter path elements, box in mm, length of the piece before, mm."""
+    """The runs of a program as columns: style number, bytes of painter path elements, box in mm, length of the piece
+    before, mm.
+    """
 
     styles: list[PathStyle]
     style: list[int]
@@ -103,12 +105,16 @@ def plunges(shapes: MoveShapes) -> Floats:
 
 def _runs(shapes: MoveShapes) -> _Runs:
     m, first = shapes.moves, shapes.run[:-1]
-    keys = np.stack([m.purpose[first], m.operation[first], m.tool[first], m.region[first], shapes.step[first]], axis=1).astype(np.int64)
+    keys = np.stack(
+        [m.purpose[first], m.operation[first], m.tool[first], m.region[first], shapes.step[first]], axis=1
+    ).astype(np.int64)
     unique, style = np.unique(keys, axis=0, return_inverse=True)
     styles = [PathStyle(Purpose(purpose), *rest) for purpose, *rest in unique.tolist()]
     whole, at = shapes.elements.tobytes(), (shapes.offset[shapes.run] * ELEMENT.itemsize).tolist()
     data = [whole[a:b] for a, b in pairwise(at)]
-    boxes = np.hstack([np.minimum.reduceat(shapes.boxes[:, :2], first), np.maximum.reduceat(shapes.boxes[:, 2:], first)])
+    boxes = np.hstack(
+        [np.minimum.reduceat(shapes.boxes[:, :2], first), np.maximum.reduceat(shapes.boxes[:, 2:], first)]
+    )
     before = np.concatenate([[0.0], np.cumsum(shapes.length)])
     piece_first = shapes.first[shapes.piece[first]]
     begins_at = np.where(first > piece_first, before[first] - before[piece_first], 0.0)
@@ -119,4 +125,6 @@ def _runs(shapes: MoveShapes) -> _Runs:
 def _chunk(runs: _Runs, batch: list[int]) -> PathChunk:
     x0, y0, x1, y1 = zip(*(runs.boxes[run] for run in batch), strict=True)
     path = path_of(*(runs.data[run] for run in batch))
-    return PathChunk(runs.styles[runs.style[batch[0]]], path, (min(x0), min(y0), max(x1), max(y1)), runs.begins_at[batch[0]])
+    return PathChunk(
+        runs.styles[runs.style[batch[0]]], path, (min(x0), min(y0), max(x1), max(y1)), runs.begins_at[batch[0]]
+    )

@@ -33,7 +33,8 @@ class MoveShapes:
         piece: (n,) number of the piece it belongs to: neighbours of one operation, purpose, tool and region.
         first, last: (k,) range of moves of each piece, last excluded.
         run: (m + 1,) first move of each run: at most 96 moves of one piece and step; the last entry is n.
-        elements: painter path elements of all moves, each run begun by a MOVE_TO. offset: (n + 1,) where each move's begin.
+        elements: painter path elements of all moves, each run begun by a MOVE_TO. offset: (n + 1,) where each move's
+            begin.
     """
 
     moves: Moves
@@ -54,11 +55,13 @@ class MoveShapes:
         piece = self.piece[move]
         first, last = max(int(self.first[piece]), move - _LIT), min(int(self.last[piece]), move + _LIT)
         head = np.array([(MOVE_TO, self.start[first, 0], self.start[first, 1])], dtype=ELEMENT)
-        return path_of(head.tobytes(), self.elements[self.offset[first]:self.offset[last]].tobytes())
+        return path_of(head.tobytes(), self.elements[self.offset[first] : self.offset[last]].tobytes())
 
 
 def shape_moves(moves: Moves, step: Ints | None = None) -> MoveShapes:
-    """Return the moves prepared for painting and picking; `step` (n,) parts runs, but not the pieces that dashes run along."""
+    """Return the moves prepared for painting and picking; `step` (n,) parts runs, but not the pieces that dashes run
+    along.
+    """
     step = np.zeros(len(moves), np.int64) if step is None else step
     start, sweep, length = moves.start, moves.sweeps(), moves.lengths()
     key = np.stack([moves.operation, moves.purpose, moves.tool, moves.region]).astype(np.int64)
@@ -75,7 +78,9 @@ def shape_moves(moves: Moves, step: Ints | None = None) -> MoveShapes:
 
 
 def _elements(moves: Moves, start: Floats, sweep: Floats, heads: NDArray[np.bool_]) -> tuple[Elements, Ints]:
-    """Return painter path elements of all moves, and where each move's begin: lines one, arcs three a piece, runs one more."""
+    """Return painter path elements of all moves, and where each move's begin: lines one, arcs three a piece, runs one
+    more.
+    """
     arcs = moves.kind >= MoveKind.ARC_CW
     pieces = np.where(arcs, np.maximum(1, np.ceil(np.abs(sweep) / PIECE - 1e-9)), 0).astype(np.int64)
     offset = np.concatenate([[0], np.cumsum(np.where(arcs, 3 * pieces, 1) + heads)]).astype(np.int64)

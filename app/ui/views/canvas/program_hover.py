@@ -12,9 +12,17 @@ from ....model.job import Job
 from ....model.moves import MoveKind, Purpose
 from .program_geometry import MoveShapes
 
-_NAMES = {Purpose.RAPID: "Rapid", Purpose.PLUNGE: "Plunge", Purpose.CONTOUR: "Contour", Purpose.POCKET: "Pocket",
-          Purpose.LINK: "Link", Purpose.LEAD: "Lead", Purpose.DRILL: "Drill", Purpose.TAB: "Tab",
-          Purpose.DOG_BONE: "Dog-bone"}
+_NAMES = {
+    Purpose.RAPID: "Rapid",
+    Purpose.PLUNGE: "Plunge",
+    Purpose.CONTOUR: "Contour",
+    Purpose.POCKET: "Pocket",
+    Purpose.LINK: "Link",
+    Purpose.LEAD: "Lead",
+    Purpose.DRILL: "Drill",
+    Purpose.TAB: "Tab",
+    Purpose.DOG_BONE: "Dog-bone",
+}
 
 
 def nearest_move(shapes: MoveShapes, at: Point, reach: float, purposes: frozenset[Purpose]) -> int | None:
@@ -26,8 +34,12 @@ def nearest_move(shapes: MoveShapes, at: Point, reach: float, purposes: frozense
         purposes: moves for other purposes are passed over.
     """
     boxes = shapes.boxes
-    near = ((boxes[:, 0] <= at[0] + reach) & (boxes[:, 2] >= at[0] - reach)
-            & (boxes[:, 1] <= at[1] + reach) & (boxes[:, 3] >= at[1] - reach))
+    near = (
+        (boxes[:, 0] <= at[0] + reach)
+        & (boxes[:, 2] >= at[0] - reach)
+        & (boxes[:, 1] <= at[1] + reach)
+        & (boxes[:, 3] >= at[1] - reach)
+    )
     rows = np.flatnonzero(near)
     rows = rows[np.isin(shapes.moves.purpose[rows], [int(p) for p in purposes])]
     if not len(rows):
@@ -41,7 +53,7 @@ def describe(shapes: MoveShapes, move: int, job: Job) -> str:
     """Return what a move is: operation, tool, feed, length, Z."""
     moves = shapes.moves
     piece = shapes.piece[move]
-    whole = float(shapes.length[shapes.first[piece]:shapes.last[piece]].sum())
+    whole = float(shapes.length[shapes.first[piece] : shapes.last[piece]].sum())
     number = int(moves.tool[move])
     tool = next((f"T{number} {t.label}" for t in job.tools if t.number == number), f"T{number}")
     words = [_name(int(moves.operation[move]), Purpose(int(moves.purpose[move])), job), tool]
@@ -49,7 +61,9 @@ def describe(shapes: MoveShapes, move: int, job: Job) -> str:
         words.append(f"region {int(moves.region[move])}")
     if moves.kind[move] != MoveKind.RAPID:
         words.append(f"F {moves.feed[move]:g}")
-    words.append(f"{shapes.length[move]:.3f}" + (f" of {whole:.3f} mm" if whole > shapes.length[move] + 5e-4 else " mm"))
+    words.append(
+        f"{shapes.length[move]:.3f}" + (f" of {whole:.3f} mm" if whole > shapes.length[move] + 5e-4 else " mm")
+    )
     if moves.kind[move] >= MoveKind.ARC_CW:
         words.append(f"R {math.dist(moves.end[move, :2], moves.centre[move]):.3f}")
     return " · ".join([*words, f"Z {moves.end[move, 2]:.3f}"])

@@ -30,9 +30,15 @@ if TYPE_CHECKING:
 CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH, TAB_WIDTH = 1.6, 1.0, 1.0, 5.0
 CONTOUR_DASHES, RAPID_DOTS = (6.0, 3.6), (1.2, 2.6)
 _LAYER_OF = {
-    Purpose.RAPID: PathLayers.RAPID, Purpose.PLUNGE: PathLayers.PLUNGE, Purpose.CONTOUR: PathLayers.CONTOUR,
-    Purpose.POCKET: PathLayers.POCKET, Purpose.LINK: PathLayers.LINK, Purpose.LEAD: PathLayers.LEAD,
-    Purpose.DRILL: PathLayers.PLUNGE, Purpose.TAB: PathLayers.CONTOUR, Purpose.DOG_BONE: PathLayers.CONTOUR,
+    Purpose.RAPID: PathLayers.RAPID,
+    Purpose.PLUNGE: PathLayers.PLUNGE,
+    Purpose.CONTOUR: PathLayers.CONTOUR,
+    Purpose.POCKET: PathLayers.POCKET,
+    Purpose.LINK: PathLayers.LINK,
+    Purpose.LEAD: PathLayers.LEAD,
+    Purpose.DRILL: PathLayers.PLUNGE,
+    Purpose.TAB: PathLayers.CONTOUR,
+    Purpose.DOG_BONE: PathLayers.CONTOUR,
 }
 _THIN = (Purpose.LINK, Purpose.LEAD, Purpose.PLUNGE)
 _MANY_PLUNGES, _RING_PX = 300, 10.0
@@ -118,7 +124,9 @@ class ProgramPicture:
             for chunk in (self._chunks[k] for k in self._seen(box, look.layers)):
                 pen = self._pen(painter, chunk.style, look, look.fine)
                 if chunk.begins_at:
-                    pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
+                    pen.setDashOffset(
+                        chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF()
+                    )
                 painter.setPen(pen)
                 painter.drawPath(chunk.path)
                 yield
@@ -173,8 +181,11 @@ class ProgramPicture:
             painter.fillPath(path, colour)
 
 
-def paint_plunges(painter: QPainter, view: View, places: NDArray[np.float64], box: Box, colours: tuple[QColor, QColor]) -> None:
-    """Paint a ring where a tool plunges; many of them are dots, and of rings that would cover one another one is painted.
+def paint_plunges(
+    painter: QPainter, view: View, places: NDArray[np.float64], box: Box, colours: tuple[QColor, QColor]
+) -> None:
+    """Paint a ring where a tool plunges; many of them are dots, and of rings that would cover one another one is
+    painted.
 
     Args:
         painter: works in screen px.

@@ -36,7 +36,9 @@ class ArcCentreTool(DrawingTool):
     def line(self, points: list[Point]) -> str:
         """Return `arc start end centre c [cw]`, the end brought onto the circle."""
         arc = self._arc(points)
-        return f"arc {point_text(arc.start)} {point_text(arc.end)} centre {point_text(points[0])}" + ("" if arc.ccw else " cw")
+        return f"arc {point_text(arc.start)} {point_text(arc.end)} centre {point_text(points[0])}" + (
+            "" if arc.ccw else " cw"
+        )
 
     def show(self, cursor: Point) -> Preview:
         """Return the radius, then the arc."""
@@ -90,7 +92,9 @@ class CircleTool(DrawingTool):
     def show(self, cursor: Point) -> Preview:
         """Return the circle with its radius."""
         radius = math.dist(self.points[0], cursor)
-        return Preview((circle(self.points[0], radius),), (Line(self.points[0], cursor),), f"R {length_label(radius, self.unit)}")
+        return Preview(
+            (circle(self.points[0], radius),), (Line(self.points[0], cursor),), f"R {length_label(radius, self.unit)}"
+        )
 
 
 def _round(point: Point) -> Point:

@@ -111,7 +111,11 @@ class ToolRunner:
         tool = self.tool
         if tool is None:
             return
-        if isinstance(tool, AskingTool) and tool.wants in (Want.CURVE, Want.EITHER) and (self.under or tool.wants is Want.CURVE):
+        if (
+            isinstance(tool, AskingTool)
+            and tool.wants in (Want.CURVE, Want.EITHER)
+            and (self.under or tool.wants is Want.CURVE)
+        ):
             self._pick(tool)
             return
         if tool.wants is not Want.POINT or tool.base is None or math.dist(tool.base, point) >= WELD:
@@ -163,7 +167,9 @@ class ToolRunner:
             return tool.preview(point) if tool is not None else Preview()
         shown, line = tool.helpers(point), tool.draft(point, self.under)
         trial = self._trials.of(line) if line is not None else Trial()
-        return replace(shown, trial=trial.difference, label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0]))))
+        return replace(
+            shown, trial=trial.difference, label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0])))
+        )
 
     def type_text(self, text: str) -> bool:
         """Take typed text: a word of the tool, a point, a distance, or a command word alone that begins a tool.
@@ -228,7 +234,9 @@ class ToolRunner:
             return
         point = tool.number(value, self.cursor)
         if point is None:
-            raise CommandError(f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first.")
+            raise CommandError(
+                f"'{text}' is a distance without a direction; write x,y or @dx,dy, or point with the mouse first."
+            )
         self.click(tidy(point))
 
     def _pick(self, tool: AskingTool) -> None:

@@ -61,6 +61,8 @@ def click_line(candidates: list[Entity | Note], turn: int, selection: frozenset[
 
 
 def band_line(corners: tuple[Point, Point], adding: bool) -> str:
-    """Return the line that selects by a window: dragged to the right what is inside, to the left also what it crosses."""
+    """Return the line that selects by a window: dragged to the right what is inside, to the left also what it
+    crosses.
+    """
     kind = "window" if corners[1][0] >= corners[0][0] else "crossing"
     return f"select {'add ' if adding else ''}{kind} {point_text(corners[0])} {point_text(corners[1])}"

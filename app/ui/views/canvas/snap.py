@@ -28,21 +28,47 @@ class SnapKind(IntEnum):
     ORIGIN = 10
 
 
-CHOICES = (SnapKind.END, SnapKind.MIDDLE, SnapKind.CENTRE, SnapKind.QUADRANT, SnapKind.NODE, SnapKind.INTERSECTION,
-           SnapKind.PERPENDICULAR, SnapKind.TANGENT, SnapKind.NEAREST)
+CHOICES = (
+    SnapKind.END,
+    SnapKind.MIDDLE,
+    SnapKind.CENTRE,
+    SnapKind.QUADRANT,
+    SnapKind.NODE,
+    SnapKind.INTERSECTION,
+    SnapKind.PERPENDICULAR,
+    SnapKind.TANGENT,
+    SnapKind.NEAREST,
+)
 """Kinds that are switched one by one, in the order in which they are offered."""
 
 USUAL = frozenset(CHOICES) - {SnapKind.NEAREST}
 """Kinds that are on at first: NEAREST would hold the mouse on every curve that it passes."""
 
-SNAP_WORDS = {"end": SnapKind.END, "mid": SnapKind.MIDDLE, "cen": SnapKind.CENTRE, "qua": SnapKind.QUADRANT, "nod": SnapKind.NODE,
-              "int": SnapKind.INTERSECTION, "per": SnapKind.PERPENDICULAR, "tan": SnapKind.TANGENT, "nea": SnapKind.NEAREST}
+SNAP_WORDS = {
+    "end": SnapKind.END,
+    "mid": SnapKind.MIDDLE,
+    "cen": SnapKind.CENTRE,
+    "qua": SnapKind.QUADRANT,
+    "nod": SnapKind.NODE,
+    "int": SnapKind.INTERSECTION,
+    "per": SnapKind.PERPENDICULAR,
+    "tan": SnapKind.TANGENT,
+    "nea": SnapKind.NEAREST,
+}
 """Typed while a point is asked for, each lets the next click take that kind alone."""
 
 SNAP_NAMES = {
-    SnapKind.END: "End", SnapKind.MIDDLE: "Middle", SnapKind.CENTRE: "Centre", SnapKind.QUADRANT: "Quadrant", SnapKind.GRID: "",
-    SnapKind.NODE: "Point", SnapKind.INTERSECTION: "Intersection", SnapKind.PERPENDICULAR: "Perpendicular",
-    SnapKind.TANGENT: "Tangent", SnapKind.NEAREST: "On curve", SnapKind.ORIGIN: "Origin",
+    SnapKind.END: "End",
+    SnapKind.MIDDLE: "Middle",
+    SnapKind.CENTRE: "Centre",
+    SnapKind.QUADRANT: "Quadrant",
+    SnapKind.GRID: "",
+    SnapKind.NODE: "Point",
+    SnapKind.INTERSECTION: "Intersection",
+    SnapKind.PERPENDICULAR: "Perpendicular",
+    SnapKind.TANGENT: "Tangent",
+    SnapKind.NEAREST: "On curve",
+    SnapKind.ORIGIN: "Origin",
 }
 
 
@@ -88,7 +114,10 @@ def snaps_of(curve: Curve) -> tuple[Snap, ...]:
     elif isinstance(curve, Arc):
         turn = curve.start_angle + curve.sweep / 2
         (x, y), r = curve.centre, curve.radius
-        found += [Snap(curve.centre, SnapKind.CENTRE), Snap((x + r * math.cos(turn), y + r * math.sin(turn)), SnapKind.MIDDLE)]
+        found += [
+            Snap(curve.centre, SnapKind.CENTRE),
+            Snap((x + r * math.cos(turn), y + r * math.sin(turn)), SnapKind.MIDDLE),
+        ]
         found += [Snap(p, SnapKind.QUADRANT) for p in quadrants(curve)]
     elif isinstance(curve, Ellipse):
         found += [Snap(curve.centre, SnapKind.CENTRE), *(Snap(p, SnapKind.QUADRANT) for p in axis_ends(curve))]

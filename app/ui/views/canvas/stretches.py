@@ -1,4 +1,6 @@
-"""Moves cut where their engagement goes from one step to another, so that each stretch of a path has the colour of its own share."""
+"""Moves cut where their engagement goes from one step to another, so that each stretch of a path has the colour of its
+own share.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 SWAY = 0.02
-"""Share of the diameter by which a measured one may be too large: a step begins above its limit and twice this, and ends below its
+"""Share of the diameter by which a measured one may be too large: a step begins above its limit and twice this, and
+ends below its
 limit and this, so that a stepover of just half is at most half, and does not flicker."""
 
 _HAIR = 1e-6  # parts of a move: less is no stretch
@@ -55,7 +58,9 @@ def stretches(moves: Moves, seen: Seen) -> Stretches:
 
 
 def steady_steps(share: Floats, begins: NDArray[np.bool_]) -> Ints:
-    """Return the step (m,) of each share (m,), which holds until a limit is clearly passed; it begins anew where `begins` (m,)."""
+    """Return the step (m,) of each share (m,), which holds until a limit is clearly passed; it begins anew where
+    `begins` (m,).
+    """
     place = np.arange(len(share))
     step = np.zeros(len(share), np.int64)
     for limit in STEPS:
@@ -66,7 +71,9 @@ def steady_steps(share: Floats, begins: NDArray[np.bool_]) -> Ints:
 
 
 def _cut(moves: Moves, owner: Ints, part: Floats) -> tuple[Ints, Floats]:
-    """Return (move that each stretch is of (n,), where it begins and ends on it as parts (n, 2)); owners do not fall."""
+    """Return (move that each stretch is of (n,), where it begins and ends on it as parts (n, 2)); owners do not
+    fall.
+    """
     each = 1 + np.bincount(owner, minlength=len(moves))
     cut = np.repeat(np.arange(len(moves)), each)
     ends = np.ones(len(cut))

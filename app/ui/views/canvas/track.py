@@ -1,4 +1,6 @@
-"""Rays that draw the mouse: at steps of an angle from the base, straight from points passed before, and along lines that end there."""
+"""Rays that draw the mouse: at steps of an angle from the base, straight from points passed before, and along lines
+that end there.
+"""
 
 from __future__ import annotations
 
@@ -111,7 +113,9 @@ def rays(base: Point | None, step: float | None, points: Sequence[Acquired]) -> 
     return found
 
 
-def tracked(at: Point, candidates: Sequence[Ray], scale: float, digits: int, curves: Sequence[Curve] = ()) -> Tracked | None:
+def tracked(
+    at: Point, candidates: Sequence[Ray], scale: float, digits: int, curves: Sequence[Curve] = ()
+) -> Tracked | None:
     """Return where rays draw the mouse, or None where none is near; where rays cross, or meet a curve, is preferred.
 
     Args:
@@ -120,7 +124,12 @@ def tracked(at: Point, candidates: Sequence[Ray], scale: float, digits: int, cur
         digits: decimals that the length along a single ray is rounded to.
     """
     reach = _PX / scale
-    near = [(beside, ray) for ray in candidates for along, beside in [ray.seen_from(at)] if beside <= reach and along > reach]
+    near = [
+        (beside, ray)
+        for ray in candidates
+        for along, beside in [ray.seen_from(at)]
+        if beside <= reach and along > reach
+    ]
     near.sort(key=lambda pair: pair[0])
     for (_, a), (_, b) in combinations(near, 2):
         if a.start != b.start:
@@ -141,7 +150,9 @@ def _meets(ray: Ray, curve: Curve, at: Point, reach: float) -> list[Point]:
     """Return where a ray meets a curve within reach of a point."""
     stretch = Line(ray.start, ray.at(ray.seen_from(at)[0] + 2 * reach))
     box = (at[0] - reach, at[1] - reach, at[0] + reach, at[1] + reach)
-    return [p for p in meets(stretch, curve, within=box) if math.dist(p, at) <= reach and math.dist(p, ray.start) > WELD]
+    return [
+        p for p in meets(stretch, curve, within=box) if math.dist(p, at) <= reach and math.dist(p, ray.start) > WELD
+    ]
 
 
 def _tidy(point: Point) -> Point:

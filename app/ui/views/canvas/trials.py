@@ -21,7 +21,9 @@ class Trial:
 
 
 _NUMBERS_BEFORE = {"offset": 1, "heal": 1, "join": 0, "measure": 0, "explode": 0, "fillet": 1, "chamfer": 1}
-"""Commands that look at all their curves together and do not stop half-way, and how many numbers stand before those curves."""
+"""Commands that look at all their curves together and do not stop half-way, and how many numbers stand before those
+curves.
+"""
 
 _OPTIONS = re.compile(r"\b(?:and|within)\s+\S+|\bround\b")
 _FEW_CURVES = 300
@@ -35,7 +37,7 @@ def keeps_the_window(line: str, document: Document) -> bool:
 
 def _concerned(word: str, line: str, document: Document) -> int:
     """Return how many curves such a command looks at; where ranges or names tell, as many as there are."""
-    said = _OPTIONS.sub(" ", line).split()[1 + _NUMBERS_BEFORE[word]:]
+    said = _OPTIONS.sub(" ", line).split()[1 + _NUMBERS_BEFORE[word] :]
     curves = [each for each in said if "," not in each and "<" not in each]
     if curves:
         return len(curves) if all(each.isdigit() for each in curves) else len(document.part.entities)

@@ -34,7 +34,9 @@ def read_picture(path: Path) -> QImage:
         raise InputError(f"{path.name} is no picture that can be read; choose a PNG or JPEG file.")
     size = reader.size()
     if size.width() * size.height() > MOST_PX:
-        raise InputError(f"{path.name} has {size.width()} x {size.height()} px; up to 64 million px can be traced. Scale it down.")
+        raise InputError(
+            f"{path.name} has {size.width()} x {size.height()} px; up to 64 million px can be traced. Scale it down."
+        )
     image = reader.read()
     if image.isNull():
         raise InputError(f"{path.name} is damaged: {reader.errorString()}.")
@@ -55,8 +57,12 @@ class UnderlayPicture:
         self._levels = [image]
         while max(self._levels[-1].width(), self._levels[-1].height()) > _SMALL_PX:
             last = self._levels[-1]
-            half = last.scaled((last.width() + 1) // 2, (last.height() + 1) // 2, Qt.AspectRatioMode.IgnoreAspectRatio,
-                               Qt.TransformationMode.SmoothTransformation)
+            half = last.scaled(
+                (last.width() + 1) // 2,
+                (last.height() + 1) // 2,
+                Qt.AspectRatioMode.IgnoreAspectRatio,
+                Qt.TransformationMode.SmoothTransformation,
+            )
             self._levels.append(half)
 
     def paint(self, painter: QPainter, view: View) -> None:

@@ -1,4 +1,6 @@
-"""Where the drawing lies on the screen: mm to pixels and back. Screen y runs down, part y up; only this file flips it."""
+"""Where the drawing lies on the screen: mm to pixels and back. Screen y runs down, part y up; only this file flips
+it.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +67,11 @@ class View:
         if share >= 1:
             return other
         scale = self.scale * (other.scale / self.scale) ** share
-        grown = share if abs(other.scale - self.scale) < 1e-9 * self.scale else (scale - self.scale) / (other.scale - self.scale)
+        grown = (
+            share
+            if abs(other.scale - self.scale) < 1e-9 * self.scale
+            else (scale - self.scale) / (other.scale - self.scale)
+        )
         a, b = self.to_world(area.center()), other.to_world(area.center())
         along = grown * other.scale / scale if scale > 0 else share
         centre = (a[0] + (b[0] - a[0]) * along, a[1] + (b[1] - a[1]) * along)

@@ -1,7 +1,7 @@
 """A widget on the drawing plane: zoom, pan, glide, and a picture of the scene that is painted only when it changes.
 
-A scene that takes longer than a frame is first shown as its last picture, moved and scaled, beside it a coarse picture of everything,
-and painted anew in slices between events.
+A scene that takes longer than a frame is first shown as its last picture, moved and scaled, beside it a coarse picture
+of everything, and painted anew in slices between events.
 """
 
 from __future__ import annotations
@@ -11,7 +11,17 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from PySide6.QtCore import QEasingCurve, QPointF, QRectF, Qt, QTimer, QVariantAnimation, Signal
-from PySide6.QtGui import QHideEvent, QMouseEvent, QPainter, QPaintEvent, QPixmap, QRegion, QResizeEvent, QTransform, QWheelEvent
+from PySide6.QtGui import (
+    QHideEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPixmap,
+    QRegion,
+    QResizeEvent,
+    QTransform,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QWidget
 
 from ....geometry.sample import Box
@@ -105,11 +115,15 @@ class Viewport(QWidget):
 
     @property
     def far_box(self) -> Box | None:
-        """The box in mm of everything, where painting that takes so long that a coarse picture of it is kept; else None."""
+        """The box in mm of everything, where painting that takes so long that a coarse picture of it is kept; else
+        None.
+        """
         return None
 
     def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
-        """Paint everything coarsely, without its ground, as a view has it; at every pause others may have their turn."""
+        """Paint everything coarsely, without its ground, as a view has it; at every pause others may have their
+        turn.
+        """
         return iter(())
 
     @property
@@ -142,7 +156,9 @@ class Viewport(QWidget):
         self._fitted = box
 
     def free_area(self, box: Box) -> QRectF:
-        """Return the part of the area that a box in mm is fitted into: nothing laid over it covers it, unless there is no room."""
+        """Return the part of the area that a box in mm is fitted into: nothing laid over it covers it, unless there is
+        no room.
+        """
         covered = self.covered_right if self.covered_right < _SPARE * self.area.width() else 0.0
         return self.area.adjusted(0.0, 0.0, -covered, 0.0)
 
@@ -169,7 +185,9 @@ class Viewport(QWidget):
         Args:
             margin: how far what is painted reaches beyond its box, px.
         """
-        rects = [self._screen_rect(box, margin) for box in boxes] if boxes is not None and len(boxes) <= _PATCHES else None
+        rects = (
+            [self._screen_rect(box, margin) for box in boxes] if boxes is not None and len(boxes) <= _PATCHES else None
+        )
         large = rects is None or 2 * sum(r.width() * r.height() for r in rects) > self.area.width() * self.area.height()
         if rects is None or large or not self.sharp or not self.devicePixelRatioF().is_integer():
             self.repaint_scene()
@@ -181,7 +199,9 @@ class Viewport(QWidget):
         """Return the whole px that a box in mm and a margin in px cover within the area."""
         a, b = self.view.to_screen((box[0], box[3])), self.view.to_screen((box[2], box[1]))
         left, top = math.floor(a.x() - margin), math.floor(a.y() - margin)
-        return QRectF(left, top, math.ceil(b.x() + margin) - left, math.ceil(b.y() + margin) - top).intersected(self.area)
+        return QRectF(left, top, math.ceil(b.x() + margin) - left, math.ceil(b.y() + margin) - top).intersected(
+            self.area
+        )
 
     def _paint_patch(self, rect: QRectF, painter: QPainter) -> None:
         if not rect.isEmpty():

@@ -47,16 +47,25 @@ class CurvesPanel(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.preset = ChoiceField("Preset", [(value, name) for name, value in PRESETS])
-        self.tolerance = NumberField(Spec("Tolerance", low=1e-4, high=10.0, decimals=4,
-                                          tip="How far curve and moves may be apart, both ways"))
+        self.tolerance = NumberField(
+            Spec("Tolerance", low=1e-4, high=10.0, decimals=4, tip="How far curve and moves may be apart, both ways")
+        )
         self.form = ChoiceField("Write", FORMS)
         self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel")])
-        self.middle = NumberField(Spec("Middle", low=1e-4, high=10.0, decimals=4,
-                                       tip="How far the curve may be away half way between two points"))
+        self.middle = NumberField(
+            Spec(
+                "Middle",
+                low=1e-4,
+                high=10.0,
+                decimals=4,
+                tip="How far the curve may be away half way between two points",
+            )
+        )
         self.degree = ChoiceField("Degree", [(3, "3"), (5, "5")])
         self.corner = NumberField(Spec("Corner", "°", 0.1, 180.0, 1, False, "Bends of more than this are kept exactly"))
-        self.bend = NumberField(Spec("Bend", "°", 0.01, 180.0, 2, False,
-                                     "By how much neighbouring blocks may bend where that saves blocks"))
+        self.bend = NumberField(
+            Spec("Bend", "°", 0.01, 180.0, 2, False, "By how much neighbouring blocks may bend where that saves blocks")
+        )
         self.points = PointsForm()
         self.post = ListField("Control", [(None, "As the program looks")])
         self.smooth, self.save, self.nc = QPushButton("Smooth"), QPushButton("Save as…"), QPushButton("Open in NC")
@@ -76,8 +85,18 @@ class CurvesPanel(QScrollArea):
         column.setSpacing(4)
         self.program.setWordWrap(True)
         self.title.setWordWrap(True)
-        fields = (self.preset, self.tolerance, self.form, self.degree, self.region, self.middle, self.corner, self.bend, self.points,
-                  self.post)  # fmt: skip
+        fields = (
+            self.preset,
+            self.tolerance,
+            self.form,
+            self.degree,
+            self.region,
+            self.middle,
+            self.corner,
+            self.bend,
+            self.points,
+            self.post,
+        )
         for widget in (heading("Proven curves"), self.program, *fields):
             column.addWidget(widget)
         column.addSpacing(6)
@@ -148,10 +167,16 @@ class CurvesPanel(QScrollArea):
 
         name = self.post.value
         return replace(
-            base, tolerance=self.tolerance.number, form=Form(self.form.value), degree=5 if self.degree.value == 5 else 3,
-            middle=self.middle.number if self.barrel else None, corner=math.radians(self.corner.number),
-            bend=math.radians(self.bend.number), post=load_post(str(name)) if name is not None else None, effective=self.points.method(),
-        )  # fmt: skip
+            base,
+            tolerance=self.tolerance.number,
+            form=Form(self.form.value),
+            degree=5 if self.degree.value == 5 else 3,
+            middle=self.middle.number if self.barrel else None,
+            corner=math.radians(self.corner.number),
+            bend=math.radians(self.bend.number),
+            post=load_post(str(name)) if name is not None else None,
+            effective=self.points.method(),
+        )
 
     @property
     def barrel(self) -> bool:
@@ -200,7 +225,9 @@ class CurvesPanel(QScrollArea):
             self._grid.addWidget(value_label, row, 1)
             self.figures[name] = value_label
         lost = findings(done)
-        self.finding.setText(f"{lost[0].text}{f' {len(lost) - 1} more like it.' if len(lost) > 1 else ''}" if lost else "")
+        self.finding.setText(
+            f"{lost[0].text}{f' {len(lost) - 1} more like it.' if len(lost) > 1 else ''}" if lost else ""
+        )
         self.finding.setVisible(bool(lost))
         self.save.setEnabled(changed > 0)
         self.nc.setEnabled(changed > 0)
@@ -245,19 +272,48 @@ def _headline(told: dict[str, Any], kept: set[str]) -> str:
 
 def _figures(told: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Return name, value and meaning of each figure of a report."""
-    apart, blocks, bend, step = told["tolerance"], told["blocks"], told["largest_bend_deg"], told["largest_curvature_step_per_mm"]
+    apart, blocks, bend, step = (
+        told["tolerance"],
+        told["blocks"],
+        told["largest_bend_deg"],
+        told["largest_curvature_step_per_mm"],
+    )
     arrow = " → "
-    points = [] if told["points"] is None else [
-        ("Effective", f"{grouped(told['points']['effective'], 0)} of {grouped(told['points']['all'], 0)}", "Points on the true shape"),
-        ("Corrected", grouped(told["points"]["corrected"], 0), "Points within facets that were moved to it"),
-    ]  # fmt: skip
+    points = (
+        []
+        if told["points"] is None
+        else [
+            (
+                "Effective",
+                f"{grouped(told['points']['effective'], 0)} of {grouped(told['points']['all'], 0)}",
+                "Points on the true shape",
+            ),
+            ("Corrected", grouped(told["points"]["corrected"], 0), "Points within facets that were moved to it"),
+        ]
+    )
     return [
         ("Tolerance", f"{apart['asked_mm']:g} mm", "What was asked for"),
         ("Proven", f"{apart['proven_mm']:.6f} mm", "Nowhere are curve and moves farther apart, both ways"),
         ("Curve to moves", f"{apart['curve_to_moves_found_mm']:.6f} mm", "The largest distance that was found"),
-        ("Moves to curve", f"{apart['moves_to_curve_found_mm']:.6f} mm", "The largest distance of a point from its place on the curve"),
-        ("Blocks", f"{grouped(blocks['before'], 0)}{arrow}{grouped(blocks['after'], 0)}", "Of all stretches, before and after"),
-        ("Largest bend", f"{bend['before']:.2f}°{arrow}{bend['after']:.2f}°", "Change of direction at one place, corners left out"),
-        ("Curvature step", f"{step['before']:.3g}{arrow}{step['after']:.3g} /mm", "Change of curvature at one place, corners left out"),
+        (
+            "Moves to curve",
+            f"{apart['moves_to_curve_found_mm']:.6f} mm",
+            "The largest distance of a point from its place on the curve",
+        ),
+        (
+            "Blocks",
+            f"{grouped(blocks['before'], 0)}{arrow}{grouped(blocks['after'], 0)}",
+            "Of all stretches, before and after",
+        ),
+        (
+            "Largest bend",
+            f"{bend['before']:.2f}°{arrow}{bend['after']:.2f}°",
+            "Change of direction at one place, corners left out",
+        ),
+        (
+            "Curvature step",
+            f"{step['before']:.3g}{arrow}{step['after']:.3g} /mm",
+            "Change of curvature at one place, corners left out",
+        ),
         *points,
     ]

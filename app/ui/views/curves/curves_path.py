@@ -1,4 +1,6 @@
-"""Both paths over one another: thin chords with their points, proven curves in colour, what stayed faint; corners and comb."""
+"""Both paths over one another: thin chords with their points, proven curves in colour, what stayed faint; corners and
+comb.
+"""
 
 from __future__ import annotations
 
@@ -91,7 +93,11 @@ class CurvesPath(PathView):
     def _whole(self) -> Box:
         if self._layers is None:
             return super()._whole()
-        boxes = [picture.box for picture in (self._layers.curves, self._layers.stayed, self._layers.before) if picture.box is not None]
+        boxes = [
+            picture.box
+            for picture in (self._layers.curves, self._layers.stayed, self._layers.before)
+            if picture.box is not None
+        ]
         return union(boxes) or super()._whole()
 
     def _portions(self, box: Box) -> Iterator[Callable[[QPainter], None]]:
@@ -138,7 +144,9 @@ class CurvesPath(PathView):
         painter.setPen(QPen(theme.ink, 1.2))
         painter.setBrush(theme.canvas)
         for x, y in self._within(corners, side, box).tolist():
-            painter.drawPolygon([QPointF(x + _CORNER_PX * a, y + _CORNER_PX * b) for a, b in ((1, 0), (0, 1), (-1, 0), (0, -1))])
+            painter.drawPolygon(
+                [QPointF(x + _CORNER_PX * a, y + _CORNER_PX * b) for a, b in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+            )
 
     def _paint_comb(self, painter: QPainter, curves: CurvesShown, side: Side) -> None:
         """Paint the teeth, and a line along their tips."""
@@ -155,7 +163,9 @@ class CurvesPath(PathView):
         painter.drawLines([QLineF(*a, *b) for a, b in zip(foot[near].tolist(), tip[near].tolist(), strict=True)])
         along = near[1:] & near[:-1] & (comb.piece[1:] == comb.piece[:-1])
         painter.setPen(screen_pen(painter, self._how.theme.left, 1.0))
-        painter.drawLines([QLineF(*a, *b) for a, b in zip(tip[:-1][along].tolist(), tip[1:][along].tolist(), strict=True)])
+        painter.drawLines(
+            [QLineF(*a, *b) for a, b in zip(tip[:-1][along].tolist(), tip[1:][along].tolist(), strict=True)]
+        )
 
 
 def _before(theme: Theme) -> QColor:

@@ -126,7 +126,16 @@ def smoothed(was: Shown, options: SmoothOptions, side: Side, progress: Progress)
     none = np.zeros((0, 3))
     corners = np.concatenate([none, *(piece.points[piece.corners] for piece in changed)])
     shown = CurvesShown(
-        was, done, now, before, track_of(done), _comb(done), pieces_of_lines(done, lines, notes), _points(changed), corners, {}
+        was,
+        done,
+        now,
+        before,
+        track_of(done),
+        _comb(done),
+        pieces_of_lines(done, lines, notes),
+        _points(changed),
+        corners,
+        {},
     )
     shown.layers[side] = layers(shown, side, progress.part(0.9, 1.0))
     return shown
@@ -158,7 +167,9 @@ def _points(changed: list[Piece]) -> Points:
     known = [each for each in classes if each is not None]
     if len(known) < len(classes) or not known:
         return Points(was, every, was, False)
-    return Points(was, np.concatenate([each.state for each in known]), np.concatenate([each.places for each in known]), True)
+    return Points(
+        was, np.concatenate([each.state for each in known]), np.concatenate([each.places for each in known]), True
+    )
 
 
 def _comb(done: Smoothed) -> Comb:

@@ -1,4 +1,6 @@
-"""How far curve and moves are apart, along the stretches: with the tolerance and what is proven; a click picks a place."""
+"""How far curve and moves are apart, along the stretches: with the tolerance and what is proven; a click picks a
+place.
+"""
 
 from __future__ import annotations
 
@@ -123,10 +125,15 @@ class DeviationPlot(QWidget):
             axis.setLabel(tr(words), siPrefixEnableRanges=(), color=theme.muted.name())  # mm whatever the height
         fill = QColor(theme.muted)
         fill.setAlphaF(0.16)
-        drawn = plot.plot(track.along, track.off, connect="finite", fillLevel=0.0, brush=fill, pen=mkPen(theme.muted, width=1))
+        drawn = plot.plot(
+            track.along, track.off, connect="finite", fillLevel=0.0, brush=fill, pen=mkPen(theme.muted, width=1)
+        )
         drawn.setDownsampling(auto=True, method="peak")
         drawn.setClipToView(True)
-        ends, heights = [x for low, high, _ in track.bounds for x in (low, high)], [y for *_, y in track.bounds for _ in range(2)]
+        ends, heights = (
+            [x for low, high, _ in track.bounds for x in (low, high)],
+            [y for *_, y in track.bounds for _ in range(2)],
+        )
         plot.plot(ends, heights, connect="pairs", pen=mkPen(theme.accent_text, width=1.5))
         plot.addItem(InfiniteLine(self._tolerance, 0, pen=mkPen(theme.error, width=1, style=Qt.PenStyle.DashLine)))
         self._cursor = InfiniteLine(0.0, 90, pen=mkPen(theme.ink, width=1))
@@ -142,7 +149,11 @@ class DeviationPlot(QWidget):
                 spot = self._at(event.position())
                 self.hovered.emit(told(spot) if spot is not None else "")
             elif event.type() == QEvent.Type.MouseButtonRelease and self._pressed is not None:
-                spot = self._at(event.position()) if (event.position() - self._pressed).manhattanLength() <= _CLICK_PX else None
+                spot = (
+                    self._at(event.position())
+                    if (event.position() - self._pressed).manhattanLength() <= _CLICK_PX
+                    else None
+                )
                 self._pressed = None
                 if spot is not None:
                     self.picked.emit(spot)

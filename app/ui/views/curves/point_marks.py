@@ -39,7 +39,9 @@ def are_apart(points: Points, side: Side, scale: float) -> bool:
     return _apart(points, side) * scale >= _APART_PX
 
 
-def paint_points(painter: QPainter, points: Points, view: tuple[Side, Box, Callable[[Floats], Floats]], theme: Theme) -> None:
+def paint_points(
+    painter: QPainter, points: Points, view: tuple[Side, Box, Callable[[Floats], Floats]], theme: Theme
+) -> None:
     """Paint the points that a box shows.
 
     Args:
@@ -85,8 +87,9 @@ def key_rows(points: Points, theme: Theme) -> list[KeyRow]:
     names = {PointState.EFFECTIVE: "Effective", PointState.CORRECTED: "Corrected", PointState.INVALID: "Left out"}
     return [
         KeyRow(name, _colour(state, points, theme), mark=KeyMark.RING if state is PointState.INVALID else KeyMark.DOT)
-        for state, name in names.items() if np.any(points.state == state)
-    ]  # fmt: skip
+        for state, name in names.items()
+        if np.any(points.state == state)
+    ]
 
 
 def _colour(state: PointState, points: Points, theme: Theme) -> QColor:

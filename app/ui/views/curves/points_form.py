@@ -1,4 +1,6 @@
-"""Which points the curves go by: all, or those on the true shape where a program was made from a polyhedron (method D)."""
+"""Which points the curves go by: all, or those on the true shape where a program was made from a polyhedron (method
+D).
+"""
 
 from __future__ import annotations
 
@@ -20,22 +22,48 @@ class PointsForm(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.points = ChoiceField("Points", [(False, "All"), (True, "Effective")])
-        self.epsilon = NumberField(Spec("Epsilon", low=1e-4, high=9.0, decimals=4, tip="Points so near to one segment belong to one facet"))
+        self.epsilon = NumberField(
+            Spec("Epsilon", low=1e-4, high=9.0, decimals=4, tip="Points so near to one segment belong to one facet")
+        )
         self.ends = ChoiceField("Ends", [(Ends.OUTER, "Outer"), (Ends.RATIO, "Ratio"), (Ends.DISTANCE, "Distance")])
-        self.share = NumberField(Spec("Share", "", 0.0, 0.5, 3, False, "Points in so much of a facet from either end count as its ends"))
-        self.reach = NumberField(Spec("Reach", high=1000.0, decimals=4, tip="Points so near to an end of a facet count as its end"))
+        self.share = NumberField(
+            Spec("Share", "", 0.0, 0.5, 3, False, "Points in so much of a facet from either end count as its ends")
+        )
+        self.reach = NumberField(
+            Spec("Reach", high=1000.0, decimals=4, tip="Points so near to an end of a facet count as its end")
+        )
         self.others = ChoiceField("Others", [(_LEFT_OUT, "Left out"), (_CORRECTED, "Corrected")])
-        self.before = NumberField(Spec("Before", "", 0, 50, 0, False, "Effective points before a facet that its correction goes by"))
-        self.after = NumberField(Spec("After", "", 1, 50, 0, False, "Effective points after a facet that its correction goes by"))
+        self.before = NumberField(
+            Spec("Before", "", 0, 50, 0, False, "Effective points before a facet that its correction goes by")
+        )
+        self.after = NumberField(
+            Spec("After", "", 1, 50, 0, False, "Effective points after a facet that its correction goes by")
+        )
         self.move_to = ChoiceField("Move", [(Move.NEAREST, "Nearest"), (Move.PERPENDICULAR, "Square")])
         self.select = ChoiceField("Correct", [(None, "All"), (Select.RATIO, "Ratio"), (Select.DISTANCE, "Distance")])
-        self.near = NumberField(Spec("Share", "", 0.0, 1.0, 3, False, "Points in so much of a facet from either end are corrected"))
-        self.moved = NumberField(Spec("At most", high=10.0, decimals=4, tip="Points that move no farther are corrected, others left out"))
+        self.near = NumberField(
+            Spec("Share", "", 0.0, 1.0, 3, False, "Points in so much of a facet from either end are corrected")
+        )
+        self.moved = NumberField(
+            Spec("At most", high=10.0, decimals=4, tip="Points that move no farther are corrected, others left out")
+        )
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(4)
-        for field in (self.points, self.epsilon, self.ends, self.share, self.reach, self.others, self.before, self.after, self.move_to,
-                      self.select, self.near, self.moved):
+        for field in (
+            self.points,
+            self.epsilon,
+            self.ends,
+            self.share,
+            self.reach,
+            self.others,
+            self.before,
+            self.after,
+            self.move_to,
+            self.select,
+            self.near,
+            self.moved,
+        ):
             column.addWidget(field)
         for choice in (self.points, self.ends, self.others, self.select):
             choice.chosen.connect(lambda _: self._show_what_matters())
@@ -43,11 +71,23 @@ class PointsForm(QWidget):
 
     def _fill(self) -> None:
         """Show what is usual."""
-        for choice, value in ((self.points, False), (self.ends, Ends.OUTER), (self.others, _LEFT_OUT), (self.move_to, Move.NEAREST),
-                              (self.select, None)):
+        for choice, value in (
+            (self.points, False),
+            (self.ends, Ends.OUTER),
+            (self.others, _LEFT_OUT),
+            (self.move_to, Move.NEAREST),
+            (self.select, None),
+        ):
             choice.show_value(value)
-        for field, number in ((self.epsilon, _EPSILON), (self.share, 0.1), (self.reach, 0.1), (self.before, _USUAL.before),
-                              (self.after, _USUAL.after), (self.near, 0.5), (self.moved, 0.01)):
+        for field, number in (
+            (self.epsilon, _EPSILON),
+            (self.share, 0.1),
+            (self.reach, 0.1),
+            (self.before, _USUAL.before),
+            (self.after, _USUAL.after),
+            (self.near, 0.5),
+            (self.moved, 0.01),
+        ):
             field.show_value(number)
         self._show_what_matters()
 
@@ -79,5 +119,11 @@ class PointsForm(QWidget):
             return EffectiveMethod(choose)
         kind, move = self.select.value, self.move_to.value
         assert isinstance(move, Move)
-        select = (kind, self.near.number if kind is Select.RATIO else self.moved.number) if isinstance(kind, Select) else None
-        return EffectiveMethod(choose, second_embodiment(select, round(self.before.number), round(self.after.number), move))
+        select = (
+            (kind, self.near.number if kind is Select.RATIO else self.moved.number)
+            if isinstance(kind, Select)
+            else None
+        )
+        return EffectiveMethod(
+            choose, second_embodiment(select, round(self.before.number), round(self.after.number), move)
+        )

@@ -55,7 +55,9 @@ class Smoothing(QObject):
         self._view.path.hovered.connect(showing.show_hovered)
         self._view.deviation.hovered.connect(showing.show_hovered)
         self._view.spotted.connect(window.status.show_message)
-        self._view.path.cursor_moved.connect(lambda right, up: window.status.show_place(right, up, self._view.side.name))
+        self._view.path.cursor_moved.connect(
+            lambda right, up: window.status.show_place(right, up, self._view.side.name)
+        )
         window.actions_["curves_smooth"].triggered.connect(lambda *_: self._smooth_from_menu())
 
     def smooth_or_cancel(self) -> None:

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Spot:
-    """One sample: where it is, mm; how far curve and moves are apart there, mm; the line of the old text that it answers to."""
+    """One sample: where it is, mm; how far curve and moves are apart there, mm; the line of the old text that it
+    answers to.
+    """
 
     along: float
     off: float

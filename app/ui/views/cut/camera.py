@@ -65,7 +65,9 @@ class Camera:
             size: of the picture, px.
         """
         seen = (np.asarray(points, float) - self.target) @ self.axes.T
-        return np.column_stack([size[0] / 2 + seen[:, 0] * self.scale, size[1] / 2 - seen[:, 1] * self.scale, seen[:, 2]])
+        return np.column_stack(
+            [size[0] / 2 + seen[:, 0] * self.scale, size[1] / 2 - seen[:, 1] * self.scale, seen[:, 2]]
+        )
 
     def ray(self, at: Pixel, size: Size) -> Ray:
         """Return the line of sight through a pixel, px from the left and from the top."""
@@ -122,8 +124,12 @@ class Camera:
         """Return the camera on the way to another one, share in [0, 1]; it turns the short way round."""
         turn = (other.yaw - self.yaw + np.pi) % (2 * np.pi) - np.pi
         target = np.asarray(self.target) * (1 - share) + np.asarray(other.target) * share
-        return Camera(_triple(target), self.yaw + turn * share, self.pitch + (other.pitch - self.pitch) * share,
-                      self.scale * (other.scale / self.scale) ** share)
+        return Camera(
+            _triple(target),
+            self.yaw + turn * share,
+            self.pitch + (other.pitch - self.pitch) * share,
+            self.scale * (other.scale / self.scale) ** share,
+        )
 
 
 def _triple(point: Floats) -> tuple[float, float, float]:

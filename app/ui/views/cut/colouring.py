@@ -96,8 +96,11 @@ class Colouring:
 
 def possible(picture: CutPicture) -> tuple[CutColour, ...]:
     """Return what the colours of a picture can tell."""
-    has = {CutColour.TOOL: picture.moves is not None and picture.move is not None, CutColour.DEVIATION: picture.deviation is not None,
-           CutColour.MOVE: picture.move is not None}
+    has = {
+        CutColour.TOOL: picture.moves is not None and picture.move is not None,
+        CutColour.DEVIATION: picture.deviation is not None,
+        CutColour.MOVE: picture.move is not None,
+    }
     has[CutColour.SURFACE] = has[CutColour.TOOL] and picture.moves is not None and len(picture.moves.surface) > 0
     return tuple(colour for colour in CutColour if has.get(colour, True))
 
@@ -117,9 +120,15 @@ def values_of(picture: CutPicture, colour: CutColour, span: Span) -> Bytes:
         span: of the whole cut.
     """
     makers: dict[CutColour, Callable[[CutPicture, Span], Bytes]] = {
-        CutColour.DEPTH: _depth_values, CutColour.DEVIATION: _deviation_values, CutColour.MOVE: _move_values,
-        CutColour.TOOL: lambda picture, _: _numbered_values(picture, picture.moves.tools if picture.moves is not None else None),
-        CutColour.SURFACE: lambda picture, _: _numbered_values(picture, picture.moves.surfaces if picture.moves is not None else None),
+        CutColour.DEPTH: _depth_values,
+        CutColour.DEVIATION: _deviation_values,
+        CutColour.MOVE: _move_values,
+        CutColour.TOOL: lambda picture, _: _numbered_values(
+            picture, picture.moves.tools if picture.moves is not None else None
+        ),
+        CutColour.SURFACE: lambda picture, _: _numbered_values(
+            picture, picture.moves.surfaces if picture.moves is not None else None
+        ),
     }
     if colour not in picture.values:
         picture.values[colour] = makers.get(colour, _plain_values)(picture, span)
@@ -211,7 +220,10 @@ def _move_values(picture: CutPicture, span: Span) -> Bytes:
 
 def _move_key(lines: NDArray[np.int32] | None, inks: Inks, span: Span) -> ColourKey:
     marks = [(at, round(at * span.last)) for at in (0.0, 0.25, 0.5, 0.75, 1.0)]
-    ticks = tuple(Tick(at, f"line {lines[min(k, len(lines) - 1)]}" if lines is not None and len(lines) else str(k)) for at, k in marks)
+    ticks = tuple(
+        Tick(at, f"line {lines[min(k, len(lines) - 1)]}" if lines is not None and len(lines) else str(k))
+        for at, k in marks
+    )
     return ColourKey(_palette(ramp(inks.order), inks), ticks)
 
 
@@ -227,7 +239,9 @@ def _deviation_values(picture: CutPicture, span: Span) -> Bytes:
 
 
 def _stops(tolerance: float, span: Span) -> Floats:
-    """Return the deviations at which the scale bends: a tolerance, ten of them, and the worst each take a part of it, mm."""
+    """Return the deviations at which the scale bends: a tolerance, ten of them, and the worst each take a part of it,
+    mm.
+    """
     fine, coarse = tolerance * _FINE, tolerance * _COARSE
     worst = max(span.worst, 2 * coarse)
     return np.array([-worst, -coarse, -fine, fine, coarse, worst])
@@ -235,14 +249,24 @@ def _stops(tolerance: float, span: Span) -> Floats:
 
 def _deviation_key(tolerance: float, inks: Inks, span: Span) -> ColourKey:
     pale = [_mixed(inks.right, ink, 0.35) for ink in (inks.gouge, inks.left)]
-    colours = (inks.gouge, _mixed(inks.right, inks.gouge, 0.7), pale[0], inks.right, inks.right, pale[1],
-               _mixed(inks.right, inks.left, 0.7), inks.left)
+    colours = (
+        inks.gouge,
+        _mixed(inks.right, inks.gouge, 0.7),
+        pale[0],
+        inks.right,
+        inks.right,
+        pale[1],
+        _mixed(inks.right, inks.left, 0.7),
+        inks.left,
+    )
     steps = ramp(colours, np.array([0.0, 0.24, 0.4695, 0.47, 0.53, 0.5305, 0.76, 1.0]))
     remarks = ("gouge", "", "", "", "left")
     worst, coarse = _stops(tolerance, span)[[5, 4]].tolist()
     texts = (-worst, -coarse, 0.0, coarse, worst)
-    ticks = tuple(Tick(at, f"{value:+.3f}" if value else "0.000", f"± {tolerance:.3f}" if not value else remark)
-                  for at, value, remark in zip((0.0, 0.24, 0.5, 0.76, 1.0), texts, remarks, strict=True))
+    ticks = tuple(
+        Tick(at, f"{value:+.3f}" if value else "0.000", f"± {tolerance:.3f}" if not value else remark)
+        for at, value, remark in zip((0.0, 0.24, 0.5, 0.76, 1.0), texts, remarks, strict=True)
+    )
     return ColourKey(_palette(steps, inks), ticks)
 
 

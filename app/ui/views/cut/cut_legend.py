@@ -88,7 +88,8 @@ class CutLegend(QFrame):
     """A quiet sheet in the upper right corner.
 
     Signals:
-        colour_chosen(CutColour). layer_switched(Sample, on). wedges_switched(on). section_chosen(Side, share in [0, 1] of the stock).
+        colour_chosen(CutColour). layer_switched(Sample, on). wedges_switched(on). section_chosen(Side, share in [0, 1]
+        of the stock).
     """
 
     colour_chosen = Signal(CutColour)
@@ -105,7 +106,9 @@ class CutLegend(QFrame):
         self.colour.box.setFixedWidth(_CHOICE_PX)
         self.side = ChoiceField("Section", [(side, side.value) for side in Side], 60)
         self.slider = QSlider(Qt.Orientation.Horizontal)
-        self.rows = {sample: LegendRow(sample) for sample in (Sample.POCKET, Sample.CONTOUR, Sample.PLUNGE, Sample.RAPID)}
+        self.rows = {
+            sample: LegendRow(sample) for sample in (Sample.POCKET, Sample.CONTOUR, Sample.PLUNGE, Sample.RAPID)
+        }
         self.wedges = LegendRow(Sample.WEDGES)
         self.wedges.setChecked(False)
         self.wedges.hide()
@@ -179,7 +182,9 @@ class CutLegend(QFrame):
     def tell_facet(self, facet: float) -> None:
         """Tell how large these facets are, mm."""
         self.wedges.label.setText(f"{Sample.WEDGES.value}  d = {facet:.2g} mm")
-        self.wedges.setToolTip(f"Show or hide what the last moves sweep: cylinders and wedges, in facets of d = {facet:.2g} mm")
+        self.wedges.setToolTip(
+            f"Show or hide what the last moves sweep: cylinders and wedges, in facets of d = {facet:.2g} mm"
+        )
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""

@@ -17,7 +17,8 @@ class CutPage(QWidget):
     """Puts view and bar together; keys that the view does not take play.
 
     Attributes:
-        view: the cut. player: plays it. transport: the bar; hidden while there is no cut. sheet: asks how it shall be recorded.
+        view: the cut. player: plays it. transport: the bar; hidden while there is no cut. sheet: asks how it shall be
+            recorded.
     """
 
     def __init__(self, view: CutView) -> None:

@@ -1,4 +1,6 @@
-"""Beside the cut: the verdict, the places to look at, the NC text of the one that was picked, and how far all is from the part."""
+"""Beside the cut: the verdict, the places to look at, the NC text of the one that was picked, and how far all is from
+the part.
+"""
 
 from __future__ import annotations
 
@@ -97,7 +99,11 @@ class CutPanel(QWidget):
         self.text, self.histogram = NcTextView(), HistogramPlot()
         self.inner, self.list, self.details = QWidget(), QScrollArea(), QWidget()
         self._rows = QVBoxLayout(self.inner)
-        self.foreign, self.form, self.back = QWidget(), QPushButton("Tools and stock…"), QPushButton("Back to the job's cut")
+        self.foreign, self.form, self.back = (
+            QWidget(),
+            QPushButton("Tools and stock…"),
+            QPushButton("Back to the job's cut"),
+        )
         self._lay_out()
         self.go.clicked.connect(self._want_line)
         self.form.clicked.connect(self.form_wanted)

@@ -39,14 +39,15 @@ class CutView(QWidget):
     """Shows a cut; whoever owns it computes it.
 
     Signals:
-        cell_picked(x, y, z, move): the metal was clicked at a place, mm; move = index of the one that cut it last, -1 = none.
-        hovered(sentence): what is under the mouse, or "".
-        cursor_moved(x, y): the place under the mouse, mm.
+        cell_picked(x, y, z, move): the metal was clicked at a place, mm; move = index of the one that cut it last, -1 =
+        none. hovered(sentence): what is under the mouse, or "". cursor_moved(x, y): the place under the mouse, mm.
 
     Attributes:
-        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there is none.
+        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there
+            is none.
         colours: of both. camera: from where they are seen, in the screen's px.
-        playing: the tool at its place, and cells that change. hit: the cell under the mouse. failure: why nothing can be shown here, or "".
+        playing: the tool at its place, and cells that change. hit: the cell under the mouse. failure: why nothing can
+            be shown here, or "".
         surfacing: gives it what it is painted on.
     """
 
@@ -117,7 +118,9 @@ class CutView(QWidget):
         self.painting.new_picture()
         self.colours.refresh()
         self._on_section(self.legend.chosen_side, self.legend.slider.value() / self.legend.slider.maximum())
-        if before is None or not (np.array_equal(before.low, picture.low) and np.array_equal(before.high, picture.high)):
+        if before is None or not (
+            np.array_equal(before.low, picture.low) and np.array_equal(before.high, picture.high)
+        ):
             self.look_now(self._fitted_camera())
             self._fitted = True
             self._thin_out(picture)
@@ -188,7 +191,9 @@ class CutView(QWidget):
         self.overlay.show_pin(pin)
         width, height = pixel_size(self)
         field = min(field, _MOST_OF_STOCK * float(np.max((self.picture.high - self.picture.low)[:2])))
-        towards = replace(self.camera, target=pin.place, pitch=max(self.camera.pitch, _STEEP), scale=min(width, height) / field)
+        towards = replace(
+            self.camera, target=pin.place, pitch=max(self.camera.pitch, _STEEP), scale=min(width, height) / field
+        )
         self._fitted = False
         self.glide_to(towards.panned(-self._covered() / 2, 0.0))
 
@@ -203,7 +208,9 @@ class CutView(QWidget):
         if self.picture is None:
             return None
         place = at * self.devicePixelRatioF()
-        return pick_finest(self.picture, self.detail, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section)
+        return pick_finest(
+            self.picture, self.detail, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section
+        )
 
     def metal_changed(self) -> None:
         """The picture's cells have changed in place: what is told of single ones is told anew, or no more."""
@@ -261,7 +268,12 @@ class CutView(QWidget):
 
     def event(self, event: QEvent) -> bool:
         """Keep the digits and F from whoever types elsewhere."""
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and not event.modifiers() and event.key() in KEYS:
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and not event.modifiers()
+            and event.key() in KEYS
+        ):
             event.accept()
             return True
         return super().event(event)
@@ -333,7 +345,9 @@ class CutView(QWidget):
         self.painting.moved()
 
     def _on_section(self, side: Side, share: float) -> None:
-        """Cut the stock open across an axis; the part towards the eye is taken away, and stays so while the cut is turned."""
+        """Cut the stock open across an axis; the part towards the eye is taken away, and stays so while the cut is
+        turned.
+        """
         self._place_legend()
         if side is not self._side:
             self._side, towards = side, self.camera.axes[2]

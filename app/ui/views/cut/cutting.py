@@ -80,7 +80,13 @@ class Cutting(QObject):
         self.foreign_worker.progress.connect(window.status.show_progress)
         self.foreign_worker.busy_changed.connect(self._on_busy)
         window.closed.connect(self.player.pause)
-        for worker in (self.worker, self.foreign_worker, self.zooming.worker, self._view.colours.worker, self.player.worker):
+        for worker in (
+            self.worker,
+            self.foreign_worker,
+            self.zooming.worker,
+            self._view.colours.worker,
+            self.player.worker,
+        ):
             window.closed.connect(worker.finish)
         window.closed.connect(self._leave)
         self.zooming.failed.connect(self.failed)
@@ -101,7 +107,8 @@ class Cutting(QObject):
         """Cut a program that is none of the job's; what was there stays until it is cut.
 
         Args:
-            source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it is no scene's.
+            source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it
+            is no scene's.
         """
         before = self._foreign
         given = before.given if before is not None and before.source.bytes() == source.bytes() else Given()
@@ -189,12 +196,18 @@ class Cutting(QObject):
             self._panel.show_key(key_of(picture, CutColour.DEVIATION, inks_of(self._view.colours.theme), picture.span))
 
     def _go_to(self, entry: Entry) -> None:
-        """Glide to a place; gouges and metal left are seen best by their deviation. On the way of the cut, go to when it was done."""
+        """Glide to a place; gouges and metal left are seen best by their deviation. On the way of the cut, go to when
+        it was done.
+        """
         if not self.player.at_end:
             self.player.go(entry.motion + 1 if entry.motion >= 0 else self.player.length)
         if entry.place is None:
             return
-        if entry.colour is not EntryColour.ACCIDENT and self._view.picture is not None and self._view.picture.deviation is not None:
+        if (
+            entry.colour is not EntryColour.ACCIDENT
+            and self._view.picture is not None
+            and self._view.picture.deviation is not None
+        ):
             self._view.set_colour(CutColour.DEVIATION)
         theme = self._view.colours.theme
         self._view.go_to(Pin(entry.place, entry.title, entry.words, colour_of(entry.colour, theme)), entry.field)

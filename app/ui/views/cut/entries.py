@@ -24,10 +24,18 @@ _FIELD, _LEAST_FIELD = 8.0, 1.0
 """A place is shown in a field so many times as wide as it is; and mm."""
 
 _NEAR = 4.0
-"""Beside an upright wall cells alone cannot tell that nothing is left; a bound of more cells than these says no more than that."""
+"""Beside an upright wall cells alone cannot tell that nothing is left; a bound of more cells than these says no more
+than that.
+"""
 
-_NAMES = {FindingKind.RAPID_IN_MATERIAL: "rapid", FindingKind.START_IN_STOCK: "start in stock", FindingKind.PLUNGE: "plunge",
-          FindingKind.BELOW_TABLE: "table", FindingKind.HOLDER_CONTACT: "holder", FindingKind.SHANK_CONTACT: "shank"}
+_NAMES = {
+    FindingKind.RAPID_IN_MATERIAL: "rapid",
+    FindingKind.START_IN_STOCK: "start in stock",
+    FindingKind.PLUNGE: "plunge",
+    FindingKind.BELOW_TABLE: "table",
+    FindingKind.HOLDER_CONTACT: "holder",
+    FindingKind.SHANK_CONTACT: "shank",
+}
 _SPOTS = (FindingKind.GOUGE, FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE)
 
 
@@ -71,7 +79,9 @@ class Entry:
 def entries_of(shown: ShownCut) -> tuple[Entry, ...]:
     """Return every place, what counts first; the first 200 of them."""
     judgement = shown.cut.judgement
-    told = [_of_finding(shown, finding) for finding in shown.cut.findings if judgement is None or finding.kind not in _SPOTS]
+    told = [
+        _of_finding(shown, finding) for finding in shown.cut.findings if judgement is None or finding.kind not in _SPOTS
+    ]
     spots = [_of_spot(spot) for spot in judgement.spots] if judgement is not None else []
     made = [*told, *spots, *(_of_finding(shown, finding) for finding in shown.assumed)]
     return tuple(sorted(made, key=lambda entry: not entry.counts)[:MOST])
@@ -110,7 +120,11 @@ def measured(judgement: Judgement) -> str:
     how = "On the moves themselves" if judgement.exact else "On the cells"
     gouge = judgement.gouge
     cut = f"the worst gouge is {number(gouge.max_mm)} mm" if gouge.count else "no gouge"
-    left = f"{judgement.reachable_mm2:.3g} mm² left within reach" if judgement.reachable_mm2 else "nothing left within reach"
+    left = (
+        f"{judgement.reachable_mm2:.3g} mm² left within reach"
+        if judgement.reachable_mm2
+        else "nothing left within reach"
+    )
     return f"{how}: {cut}, {left}."
 
 
@@ -137,25 +151,56 @@ def _of_spot(spot: Spot) -> Entry:
     at = f"at ({number(spot.x)}, {number(spot.y)}, {number(spot.z)})"
     area = f"{spot.area_mm2:.3g} mm²"
     made = {
-        SpotKind.GOUGE: (f"Gouge {number(spot.depth_mm)} mm", EntryColour.GOUGE,
-                         f"The part is cut {spot.depth_mm:.4f} mm too deep {at}; do not run this program."),
-        SpotKind.LEFT: (f"Left {area}", EntryColour.LEFT,
-                        f"{area} of metal that a tool reaches is left {at}, up to {number(spot.depth_mm)} mm high; add a pass there."),
-        SpotKind.UNREACHABLE: (f"Out of reach {area}", EntryColour.UNREACHABLE,
-                               f"{area} {at} is out of reach of every tool; a disc of {number(spot.disc_mm)} mm would fit. "
-                               "A smaller tool reaches farther."),
-    }  # fmt: skip
+        SpotKind.GOUGE: (
+            f"Gouge {number(spot.depth_mm)} mm",
+            EntryColour.GOUGE,
+            f"The part is cut {spot.depth_mm:.4f} mm too deep {at}; do not run this program.",
+        ),
+        SpotKind.LEFT: (
+            f"Left {area}",
+            EntryColour.LEFT,
+            f"{area} of metal that a tool reaches is left {at}, up to {number(spot.depth_mm)} mm high; add a pass "
+            "there.",
+        ),
+        SpotKind.UNREACHABLE: (
+            f"Out of reach {area}",
+            EntryColour.UNREACHABLE,
+            f"{area} {at} is out of reach of every tool; a disc of {number(spot.disc_mm)} mm would fit. "
+            "A smaller tool reaches farther.",
+        ),
+    }
     title, colour, sentence = made[spot.kind]
-    return Entry(title, sentence, colour, spot.kind is not SpotKind.UNREACHABLE, (spot.x, spot.y, spot.z),
-                 max(_FIELD * size, _LEAST_FIELD), spot.motion, spot.line)
+    return Entry(
+        title,
+        sentence,
+        colour,
+        spot.kind is not SpotKind.UNREACHABLE,
+        (spot.x, spot.y, spot.z),
+        max(_FIELD * size, _LEAST_FIELD),
+        spot.motion,
+        spot.line,
+    )
 
 
 def _of_finding(shown: ShownCut, finding: Finding) -> Entry:
     title = _NAMES.get(finding.kind, name_of(finding.kind))
     colour = EntryColour.ACCIDENT if finding.counts else EntryColour.REMARK
-    depth = f", {number(finding.amount)} deep" if finding.amount is not None and finding.counts and finding.x is not None else ""
+    depth = (
+        f", {number(finding.amount)} deep"
+        if finding.amount is not None and finding.counts and finding.x is not None
+        else ""
+    )
     place = None
     if finding.x is not None and finding.y is not None:
         place = (finding.x, finding.y, shown.picture.height_at(finding.x, finding.y))
     motion = shown.motion_of_line(finding.line, place)
-    return Entry(f"{title[0].upper()}{title[1:]}{depth}", finding.text, colour, finding.counts, place, 2 * _FIELD, motion, finding.line)
+    return Entry(
+        f"{title[0].upper()}{title[1:]}{depth}",
+        finding.text,
+        colour,
+        finding.counts,
+        place,
+        2 * _FIELD,
+        motion,
+        finding.line,
+    )

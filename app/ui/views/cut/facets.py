@@ -1,4 +1,6 @@
-"""The sweep of a few moves on the graphics side, in the facets that the method of the wedges makes of it (figs 3, 7, 8). No Qt."""
+"""The sweep of a few moves on the graphics side, in the facets that the method of the wedges makes of it (figs 3, 7,
+8). No Qt.
+"""
 
 from __future__ import annotations
 

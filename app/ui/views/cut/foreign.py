@@ -1,4 +1,6 @@
-"""Cuts any NC program for the Cut view: what it tells of tools and stock, what the user says, and what has to be asked. No Qt."""
+"""Cuts any NC program for the Cut view: what it tells of tools and stock, what the user says, and what has to be asked.
+No Qt.
+"""
 
 from __future__ import annotations
 
@@ -80,17 +82,24 @@ def foreign_shown(foreign: Foreign, colour: CutColour, progress: Progress) -> Sh
     from ....usecases.examine import ExamineOptions, examine
 
     data = foreign.source.bytes()
-    examined = examine(foreign.source.name, data, ExamineOptions(foreign.dialect, foreign.source.tools), progress.part(0.0, 0.3))
+    examined = examine(
+        foreign.source.name, data, ExamineOptions(foreign.dialect, foreign.source.tools), progress.part(0.0, 0.3)
+    )
     try:
         ready, reason = _ready(examined, foreign)
     except InputError as error:
         raise InputError(_without_options(str(error))) from error
     if reason:
         return Asked(reason, foreign, given_of(ready, foreign.given.compare))
-    setup = replace(ready.setup, part=foreign.scene() if foreign.scene is not None else foreign.part if foreign.given.compare else None)
+    setup = replace(
+        ready.setup,
+        part=foreign.scene() if foreign.scene is not None else foreign.part if foreign.given.compare else None,
+    )
     result = cut(setup, progress=progress.part(0.3, 0.9))
     shown = shown_cut(result, (ProgramFile(foreign.source.name, data),), colour, progress.part(0.9, 1.0))
-    return replace(shown, given=given_of(ready, foreign.given.compare), assumed=tuple(_plain(each) for each in ready.findings))
+    return replace(
+        shown, given=given_of(ready, foreign.given.compare), assumed=tuple(_plain(each) for each in ready.findings)
+    )
 
 
 def given_of(ready: Ready, compare: bool) -> Given:
@@ -114,7 +123,10 @@ def _ready(examined: Examined, foreign: Foreign) -> tuple[Ready, str]:
     except InputError as error:
         if examined.program.error is not None or not noted:
             raise
-        rough = {number: replace(guesses.get(number, _guess(number, foreign)), diameter=note.diameter) for number, note in noted.items()}
+        rough = {
+            number: replace(guesses.get(number, _guess(number, foreign)), diameter=note.diameter)
+            for number, note in noted.items()
+        }
         return _with(examined, foreign, guesses | rough), f"{_without_options(str(error))} Say what it is."
     unknown = [number for number, known in ready.tools.items() if known.source == GUESSED]
     if not unknown:
@@ -136,13 +148,17 @@ def _with(examined: Examined, foreign: Foreign, guesses: Mapping[int, Tool]) -> 
 
 
 def _on_a_table(ready: Ready) -> Ready:
-    """Return a setup whose stock, assumed round the cuts, goes on below the deepest of them, so that their floor can be seen."""
+    """Return a setup whose stock, assumed round the cuts, goes on below the deepest of them, so that their floor can be
+    seen.
+    """
     from ....usecases.setup_stock import KnownStock, box_stock
 
     x0, y0, z0, x1, y1, z1 = _corners(ready)
     z0 -= max(LEAST_BELOW, BELOW * (z1 - z0))
-    text = (f"The program does not tell the stock; it is taken to be X {x0:.3f} to {x1:.3f}, Y {y0:.3f} to {y1:.3f}, "
-            f"Z {z0:.3f} to {z1:.3f}: round the cuts and some way below them. Tools and stock… gives another.")
+    text = (
+        f"The program does not tell the stock; it is taken to be X {x0:.3f} to {x1:.3f}, Y {y0:.3f} to {y1:.3f}, "
+        f"Z {z0:.3f} to {z1:.3f}: round the cuts and some way below them. Tools and stock… gives another."
+    )
     assumed = Finding(FindingKind.ASSUMED, text, counts=False)
     stock = KnownStock(box_stock((x0, y0, z0, x1, y1, z1)), ready.stock.source, assumed)
     findings = (*(each for each in ready.findings if each is not ready.stock.assumed), assumed)

@@ -1,4 +1,6 @@
-"""What one picture of a cut is painted of: from where, how large, in which light, with what taken away. No Qt, no OpenGL."""
+"""What one picture of a cut is painted of: from where, how large, in which light, with what taken away. No Qt, no
+OpenGL.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,9 @@ class Frame:
         return max(finest, int(np.ceil(np.sqrt(cells / self.budget)))) if self.budget else finest
 
     def seen_cells(self, picture: CutPicture, highest: float) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the first and the last column and row that can be in the picture; no cell is higher than `highest`, mm."""
+        """Return the first and the last column and row that can be in the picture; no cell is higher than `highest`,
+        mm.
+        """
         width, height = self.size
         rays = [self.camera.ray(at, self.size) for at in ((0, 0), (width, 0), (0, height), (width, height))]
         counts = np.array([picture.columns, picture.rows])

@@ -1,7 +1,8 @@
-"""Moving pictures as GIF: each is only the rectangle that differs from the one before, in 256 colours of its own. No Qt.
+"""Moving pictures as GIF: each is only the rectangle that differs from the one before, in 256 colours of its own. No
+Qt.
 
-OpenCV finds the colours and packs the rectangles. Its own animations are not used: they hold all pictures in memory and repeat
-what does not move. The format is that of "Graphics Interchange Format, version 89a", CompuServe 1990.
+OpenCV finds the colours and packs the rectangles. Its own animations are not used: they hold all pictures in memory and
+repeat what does not move. The format is that of "Graphics Interchange Format, version 89a", CompuServe 1990.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ Pixels = NDArray[np.uint8]
 """(height, width, 3), red first, upper row first."""
 
 MOST_PER_SECOND = 50.0
-"""Times are hundredths of a second, and what is shown for less than two of them is shown more slowly by most programs."""
+"""Times are hundredths of a second, and what is shown for less than two of them is shown more slowly by most
+programs.
+"""
 
 _QUALITY, _NO_DITHER = 8, 3
 _TABLE, _SIZE_BITS = 0x80, 0x07
@@ -45,8 +48,10 @@ def gif_chunks(frames: Iterator[Pixels], per_second: float) -> Iterator[bytes]:
         if before is None:
             head = b"GIF89a" + struct.pack("<HHBBB", frame.shape[1], frame.shape[0], 0x70, 0, 0) + _FOR_EVER
         elif before.shape != frame.shape:
-            raise ValueError(f"picture {number + 1} is {frame.shape[1]} by {frame.shape[0]} px, the one before {before.shape[1]} "
-                             f"by {before.shape[0]}")
+            raise ValueError(
+                f"picture {number + 1} is {frame.shape[1]} by {frame.shape[0]} px, the one before {before.shape[1]} "
+                f"by {before.shape[0]}"
+            )
         rows, columns = changed(before, frame)
         hundredths = round(100 * (number + 1) / per_second) - round(100 * number / per_second)
         yield head + _picture(frame[rows, columns], (columns.start, rows.start), hundredths)
@@ -57,7 +62,9 @@ def gif_chunks(frames: Iterator[Pixels], per_second: float) -> Iterator[bytes]:
 
 
 def changed(before: Pixels | None, frame: Pixels) -> tuple[slice, slice]:
-    """Return rows and columns of the smallest rectangle that holds all pixels that differ; one pixel where none does."""
+    """Return rows and columns of the smallest rectangle that holds all pixels that differ; one pixel where none
+    does.
+    """
     if before is None:
         return slice(0, frame.shape[0]), slice(0, frame.shape[1])
     other = np.any(frame != before, axis=2)
@@ -98,7 +105,7 @@ def _taken_apart(packed: bytes) -> tuple[bytes, bytes]:
     at += _DESCRIPTION
     if flags & _TABLE:
         at, table = _after_table(packed, at, flags)
-    return table, packed[at:_after_blocks(packed, at + 1)]
+    return table, packed[at : _after_blocks(packed, at + 1)]
 
 
 def _after_table(packed: bytes, at: int, flags: int) -> tuple[int, bytes]:

@@ -16,9 +16,11 @@ def blend_over(ctx: moderngl.Context) -> None:
 
 
 def passes(ctx: moderngl.Context, target: moderngl.Framebuffer, hidden: float, closed: bool) -> Iterator[float]:
-    """Set the state of the graphics system for each time that a body is to be rendered, and give the share of its alpha then.
+    """Set the state of the graphics system for each time that a body is to be rendered, and give the share of its alpha
+    then.
 
-    First what lies behind metal, faintly; then depths alone; then what is nearest to the eye, so that no inner side shines through.
+    First what lies behind metal, faintly; then depths alone; then what is nearest to the eye, so that no inner side
+    shines through.
 
     Args:
         ctx: the graphics context. target: the framebuffer in use.

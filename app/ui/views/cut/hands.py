@@ -15,8 +15,12 @@ from .picking import Hit
 if TYPE_CHECKING:
     from .cut_view import CutView
 
-KEYS = {Qt.Key.Key_1: StandardView.TOP, Qt.Key.Key_2: StandardView.FRONT, Qt.Key.Key_3: StandardView.RIGHT,
-        Qt.Key.Key_4: StandardView.ISOMETRIC}
+KEYS = {
+    Qt.Key.Key_1: StandardView.TOP,
+    Qt.Key.Key_2: StandardView.FRONT,
+    Qt.Key.Key_3: StandardView.RIGHT,
+    Qt.Key.Key_4: StandardView.ISOMETRIC,
+}
 _ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
 _CLICK_PX, _TURN, _STEP = 4.0, 0.008, np.radians(15.0)
 
@@ -80,7 +84,9 @@ class Hands:
             view.cell_picked.emit(*view.hit.place, view.hit.move)
 
     def key(self, event: QKeyEvent) -> bool:
-        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile and unpins; return whether it was one of these."""
+        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile and unpins; return whether it was
+        one of these.
+        """
         view, key = self._view, Qt.Key(event.key())
         if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
             return False

@@ -39,13 +39,26 @@ class Histogram:
 
 
 def histogram_of(picture: CutPicture, judgement: Judgement) -> Histogram:
-    """Return the histogram of a judged cut: outside the tolerance as the cells tell, within it what the part says something about."""
+    """Return the histogram of a judged cut: outside the tolerance as the cells tell, within it what the part says
+    something about.
+    """
     cell = picture.pitch**2
     counts = np.bincount(values_of(picture, CutColour.DEVIATION, picture.span).ravel(), minlength=256)
     low, high = (round(at * (STEPS - 1)) for at in FINE_PLACES)
     below, above = (np.append(np.arange(start, stop, WIDTH), stop) for start, stop in ((0, low), (high + 1, STEPS)))
-    right = sum(band.area_mm2 for band in judgement.bands if -judgement.tolerance <= band.low and band.high <= judgement.tolerance)
-    bars = [np.add.reduceat(counts[edges[0]:edges[-1]], edges[:-1] - edges[0]) * cell for edges in (below, above)]
+    right = sum(
+        band.area_mm2
+        for band in judgement.bands
+        if -judgement.tolerance <= band.low and band.high <= judgement.tolerance
+    )
+    bars = [np.add.reduceat(counts[edges[0] : edges[-1]], edges[:-1] - edges[0]) * cell for edges in (below, above)]
     borders = np.concatenate([below, above]) / STEPS
-    return Histogram(borders, np.concatenate([bars[0], [right], bars[1]]), float(counts[OUT_OF_REACH]) * cell, float(bars[0].sum()), right,
-                     float(bars[1].sum()), judgement.tolerance)
+    return Histogram(
+        borders,
+        np.concatenate([bars[0], [right], bars[1]]),
+        float(counts[OUT_OF_REACH]) * cell,
+        float(bars[0].sum()),
+        right,
+        float(bars[1].sum()),
+        judgement.tolerance,
+    )

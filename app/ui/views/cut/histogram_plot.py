@@ -77,10 +77,16 @@ class HistogramPlot(QWidget):
         logs = np.log10(np.maximum(histogram.areas, _LEAST_MM2) / _LEAST_MM2)
         middles = (histogram.borders[:-1] + histogram.borders[1:]) / 2
         inks = [QColor(*key.palette[min(int(at * STEPS), STEPS - 1), :3].tolist()) for at in middles]
-        band = LinearRegionItem(_band_of(histogram), movable=False, brush=QBrush(self._theme.hover), pen=mkPen(self._theme.hairline))
+        band = LinearRegionItem(
+            _band_of(histogram), movable=False, brush=QBrush(self._theme.hover), pen=mkPen(self._theme.hairline)
+        )
         band.setZValue(-10)
         plot.addItem(band)
-        plot.addItem(BarGraphItem(x0=histogram.borders[:-1], x1=histogram.borders[1:], height=logs, brushes=inks, pen=mkPen(None)))
+        plot.addItem(
+            BarGraphItem(
+                x0=histogram.borders[:-1], x1=histogram.borders[1:], height=logs, brushes=inks, pen=mkPen(None)
+            )
+        )
         plot.setXRange(0.0, 1.0, padding=0.12)
         plot.setYRange(0.0, max(float(logs.max()), 1.0), padding=0.04)
         self.sums.setText(self._sums(histogram))
@@ -95,17 +101,25 @@ class HistogramPlot(QWidget):
             axis.setTextPen(mkPen(self._theme.muted))
             axis.setStyle(tickFont=text_font(11), tickLength=3)
         bottom.setTicks([[(tick.at, tick.text) for tick in key.ticks[::2]]])
-        left.setTicks([[(power + 3, f"{10.0 ** power:g}") for power in range(-3, 7, 2)]])
+        left.setTicks([[(power + 3, f"{10.0**power:g}") for power in range(-3, 7, 2)]])
         left.setLabel("mm²", color=self._theme.muted.name())
 
     def _sums(self, histogram: Histogram) -> str:
         theme = self._theme
         deep = theme.error if histogram.gouge >= 5e-3 else theme.muted  # red once the figure shows it
-        parts = [(deep, histogram.gouge, "too deep"), (theme.muted, histogram.right, f"within ± {histogram.tolerance:.3f}"),
-                 (theme.left, histogram.left, "left")]
+        parts = [
+            (deep, histogram.gouge, "too deep"),
+            (theme.muted, histogram.right, f"within ± {histogram.tolerance:.3f}"),
+            (theme.left, histogram.left, "left"),
+        ]
         parts += [(theme.muted, histogram.beyond, "out of reach")] if histogram.beyond else []
-        return " · ".join(f"<span style='color:{ink.name()}'>{grouped(area, 2 if area < 100 else 0)} {words}</span>"
-                          for ink, area, words in parts) + " mm²"
+        return (
+            " · ".join(
+                f"<span style='color:{ink.name()}'>{grouped(area, 2 if area < 100 else 0)} {words}</span>"
+                for ink, area, words in parts
+            )
+            + " mm²"
+        )
 
 
 def _band_of(histogram: Histogram) -> tuple[float, float]:

@@ -18,20 +18,34 @@ def look_of(theme: Theme) -> CutLook:
     paths = (theme.rapid, theme.pocket, theme.plunge, theme.contour)
     rapid, pocket, plunge, contour = (_rgba(colour) for colour in paths)
     return CutLook(
-        canvas=_share(theme.canvas), stock=_parts(inks_of(theme).stock), hatch=_share(theme.unreachable),
-        paths=(rapid, pocket, plunge, contour), strength=(0.36, 0.66, 0.10) if dark else (0.50, 0.56, 0.08),
-        tools=tuple(_share(colour) for colour in theme.regions), steel=(0.76, 0.78, 0.81) if dark else (0.70, 0.72, 0.75),
-        holder=(0.42, 0.45, 0.50) if dark else (0.44, 0.47, 0.52), edge=(0.80, 0.83, 0.88) if dark else (0.16, 0.18, 0.21),
+        canvas=_share(theme.canvas),
+        stock=_parts(inks_of(theme).stock),
+        hatch=_share(theme.unreachable),
+        paths=(rapid, pocket, plunge, contour),
+        strength=(0.36, 0.66, 0.10) if dark else (0.50, 0.56, 0.08),
+        tools=tuple(_share(colour) for colour in theme.regions),
+        steel=(0.76, 0.78, 0.81) if dark else (0.70, 0.72, 0.75),
+        holder=(0.42, 0.45, 0.50) if dark else (0.44, 0.47, 0.52),
+        edge=(0.80, 0.83, 0.88) if dark else (0.16, 0.18, 0.21),
         facets=(_share(theme.regions[4]), contour[:3]),
-    )  # fmt: skip
+    )
 
 
 def inks_of(theme: Theme) -> Inks:
     """Return the colours that tell cells apart by day or by night."""
     dark = theme.name == "dark"
     metal = (178, 182, 188) if dark else (204, 207, 211)
-    return Inks(metal, tuple(_bytes(colour) for colour in theme.regions), _DEPTH, _ORDER,
-                _bytes(theme.gouge), metal, _bytes(theme.left), _bytes(theme.unreachable), (92, 97, 105) if dark else (153, 158, 166))
+    return Inks(
+        metal,
+        tuple(_bytes(colour) for colour in theme.regions),
+        _DEPTH,
+        _ORDER,
+        _bytes(theme.gouge),
+        metal,
+        _bytes(theme.left),
+        _bytes(theme.unreachable),
+        (92, 97, 105) if dark else (153, 158, 166),
+    )
 
 
 def _bytes(colour: QColor) -> Rgb8:

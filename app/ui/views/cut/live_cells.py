@@ -1,4 +1,6 @@
-"""The cells of a cut that is played: what the view must take over to show another moment. No Qt; runs on a worker's thread."""
+"""The cells of a cut that is played: what the view must take over to show another moment. No Qt; runs on a worker's
+thread.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,8 @@ class Cells:
 
     Attributes:
         rows, cols: which they are.
-        move: (h, w) motion that cut each last; None = nobody knows. deviation: (h, w) mm against the part; None = there is none.
+        move: (h, w) motion that cut each last; None = nobody knows. deviation: (h, w) mm against the part; None = there
+            is none.
     """
 
     rows: slice
@@ -82,9 +85,13 @@ class Wish:
 
 def live_copy(picture: CutPicture) -> CutPicture:
     """Return a picture that nobody else relies on, so that its cells can be changed in place."""
-    live = replace(picture, heights=picture.heights.copy(), move=None if picture.move is None else picture.move.copy(),
-                   deviation=None if picture.deviation is None else picture.deviation.copy(),
-                   values={colour: values.copy() for colour, values in picture.values.items()})  # fmt: skip
+    live = replace(
+        picture,
+        heights=picture.heights.copy(),
+        move=None if picture.move is None else picture.move.copy(),
+        deviation=None if picture.deviation is None else picture.deviation.copy(),
+        values={colour: values.copy() for colour, values in picture.values.items()},
+    )
     vars(live)["relief"] = picture.relief.copy()
     vars(live)["span"] = picture.span  # scales stay those of the whole cut
     return live
@@ -116,7 +123,9 @@ class LiveCells:
             Cancelled: nobody wants it any more.
         """
         played = self.playback.frame(wish.moment, progress)
-        rows, cols = (slice(at, at + size) for at, size in zip((played.row, played.col), played.heights.shape, strict=True))
+        rows, cols = (
+            slice(at, at + size) for at, size in zip((played.row, played.col), played.heights.shape, strict=True)
+        )
         self._heights[rows, cols] = played.heights
         if self._move is not None:
             self._move[rows, cols] = played.owner
@@ -145,8 +154,15 @@ class LiveCells:
         end = self._end
         move = None if self._move is None else self._move[rows, cols]
         beyond = None if end.unreachable is None else end.unreachable[rows, cols]
-        return replace(end, heights=self._heights[rows, cols], move=move, deviation=self._deviation(rows, cols), unreachable=beyond,
-                       paths=None, values={})  # fmt: skip
+        return replace(
+            end,
+            heights=self._heights[rows, cols],
+            move=move,
+            deviation=self._deviation(rows, cols),
+            unreachable=beyond,
+            paths=None,
+            values={},
+        )
 
     def _deviation(self, rows: slice, cols: slice) -> Heights | None:
         """Return how far cells are from the part: as far as at the end, and what is still to be taken."""
@@ -177,7 +193,11 @@ def last_tips(timeline: Timeline, row: int, tip: Floats) -> Floats:
     motions, own = timeline.own(row)
     tips, tool = [tip], timeline.tool[row]
     for at in range(own, max(own - MOVES, -1), -1):
-        if motions.kind[at] != MotionKind.LINE or timeline.tool[row - own + at] != tool or not np.all(np.isfinite(motions.start[at])):
+        if (
+            motions.kind[at] != MotionKind.LINE
+            or timeline.tool[row - own + at] != tool
+            or not np.all(np.isfinite(motions.start[at]))
+        ):
             break
         if np.any(motions.start[at] != tips[-1]):
             tips.append(motions.start[at])

@@ -32,7 +32,9 @@ _SHARP = 0.7
 
 @dataclass(frozen=True, eq=False)
 class MetalPrograms:
-    """How metal is painted: its top, whole or with something taken away, its sides and its floor; each with an empty array."""
+    """How metal is painted: its top, whole or with something taken away, its sides and its floor; each with an empty
+    array.
+    """
 
     whole: moderngl.Program
     clipped: moderngl.Program
@@ -49,7 +51,9 @@ class MetalPrograms:
         """
         parts = (("field", "TOP"), ("field", "TOP_CLIPPED"), ("wall", "SIDE"), ("floor", "UNDERSIDE"))
         whole, clipped, wall, floor = (compiled(ctx, f"{name}.vert", "metal.frag", part) for name, part in parts)
-        return MetalPrograms(whole, clipped, wall, floor, {each: ctx.vertex_array(each, []) for each in (whole, clipped, wall, floor)})
+        return MetalPrograms(
+            whole, clipped, wall, floor, {each: ctx.vertex_array(each, []) for each in (whole, clipped, wall, floor)}
+        )
 
     def release(self) -> None:
         """Give everything back to the graphics system."""
@@ -82,7 +86,11 @@ class Metal:
         low, high = self._range
         self._range = min(low, float(patch.heights.min())), max(high, float(patch.heights.max()))
         place = (patch.col, patch.row, patch.heights.shape[1], patch.heights.shape[0])
-        for texture, data in ((self._heights, patch.heights), (self._relief, patch.relief), (self._values, patch.values)):
+        for texture, data in (
+            (self._heights, patch.heights),
+            (self._relief, patch.relief),
+            (self._values, patch.values),
+        ):
             texture.write(np.ascontiguousarray(data), viewport=place, alignment=1)
         self._averaged = False
 
@@ -146,7 +154,12 @@ class Metal:
         facings = ((0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0))
         for k, facing in enumerate(facings):
             if np.dot(facing, frame.camera.axes[2, :2]) > 0:
-                self._draw_wall(corners[k], corners[(k + 1) % 4], facing, (picture.columns if k % 2 == 0 else picture.rows) // coarse)
+                self._draw_wall(
+                    corners[k],
+                    corners[(k + 1) % 4],
+                    facing,
+                    (picture.columns if k % 2 == 0 else picture.rows) // coarse,
+                )
         ends = section_ends(frame.section, low, high) if frame.section is not None else None
         if frame.section is not None and ends is not None:
             wall["face"] = 1
@@ -155,7 +168,9 @@ class Metal:
             wall["face"] = 0
             wall["section"] = frame.clip
 
-    def _draw_wall(self, begin: tuple[float, float], end: tuple[float, float], facing: tuple[float, float], pieces: int) -> None:
+    def _draw_wall(
+        self, begin: tuple[float, float], end: tuple[float, float], facing: tuple[float, float], pieces: int
+    ) -> None:
         wall = self._programs.wall
         wall["begin"], wall["end"] = begin, end
         wall["facing"] = (*facing, 0.0)
@@ -166,11 +181,21 @@ class Metal:
         look, axes = frame.look, frame.camera.axes
         light = _unit(np.asarray(look.light) @ axes)
         values = {
-            "heights": _HEIGHTS, "values": _VALUES, "palette": _PALETTE, "relief": _RELIEF, "face": 0, "section": frame.clip,
-            "corner": (picture.x0, picture.y0, picture.pitch), "last_cell": (picture.columns - 1, picture.rows - 1),
-            "floor_z": picture.floor, "light": tuple(light), "halfway": tuple(_unit(light + axes[2])), "stock": look.stock,
-            "hatch": look.hatch, "strength": look.strength,
-        }  # fmt: skip
+            "heights": _HEIGHTS,
+            "values": _VALUES,
+            "palette": _PALETTE,
+            "relief": _RELIEF,
+            "face": 0,
+            "section": frame.clip,
+            "corner": (picture.x0, picture.y0, picture.pitch),
+            "last_cell": (picture.columns - 1, picture.rows - 1),
+            "floor_z": picture.floor,
+            "light": tuple(light),
+            "halfway": tuple(_unit(light + axes[2])),
+            "stock": look.stock,
+            "hatch": look.hatch,
+            "strength": look.strength,
+        }
         for name, value in values.items():
             if name in program:
                 program[name] = value
@@ -181,7 +206,12 @@ class Metal:
         self._ctx.enable_only(self._ctx.DEPTH_TEST)
         for plane in CLIP_PLANES:
             self._ctx.enable_direct(plane)
-        places = ((self._heights, _HEIGHTS), (self._values, _VALUES), (self._palette, _PALETTE), (self._relief, _RELIEF))
+        places = (
+            (self._heights, _HEIGHTS),
+            (self._values, _VALUES),
+            (self._palette, _PALETTE),
+            (self._relief, _RELIEF),
+        )
         for texture, place in places:
             texture.use(place)
 

@@ -169,7 +169,12 @@ class CutOverlay(QWidget):
         """Paint the words beside the place, on the side where there is room."""
         metrics = QFontMetricsF(text_font(12))
         wide = max(metrics.horizontalAdvance(text) for text in (probe.place, probe.facts)) + 2 * _PAD_PX
-        card = QRectF(probe.at.x() + _CARD_GAP_PX, probe.at.y() - _CARD_GAP_PX - 2 * _ROW_PX - _PAD_PX, wide, 2 * _ROW_PX + _PAD_PX)
+        card = QRectF(
+            probe.at.x() + _CARD_GAP_PX,
+            probe.at.y() - _CARD_GAP_PX - 2 * _ROW_PX - _PAD_PX,
+            wide,
+            2 * _ROW_PX + _PAD_PX,
+        )
         if card.right() > self.width() - 8:
             card.moveRight(probe.at.x() - _CARD_GAP_PX)
         if card.top() < 8:
@@ -183,4 +188,6 @@ class CutOverlay(QWidget):
         rows = card.adjusted(_PAD_PX, _PAD_PX / 2, 0, 0)
         for k, (text, colour) in enumerate(((probe.place, self._theme.ink), (probe.facts, self._theme.muted))):
             painter.setPen(colour)
-            painter.drawText(QRectF(rows.left(), rows.top() + k * _ROW_PX, wide, _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text)
+            painter.drawText(
+                QRectF(rows.left(), rows.top() + k * _ROW_PX, wide, _ROW_PX), Qt.AlignmentFlag.AlignVCenter, text
+            )

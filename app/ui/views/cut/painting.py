@@ -77,7 +77,9 @@ class Painting(QObject):
         self.stir()
 
     def patch(self, patch: Patch) -> None:
-        """Cells of the cut have changed, in the view's picture too: only they are handed over, unless so many wait that all are less."""
+        """Cells of the cut have changed, in the view's picture too: only they are handed over, unless so many wait that
+        all are less.
+        """
         self._patches.append(patch)
         picture = self._view.picture
         if picture is not None and sum(each.heights.size for each in self._patches) > picture.heights.size:
@@ -120,7 +122,9 @@ class Painting(QObject):
         self.stirred.emit()
 
     def stir(self) -> None:
-        """Paint coarse at once, however often it is asked for only one picture at a time, and fine when nothing more is asked for."""
+        """Paint coarse at once, however often it is asked for only one picture at a time, and fine when nothing more is
+        asked for.
+        """
         self._steps, self.due, self.fine = None, True, False
         self._next.stop()
         self._rest.start()

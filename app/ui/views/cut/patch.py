@@ -15,7 +15,8 @@ class Patch:
 
     Attributes:
         row, col: of the lowest left one.
-        heights: (h, w) float32 mm. values: (h, w) places in the palette. relief: (h, w, 4) as `app.ui.views.cut.relief` makes it.
+        heights: (h, w) float32 mm. values: (h, w) places in the palette. relief: (h, w, 4) as `app.ui.views.cut.relief`
+            makes it.
     """
 
     row: int
@@ -54,13 +55,16 @@ class Patch:
 
 
 def patch_of(heights: Heights, values: Bytes, pitch: float, changed: tuple[slice, slice]) -> Patch:
-    """Return what has to be shown anew when cells have changed: they, and those round them that the light falls on otherwise.
+    """Return what has to be shown anew when cells have changed: they, and those round them that the light falls on
+    otherwise.
 
     Args:
         heights: (rows, columns) all of them, as they are now, mm. values: (rows, columns) places in the palette.
         pitch: mm. changed: rows and columns that have other heights or values than before.
     """
-    rows, columns = (slice(max(part.start - REACH, 0), min(part.stop + REACH, count))
-                     for part, count in zip(changed, heights.shape, strict=True))  # fmt: skip
+    rows, columns = (
+        slice(max(part.start - REACH, 0), min(part.stop + REACH, count))
+        for part, count in zip(changed, heights.shape, strict=True)
+    )
     light = relief_part(heights, pitch, rows, columns)
     return Patch(rows.start, columns.start, heights[rows, columns].copy(), values[rows, columns].copy(), light)

@@ -32,7 +32,8 @@ class Sight:
     """How the scene is looked at.
 
     Attributes:
-        camera: from where. size: of the picture, px. section: normal and offset of the plane that takes away what lies beyond.
+        camera: from where. size: of the picture, px. section: normal and offset of the plane that takes away what lies
+            beyond.
         reach: nothing is farther than this from the camera's target, mm. moving: a coarse picture will do.
     """
 
@@ -72,7 +73,10 @@ class PathRibbons:
         if paths is None or not len(paths):
             self.box = None
             return
-        self.box = (np.minimum(paths.start.min(axis=0), paths.end.min(axis=0)), np.maximum(paths.start.max(axis=0), paths.end.max(axis=0)))
+        self.box = (
+            np.minimum(paths.start.min(axis=0), paths.end.min(axis=0)),
+            np.maximum(paths.start.max(axis=0), paths.end.max(axis=0)),
+        )
         rows = rows_of(paths)
         self._whole = self._held(rows)
         if len(rows) > MOVING_PIECES:
@@ -86,7 +90,11 @@ class PathRibbons:
         program = self._program
         program["to_clip"] = tuple(camera.matrix(size, sight.reach).T.ravel())
         program["size"] = size
-        program["colours"], program["widths"], program["dashes"] = list(look.paths), list(look.widths), list(look.dashes)
+        program["colours"], program["widths"], program["dashes"] = (
+            list(look.paths),
+            list(look.widths),
+            list(look.dashes),
+        )
         program["offset"] = tuple(camera.axes[2] * _LIFT_PX / camera.scale)
         program["scale"] = camera.scale
         program["section"] = sight.section

@@ -70,9 +70,9 @@ def pick_finest(picture: CutPicture, detail: CutPicture | None, ray: Ray, sectio
 def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit | None:
     """Return the first cell that a line of sight meets; None where it passes by.
 
-    Every cell is a column with a flat top, as the engine means it; one that was cut through to the floor is none. The ray's
-    pieces between the lines of the grid are looked at all at once: a piece belongs to one cell, and meets it where its lower
-    end is not above the cell's height.
+    Every cell is a column with a flat top, as the engine means it; one that was cut through to the floor is none. The
+    ray's pieces between the lines of the grid are looked at all at once: a piece belongs to one cell, and meets it
+    where its lower end is not above the cell's height.
 
     Args:
         picture: the heights.
@@ -86,7 +86,8 @@ def pick(picture: CutPicture, ray: Ray, section: Section | None = None) -> Hit |
     middles = ray.origin + (cuts[:-1] + cuts[1:])[:, None] / 2 * ray.direction
     columns, rows = (
         np.clip(np.floor((middles[:, axis] - corner) / picture.pitch).astype(np.int64), 0, count - 1)
-        for axis, corner, count in ((0, picture.x0, picture.columns), (1, picture.y0, picture.rows)))
+        for axis, corner, count in ((0, picture.x0, picture.columns), (1, picture.y0, picture.rows))
+    )
     heights = picture.heights[rows, columns].astype(float)
     heights[heights <= picture.floor] = -np.inf
     z = ray.origin[2] + cuts * ray.direction[2]
@@ -106,7 +107,11 @@ def _span(picture: CutPicture, ray: Ray, section: Section | None) -> tuple[float
     high = picture.high
     high[2] = max(picture.highest, picture.floor)
     low, begin, end = picture.low, -np.inf, np.inf
-    planes = [(np.eye(3)[axis] * sign, sign * bound) for axis in range(3) for sign, bound in ((1, high[axis]), (-1, low[axis]))]
+    planes = [
+        (np.eye(3)[axis] * sign, sign * bound)
+        for axis in range(3)
+        for sign, bound in ((1, high[axis]), (-1, low[axis]))
+    ]
     if section is not None:
         planes.append((np.array([*section.normal, 0.0]), section.offset))
     for normal, offset in planes:

@@ -71,7 +71,8 @@ class Span:
     """What the scales of a cut's colours run over; a finer look at a part of it takes those of the whole.
 
     Attributes:
-        lowest: of the heights that were cut, mm. worst: the largest deviation either way, mm. last: the greatest number of a move.
+        lowest: of the heights that were cut, mm. worst: the largest deviation either way, mm. last: the greatest number
+            of a move.
     """
 
     lowest: float
@@ -93,7 +94,8 @@ class CutPicture:
         tolerance: deviation within which the part is right, mm, > 0.
         unreachable: (rows, columns) bool, left metal that no tool of the job reaches.
         paths: the way the tool went.
-        values: places in a palette by what colours tell (`app.ui.views.cut.colouring`), kept here once they are worked out.
+        values: places in a palette by what colours tell (`app.ui.views.cut.colouring`), kept here once they are worked
+            out.
     """
 
     heights: Heights
@@ -139,7 +141,9 @@ class CutPicture:
 
     @cached_property
     def relief(self) -> Bytes:
-        """What the light needs, see `relief`; made when first asked for, which may be on another thread than the window's."""
+        """What the light needs, see `relief`; made when first asked for, which may be on another thread than the
+        window's.
+        """
         return relief(self.heights, self.pitch)
 
     @cached_property
@@ -174,8 +178,10 @@ class CutPicture:
 
     def height_at(self, x: float, y: float) -> float:
         """Return the height of the cell that a place, mm, lies in; beside the stock that of the nearest one."""
-        column, row = (int(np.clip((at - low) / self.pitch, 0, count - 1))
-                       for at, low, count in ((x, self.x0, self.columns), (y, self.y0, self.rows)))
+        column, row = (
+            int(np.clip((at - low) / self.pitch, 0, count - 1))
+            for at, low, count in ((x, self.x0, self.columns), (y, self.y0, self.rows))
+        )
         return float(self.heights[row, column])
 
     def move_at(self, row: int, column: int) -> int:

@@ -1,4 +1,6 @@
-"""Plays a cut: forward and backward, by time, by moves, by tools; anywhere at once. What is shown is computed on another thread."""
+"""Plays a cut: forward and backward, by time, by moves, by tools; anywhere at once. What is shown is computed on
+another thread.
+"""
 
 from __future__ import annotations
 
@@ -139,8 +141,12 @@ class Player(QObject):
         self.worker.cancel()
         self.shown, self.timeline, self.at, self.failure = shown, None, None, ""
         self._cells = self._live = self._wanted = None
-        self.marks = tuple(sorted({Mark(each.motion + 1, each.colour) for each in entries if each.counts and each.motion >= 0},
-                                  key=lambda mark: (mark.motion, mark.colour.value)))  # fmt: skip
+        self.marks = tuple(
+            sorted(
+                {Mark(each.motion + 1, each.colour) for each in entries if each.counts and each.motion >= 0},
+                key=lambda mark: (mark.motion, mark.colour.value),
+            )
+        )
         self._view.playing.show_tool(None, None)
         self._view.playing.show_wedges(None)
         self.state_changed.emit()
@@ -202,7 +208,9 @@ class Player(QObject):
             self._start_from()
 
     def step(self, what: Step, way: int) -> None:
-        """Go to the next such place (1) or the one before (-1), and stay there; where there is none, to the end of the way."""
+        """Go to the next such place (1) or the one before (-1), and stay there; where there is none, to the end of the
+        way.
+        """
         if self.timeline is None or self.at is None:
             return
         self.pause()
@@ -267,7 +275,9 @@ class Player(QObject):
         return float(ends[run] - ends[run - 1])
 
     def _hurry(self, timeline: Timeline) -> float:
-        """Return how many seconds go by in one at least: while the control waits, so many that the wait is soon over."""
+        """Return how many seconds go by in one at least: while the control waits, so many that the wait is soon
+        over.
+        """
         return timeline.wait_at(self._place) / LONGEST_WAIT_S if self.pace is Pace.TIME else 0.0
 
     def _moment(self, timeline: Timeline) -> Moment:

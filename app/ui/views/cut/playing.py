@@ -34,7 +34,9 @@ class Playing:
         self.wedges_on = self.tool_due = self.wedges_due = False
 
     def show_tool(self, tool: Tool | None, tip: Place | None) -> None:
-        """Show a tool with its tip at a place, mm, or none; the same tool elsewhere costs no more than a coarse picture."""
+        """Show a tool with its tip at a place, mm, or none; the same tool elsewhere costs no more than a coarse
+        picture.
+        """
         tool = tool if tip is not None else None
         if tool == self.tool and (tool is None or tip == self.tip):
             return
@@ -82,4 +84,6 @@ def drawn_tool(tool: Tool | None, picture: CutPicture | None) -> DrawnTool | Non
     if tool is None:
         return None
     known = picture.moves.tools[0].tolist() if picture is not None and picture.moves is not None else []
-    return DrawnTool(outline_of(tool), tool.flutes, known.index(tool.number) if tool.number in known else tool.number - 1)
+    return DrawnTool(
+        outline_of(tool), tool.flutes, known.index(tool.number) if tool.number in known else tool.number - 1
+    )

@@ -96,7 +96,14 @@ class ProfilePanel(QFrame):
         fill = QColor(theme.muted)
         fill.setAlphaF(0.18)
         floor = float(profile.heights.min()) - 0.05 * max(float(profile.heights.max() - profile.heights.min()), 0.01)
-        plot.plot(profile.borders, profile.heights, stepMode="center", fillLevel=floor, brush=fill, pen=mkPen(theme.accent_text, width=1.5))
+        plot.plot(
+            profile.borders,
+            profile.heights,
+            stepMode="center",
+            fillLevel=floor,
+            brush=fill,
+            pen=mkPen(theme.accent_text, width=1.5),
+        )
         plot.autoRange(padding=0.03)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)

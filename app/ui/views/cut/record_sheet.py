@@ -17,8 +17,15 @@ from ...framework.section import heading
 from ...framework.theme import LIGHT, Theme
 from .gif import MOST_PER_SECOND
 
-LENGTH = Spec("Length", "s", 0.1, 600.0, 1, False,
-              "How long the recording runs; all of the cut is in it, but for dwells and changes of tool.")
+LENGTH = Spec(
+    "Length",
+    "s",
+    0.1,
+    600.0,
+    1,
+    False,
+    "How long the recording runs; all of the cut is in it, but for dwells and changes of tool.",
+)
 RATE = Spec("Pictures", "a second", 1.0, MOST_PER_SECOND, 0, False, "More run smoother and make a larger file.")
 WIDTH = Spec("Width", "px", 64.0, 4096.0, 0, False, "Of the pictures; their height follows from the view.")
 

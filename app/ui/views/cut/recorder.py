@@ -1,4 +1,6 @@
-"""Records a cut from its start to its end, as it is looked at: asks how and where to, and has it written on another thread."""
+"""Records a cut from its start to its end, as it is looked at: asks how and where to, and has it written on another
+thread.
+"""
 
 from __future__ import annotations
 
@@ -55,8 +57,13 @@ def write_recording(wanted: Recording, progress: Progress) -> Recording:
     Raises:
         HitofudeError: it cannot be painted, or not be written. Cancelled: nothing was written.
     """
-    record(_shots(wanted, progress.part(0.0, 0.1)), wanted.frame, wanted.target, Reel(wanted.plan.count, wanted.plan.per_second),
-           progress.part(0.1, 1.0))  # fmt: skip
+    record(
+        _shots(wanted, progress.part(0.0, 0.1)),
+        wanted.frame,
+        wanted.target,
+        Reel(wanted.plan.count, wanted.plan.per_second),
+        progress.part(0.1, 1.0),
+    )
     return wanted
 
 
@@ -74,7 +81,12 @@ def _shots(wanted: Recording, progress: Progress) -> Iterator[Shot]:
         moment = timeline.at_share(share) if wanted.pace is Pace.TIME else Moment(round(share * len(timeline)))
         frame = cells.frame(Wish(moment, wanted.colour, wanted.wedges))
         patches = (frame.patch,) if frame.patch is not None else ()
-        shot = Shot(Whole(shown.picture, colours) if k == 0 else None, patches, _drawn(frame.tool, shown, drawn), wedges=frame.wedges)
+        shot = Shot(
+            Whole(shown.picture, colours) if k == 0 else None,
+            patches,
+            _drawn(frame.tool, shown, drawn),
+            wedges=frame.wedges,
+        )
         yield replace(shot, tip=frame.tip) if frame.tip is not None else shot
 
 
@@ -128,12 +140,18 @@ class Recorder(QObject):
         """Ask for a file or a folder, and record."""
         folder = Path(self._window.settings.last_folder or Path.home())
         if form is RecordForm.GIF:
-            name, _ = QFileDialog.getSaveFileName(self._window, "Record the cut", str(folder / "cut.gif"), "GIF (*.gif)")
+            name, _ = QFileDialog.getSaveFileName(
+                self._window, "Record the cut", str(folder / "cut.gif"), "GIF (*.gif)"
+            )
         else:
-            name, _ = QFileDialog.getSaveFileName(self._window, "New folder for the pictures", str(folder / "cut"), "Folder (*)")
+            name, _ = QFileDialog.getSaveFileName(
+                self._window, "New folder for the pictures", str(folder / "cut"), "Folder (*)"
+            )
         if name:
             path = Path(name)
-            self.start(path.with_suffix(".gif") if form is RecordForm.GIF and path.suffix.casefold() != ".gif" else path)
+            self.start(
+                path.with_suffix(".gif") if form is RecordForm.GIF and path.suffix.casefold() != ".gif" else path
+            )
 
     def start(self, target: Path) -> None:
         """Record to a file that ends in ".gif", or else to single pictures in a folder."""
@@ -148,8 +166,16 @@ class Recorder(QObject):
         camera, section, paths = view.frame_parts()
         camera = replace(camera, scale=camera.scale * size[0] / view_size[0])
         frame = Frame(camera, size, view.painting.look, 0, section, paths)
-        wanted = Recording(shown, frame, plan, self._page.player.pace, view.colours.told, inks_of(view.colours.theme),
-                           view.playing.wedges_on, target)  # fmt: skip
+        wanted = Recording(
+            shown,
+            frame,
+            plan,
+            self._page.player.pace,
+            view.colours.told,
+            inks_of(view.colours.theme),
+            view.playing.wedges_on,
+            target,
+        )
         self.worker.start(lambda progress: write_recording(wanted, progress), 0)
 
     def _on_busy(self, busy: bool) -> None:
@@ -159,5 +185,6 @@ class Recorder(QObject):
     def _on_done(self, answer: Answer) -> None:
         done = answer.value
         if isinstance(done, Recording):
-            self._log.note(f"record {done.target.name}", f"{done.plan.count} pictures of the cut written to {done.target}")
-
+            self._log.note(
+                f"record {done.target.name}", f"{done.plan.count} pictures of the cut written to {done.target}"
+            )

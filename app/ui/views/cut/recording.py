@@ -1,4 +1,6 @@
-"""Records the cut as it is played: pictures painted apart from the window, written as single files or as a moving picture. No Qt."""
+"""Records the cut as it is played: pictures painted apart from the window, written as single files or as a moving
+picture. No Qt.
+"""
 
 from __future__ import annotations
 
@@ -127,8 +129,10 @@ def write_gif(frames: Iterator[Pixels], path: Path, reel: Reel, progress: Progre
         InputError: it cannot be written, or shall be shown faster than a GIF can be. Cancelled: nothing was written.
     """
     if not 0 < reel.per_second <= MOST_PER_SECOND:
-        raise InputError(f"A GIF cannot show {reel.per_second:g} pictures a second; use more than 0 and not more than "
-                         f"{MOST_PER_SECOND:g}.")
+        raise InputError(
+            f"A GIF cannot show {reel.per_second:g} pictures a second; use more than 0 and not more than "
+            f"{MOST_PER_SECOND:g}."
+        )
     write_atomically(path, b"".join(gif_chunks(_told(frames, reel, progress), reel.per_second)))
     progress.step(1.0, "Recorded")
 
@@ -141,7 +145,9 @@ def write_pictures(frames: Iterator[Pixels], folder: Path, reel: Reel, progress:
     """
     try:
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-            raise InputError(f"{folder} is not empty; name a new folder for the pictures, so that no others are among them.")
+            raise InputError(
+                f"{folder} is not empty; name a new folder for the pictures, so that no others are among them."
+            )
         waiting = Path(tempfile.mkdtemp(prefix=waiting_prefix(folder.name), suffix=".part", dir=folder.parent))
         try:
             whole = waiting / "whole"  # a folder for one's own eyes alone is no place for pictures

@@ -17,7 +17,9 @@ GAIN, LIMIT = 2.5, 0.15
 """Slopes well under LIMIT are lit as if they were GAIN times as steep."""
 
 WALL = 2.0
-"""From this slope on cells count as a wall: there the steps of the grid, not the metal, would tell the slope's direction."""
+"""From this slope on cells count as a wall: there the steps of the grid, not the metal, would tell the slope's
+direction.
+"""
 
 _WIDE = 11
 """Cells that are taken together to tell which way a wall faces; how steep it is, its own cells tell."""
@@ -60,8 +62,13 @@ def relief_part(heights: NDArray[np.float32], pitch: float, rows: slice, columns
     """
     light = corner_light(heights, pitch)
     wide = tuple(slice(max(part.start - _NEAR, 0), part.stop + _NEAR) for part in (rows, columns))
-    inner = tuple(slice(part.start - outer.start, part.stop - outer.start) for part, outer in zip((rows, columns), wide, strict=True))
-    return np.ascontiguousarray(_relief(np.ascontiguousarray(heights[wide]), np.ascontiguousarray(light[wide]), pitch)[inner])
+    inner = tuple(
+        slice(part.start - outer.start, part.stop - outer.start)
+        for part, outer in zip((rows, columns), wide, strict=True)
+    )
+    return np.ascontiguousarray(
+        _relief(np.ascontiguousarray(heights[wide]), np.ascontiguousarray(light[wide]), pitch)[inner]
+    )
 
 
 def _relief(heights: NDArray[np.float32], light: Bytes, pitch: float) -> Bytes:
@@ -86,11 +93,12 @@ def _band(fields: tuple[NDArray[Any], ...], pitch: float, out: NDArray[np.uint32
     first, last = max(span[0] - 1, 0), min(span[1] + 1, len(out))
     made = np.empty((last - first, out.shape[1]), out.dtype)
     relief_map(*(each[first:last] for each in fields), np.float32(pitch), np.float32(GAIN), np.float32(LIMIT), made)
-    out[span[0]:span[1]] = made[span[0] - first:span[1] - first]
+    out[span[0] : span[1]] = made[span[0] - first : span[1] - first]
 
 
 def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
-    """Return (rows, columns) how much light reaches each cell, 255 = all: less, the more the metal round it stands higher.
+    """Return (rows, columns) how much light reaches each cell, 255 = all: less, the more the metal round it stands
+    higher.
 
     A plane, however it slopes, gets all of it.
     """
@@ -103,7 +111,9 @@ def corner_light(heights: NDArray[np.float32], pitch: float) -> Bytes:
     wide = np.pad(small, margin, mode="reflect", reflect_type="odd")  # a slope goes on beyond the stock
     shade = np.zeros_like(small)
     for span in _SPANS:
-        around = np.asarray(cv2.blur(wide, (span, span)))[margin:margin + small.shape[0], margin:margin + small.shape[1]]
+        around = np.asarray(cv2.blur(wide, (span, span)))[
+            margin : margin + small.shape[0], margin : margin + small.shape[1]
+        ]
         shade += np.clip((around - small) / np.float32(span * _COARSE * pitch), 0.0, 0.5)
     light = np.round(255.0 * (1.0 - _DARKEST * np.minimum(shade * 1.5, 1.0))).astype(np.uint8)
     return np.ascontiguousarray(cv2.resize(light, (columns, rows), interpolation=cv2.INTER_LINEAR))

@@ -49,15 +49,18 @@ def _slopes(heights, i, pitch, out):
     out[2], out[3] = heights[below] * rise, heights[above] * rise
 
 
-@kernel("void(float32[:, ::1], float32[:, ::1], float32[:, ::1], uint8[:, ::1], float32, float32, float32, uint32[:, ::1])")
+@kernel(
+    "void(float32[:, ::1], float32[:, ::1], float32[:, ::1], uint8[:, ::1], float32, float32, float32, uint32[:, ::1])"
+)
 def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
     """Write the relief of heights.
 
-    A slope g is made 1 + (gain - 1) / (1 + g^2 / limit^2) times as steep, so that cusps show and walls stay as they are.
-    The normal's x and y are written as 128 + 127 sign sqrt: fine where the metal is nearly flat.
+    A slope g is made 1 + (gain - 1) / (1 + g^2 / limit^2) times as steep, so that cusps show and walls stay as they
+    are. The normal's x and y are written as 128 + 127 sign sqrt: fine where the metal is nearly flat.
 
     Args:
-        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) slope at walls, where smooth tells its direction, else 0.
+        heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) slope at walls, where smooth tells its
+        direction, else 0.
         light: (n, m) share of the light that reaches a cell, 255 = all.
         pitch: mm. gain, limit: see above. out: (n, m) x, y, light, 255, from the lowest byte up.
     """

@@ -31,7 +31,8 @@ class CutScene:
     """Heights, colours and paths on the graphics side, and the picture that was painted of them last.
 
     Attributes:
-        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there is none.
+        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there
+            is none.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -111,7 +112,9 @@ class CutScene:
             for step in self._draw_metal(frame, reach):
                 yield step
                 back.use()
-            self._paths.draw(frame.look, frame.shown, Sight(frame.camera, frame.size, frame.clip, reach, bool(frame.budget)))
+            self._paths.draw(
+                frame.look, frame.shown, Sight(frame.camera, frame.size, frame.clip, reach, bool(frame.budget))
+            )
             for plane in CLIP_PLANES:
                 self.ctx.disable_direct(plane)
             for body in (self._facets, self._tool):

@@ -1,4 +1,6 @@
-"""Beside the cut: with which tools a program is cut, out of what; for programs that do not tell, and to try something else."""
+"""Beside the cut: with which tools a program is cut, out of what; for programs that do not tell, and to try something
+else.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,14 @@ from ...panels.side_panel import WIDTH
 from .foreign import Asked
 from .given import Box, Given
 
-_KINDS = {ToolKind.FLAT: "Flat end mill", ToolKind.BALL: "Ball", ToolKind.BULL: "Bull-nose", ToolKind.V: "V", ToolKind.DRILL: "Drill",
-          ToolKind.TAPER: "Tapered ball"}
+_KINDS = {
+    ToolKind.FLAT: "Flat end mill",
+    ToolKind.BALL: "Ball",
+    ToolKind.BULL: "Bull-nose",
+    ToolKind.V: "V",
+    ToolKind.DRILL: "Drill",
+    ToolKind.TAPER: "Tapered ball",
+}
 _ANGLE, _FAR = np.radians(60.0), 100_000.0
 _AXES = ("X from", "Y from", "Z from", "X to", "Y to", "Z to")
 
@@ -38,8 +46,12 @@ class ToolFields(Section):
         self.fields = {
             "diameter": NumberField(Spec("Diameter", low=0.001, high=1000)),
             "corner_radius": NumberField(Spec("Corner radius", high=500)),
-            "tip_diameter": NumberField(Spec("Tip diameter", high=1000, tip="Of the flat of a V tool, of the ball of a tapered one.")),
-            "tip_angle": NumberField(Spec("Angle", "°", 1, 179, 2, False, "The full angle of the point, or of the cone.")),
+            "tip_diameter": NumberField(
+                Spec("Tip diameter", high=1000, tip="Of the flat of a V tool, of the ball of a tapered one.")
+            ),
+            "tip_angle": NumberField(
+                Spec("Angle", "°", 1, 179, 2, False, "The full angle of the point, or of the cone.")
+            ),
         }
         self.reason = QLabel()
         self.reason.setProperty("role", "error")
@@ -76,7 +88,11 @@ class ToolFields(Section):
 def as_kind(tool: Tool, kind: ToolKind) -> Tool:
     """Return a tool of another kind; what its shape needs and nobody has said is what is usual."""
     tip = tool.diameter / 4 if kind is ToolKind.TAPER else 0.0
-    usual = {"corner_radius": tool.diameter / 8, "tip_angle": _ANGLE if kind is not ToolKind.DRILL else 0.0, "tip_diameter": tip}
+    usual = {
+        "corner_radius": tool.diameter / 8,
+        "tip_angle": _ANGLE if kind is not ToolKind.DRILL else 0.0,
+        "tip_diameter": tip,
+    }
     made = tool.as_kind(kind)
     missing = {key: usual[key] for key in shape_keys(kind) if not getattr(made, key) and usual[key]}
     return replace(made, **missing) if missing else made  # type: ignore[arg-type]
@@ -191,7 +207,9 @@ class SetupForm(QWidget):
             self.wrong.setText("The stock has no volume: each “to” must be greater than its “from”.")
             self.wrong.show()
             return
-        self.accepted.emit(Given({number: fields.tool for number, fields in self.tools.items()}, box, self.compare.isChecked()))
+        self.accepted.emit(
+            Given({number: fields.tool for number, fields in self.tools.items()}, box, self.compare.isChecked())
+        )
 
     def _box(self) -> Box:
         x0, y0, z0, x1, y1, z1 = (field.number for field in self.stock)

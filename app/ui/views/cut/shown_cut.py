@@ -1,4 +1,6 @@
-"""A program that was cut, prepared for the Cut view: heights, colours, paths, what was assumed. No Qt widgets; runs on a worker."""
+"""A program that was cut, prepared for the Cut view: heights, colours, paths, what was assumed. No Qt widgets; runs on
+a worker.
+"""
 
 from __future__ import annotations
 
@@ -69,14 +71,20 @@ class ShownCut:
         Args:
             line: 1-based, in any of the files; 0 = none. place: mm; None = the first motion will do.
         """
-        rows = np.flatnonzero(self.picture.moves.line == line) if line and self.picture.moves is not None else np.zeros(0, np.int64)
+        rows = (
+            np.flatnonzero(self.picture.moves.line == line)
+            if line and self.picture.moves is not None
+            else np.zeros(0, np.int64)
+        )
         if not len(rows) or place is None:
             return int(rows[0]) if len(rows) else -1
         ends = np.concatenate([program.motions.end for program in self.cut.setup.programs])[rows]
         return int(rows[np.argmin(np.hypot(ends[:, 0] - place[0], ends[:, 1] - place[1]))])
 
 
-def shown_cut(cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour, progress: Progress = NO_PROGRESS) -> ShownCut:
+def shown_cut(
+    cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour, progress: Progress = NO_PROGRESS
+) -> ShownCut:
     """Prepare a program that was cut; the job's, as long as nobody says otherwise.
 
     Args:
@@ -99,8 +107,14 @@ def shown_cut(cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour
     progress.step(0.5, "Preparing the cut")
     prepare(picture, colour)
     counts = np.cumsum([0, *(len(program.motions) for program in setup.programs)])
-    return ShownCut(cut, picture, tuple(file.name for file in files), tuple(program_text(file.data) for file in files),
-                    tuple(counts.tolist()), histogram=histogram_of(picture, cut.judgement) if cut.judgement is not None else None)
+    return ShownCut(
+        cut,
+        picture,
+        tuple(file.name for file in files),
+        tuple(program_text(file.data) for file in files),
+        tuple(counts.tolist()),
+        histogram=histogram_of(picture, cut.judgement) if cut.judgement is not None else None,
+    )
 
 
 def picture_of(cut: CutProgram, moves: CutMoves, paths: CutPaths | None = None) -> CutPicture:
@@ -111,10 +125,19 @@ def picture_of(cut: CutProgram, moves: CutMoves, paths: CutPaths | None = None) 
     """
     grid, judgement = cut.cut.before.grid, cut.judgement
     return CutPicture(
-        np.ascontiguousarray(cut.cut.heights), grid.x0, grid.y0, grid.pitch, cut.floor, cut.top, cut.cut.owner, moves,
-        judgement.deviation if judgement is not None else None, judgement.tolerance if judgement is not None else _DEFAULT_TOLERANCE,
-        judgement.unreachable if judgement is not None else None, paths,
-    )  # fmt: skip
+        np.ascontiguousarray(cut.cut.heights),
+        grid.x0,
+        grid.y0,
+        grid.pitch,
+        cut.floor,
+        cut.top,
+        cut.cut.owner,
+        moves,
+        judgement.deviation if judgement is not None else None,
+        judgement.tolerance if judgement is not None else _DEFAULT_TOLERANCE,
+        judgement.unreachable if judgement is not None else None,
+        paths,
+    )
 
 
 def _pieces(program: NcProgram, data: bytes) -> tuple[Floats, Floats, Bytes]:

@@ -21,7 +21,8 @@ class CutLook:
         paths: colours of paths by look. widths: px. dashes: period and drawn part, px; (0, 0) = solid.
         light: towards the light, as (right, up, towards the eye).
         strength: of the ambient light, of the light, of its mirror image.
-        tools: colours of cutting parts, a cycle. steel, holder: of shanks and holders. edge: of what turns away from the eye.
+        tools: colours of cutting parts, a cycle. steel, holder: of shanks and holders. edge: of what turns away from
+            the eye.
         facets: of cylinders and of wedges.
     """
 
@@ -42,7 +43,9 @@ class CutLook:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Framebuffers of one size: painted into with one sample a pixel while things move and with several at rest, and shown."""
+    """Framebuffers of one size: painted into with one sample a pixel while things move and with several at rest, and
+    shown.
+    """
 
     quick: moderngl.Framebuffer
     smooth: moderngl.Framebuffer

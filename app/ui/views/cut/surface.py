@@ -1,4 +1,6 @@
-"""Where a cut reaches the screen: a widget with OpenGL of its own, or, where there is none, a picture painted without a screen."""
+"""Where a cut reaches the screen: a widget with OpenGL of its own, or, where there is none, a picture painted without a
+screen.
+"""
 
 from __future__ import annotations
 
@@ -129,7 +131,9 @@ class ImageSurface(QWidget):
         self.destroyed.connect(partial(_leave, self._context, self._scene))
 
     def work(self, act: Callable[[CutScene], T]) -> T:
-        """Do something with the scene; its context is current meanwhile and not a moment longer, for others want theirs."""
+        """Do something with the scene; its context is current meanwhile and not a moment longer, for others want
+        theirs.
+        """
         with self._context:
             return act(self._scene)
 
@@ -161,7 +165,8 @@ def image_of(scene: CutScene) -> QImage:
 
 
 def ensure_sound(scene: CutScene) -> None:
-    """Refuse a graphics system that has lost its memory or its context; the toolkit's own calls may leave lesser errors behind.
+    """Refuse a graphics system that has lost its memory or its context; the toolkit's own calls may leave lesser errors
+    behind.
 
     Raises:
         RuntimeError: it has; its name for it.

@@ -68,7 +68,9 @@ class Surfacing(QObject):
         if self._broken >= MOST:
             self._give_up(f"The graphics system fails ({fault}).")
             return
-        self.said.emit(f"The screen's OpenGL failed ({fault}); the cut is painted apart from it from now on. Nothing is lost.")
+        self.said.emit(
+            f"The screen's OpenGL failed ({fault}); the cut is painted apart from it from now on. Nothing is lost."
+        )
         self.need()
         view.painting.renew()
 

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 HEIGHT = 58
 _EDGE, _BAND, _TOP, _HANDLE, _MARK = 12, 5, 9, 5.0, 4.0
-"""px: margins at the sides, the tools' band, room for marks above the plot, half of the cursor's handle and of a mark."""
+"""px: margins at the sides, the tools' band, room for marks above the plot, half of the cursor's handle and of a
+mark.
+"""
 
 _FULL = 0.985
 """Share of the columns that the plot's height is made for: a few moves that take much more stick out."""
@@ -87,7 +89,9 @@ class TimePlot(QWidget):
         if event.buttons() & Qt.MouseButton.LeftButton:
             self._go(event.position().x())
         elif self._timeline is not None:
-            QToolTip.showText(event.globalPosition().toPoint(), self.words_at(self._seconds(event.position().x())), self)
+            QToolTip.showText(
+                event.globalPosition().toPoint(), self.words_at(self._seconds(event.position().x())), self
+            )
 
     def words_at(self, seconds: float) -> str:
         """Return what goes on at a time."""
@@ -96,10 +100,15 @@ class TimePlot(QWidget):
             return ""
         moment = timeline.at(seconds)
         row = timeline.current(moment)
-        section = timeline.volume[row] / timeline.length[row] if len(timeline.volume) and timeline.length[row] > 0 else 0.0
+        section = (
+            timeline.volume[row] / timeline.length[row] if len(timeline.volume) and timeline.length[row] > 0 else 0.0
+        )
         waits = "waits, " if seconds < timeline.begins[row] or seconds > timeline.ends[row] else ""
-        return (f"{exact_clock(seconds)} · {waits}line {timeline.line[row]} · T{timeline.tool[row]} · cut {section:.3f} mm² · "
-                f"{grouped(timeline.removed_at(moment), 1)} mm³ removed")
+        return (
+            f"{exact_clock(seconds)} · {waits}line {timeline.line[row]} · T{timeline.tool[row]} · cut {section:.3f} "
+            "mm² · "
+            f"{grouped(timeline.removed_at(moment), 1)} mm³ removed"
+        )
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw the plot, the tools, the marks and the cursor."""
@@ -130,8 +139,10 @@ class TimePlot(QWidget):
 
     def _paint_done(self, painter: QPainter, room: QRectF) -> None:
         """Tint the time that is gone."""
-        painter.fillRect(QRectF(room.left(), room.top(), self._x(self._at) - room.left(), room.height()),
-                         mixed(self._theme.canvas, self._theme.chosen, 0.55))  # fmt: skip
+        painter.fillRect(
+            QRectF(room.left(), room.top(), self._x(self._at) - room.left(), room.height()),
+            mixed(self._theme.canvas, self._theme.chosen, 0.55),
+        )
 
     def _paint_areas(self, painter: QPainter, room: QRectF, columns: _Columns) -> None:
         sampled, theme = columns.sampled, self._theme
@@ -208,4 +219,3 @@ def exact_clock(seconds: float) -> str:
     if minutes >= 60:
         return f"{minutes // 60}:{minutes % 60:02d}:{rest // 10:02d}"
     return f"{minutes}:{rest // 10:02d}.{rest % 10}"
-

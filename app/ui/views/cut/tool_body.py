@@ -100,14 +100,24 @@ class ToolBody:
         look, axes, program = frame.look, frame.camera.axes, self._program
         light = np.asarray(look.light) @ axes / np.linalg.norm(look.light)
         halfway = light + axes[2]
-        widest = max(float(stretch.points[:, 1].max()) for stretch in tool.outline.stretches if stretch.part is Part.CUTTING)
+        widest = max(
+            float(stretch.points[:, 1].max()) for stretch in tool.outline.stretches if stretch.part is Part.CUTTING
+        )
         values = {
-            "tip": self.tip, "sides": sides, "alphas": list(_ALPHAS), "light": tuple(light), "eye": tuple(axes[2]), "right": tuple(axes[0]),
-            "halfway": tuple(halfway / np.linalg.norm(halfway)), "strength": look.strength, "flutes": float(tool.flutes),
-            "edge": look.edge, "inks": [look.tools[tool.ink % len(look.tools)], look.steel, look.holder],
+            "tip": self.tip,
+            "sides": sides,
+            "alphas": list(_ALPHAS),
+            "light": tuple(light),
+            "eye": tuple(axes[2]),
+            "right": tuple(axes[0]),
+            "halfway": tuple(halfway / np.linalg.norm(halfway)),
+            "strength": look.strength,
+            "flutes": float(tool.flutes),
+            "edge": look.edge,
+            "inks": [look.tools[tool.ink % len(look.tools)], look.steel, look.holder],
             "lead": _HELIX / (2 * np.pi * widest),
             "to_clip": tuple(frame.camera.matrix(frame.size, reach).T.ravel()),
-        }  # fmt: skip
+        }
         for name, value in values.items():
             program[name] = value
 
@@ -119,7 +129,9 @@ class ToolBody:
 
 
 def pieces_of(outline: ToolOutline) -> Pieces:
-    """Return the straight pieces of an outline as the graphics side takes them, with normals that are smooth along curves."""
+    """Return the straight pieces of an outline as the graphics side takes them, with normals that are smooth along
+    curves.
+    """
     made = []
     for stretch in outline.stretches:
         ways = np.diff(stretch.points, axis=0)

@@ -24,7 +24,8 @@ USUAL_ANGLE = {ToolKind.DRILL: math.radians(118.0), ToolKind.V: math.radians(90.
 """Full angle of a point or a cone that nobody tells: the trade's usual ones."""
 
 _FLUTES, _MOST_OF_LENGTH, _CONES = 3.0, 0.6, (ToolKind.V, ToolKind.TAPER)
-"""Flutes that nobody tells the length of: so many diameters, and not more than this share of a length that is known; a cone's are
+"""Flutes that nobody tells the length of: so many diameters, and not more than this share of a length that is known; a
+cone's are
 as long as it is."""
 
 _SHANK = 3.0
@@ -43,7 +44,8 @@ class Stretch:
 
     Attributes:
         part: what it is.
-        points: (n, 2) height over the tip and radius, mm, from below; straight between them; it begins where the one before ends.
+        points: (n, 2) height over the tip and radius, mm, from below; straight between them; it begins where the one
+            before ends.
     """
 
     part: Part
@@ -87,8 +89,8 @@ class DrawnTool:
 def outline_of(tool: Tool) -> ToolOutline:
     """Return a tool from the side.
 
-    A length that nobody tells is made up: flutes of three diameters, a shank as wide as the cutter that goes up to the holder
-    or to the tool's end, and no holder. What is made up changes nothing but the picture.
+    A length that nobody tells is made up: flutes of three diameters, a shank as wide as the cutter that goes up to the
+    holder or to the tool's end, and no holder. What is made up changes nothing but the picture.
     """
     profile, shank = profile_of(tool), tool.shank_diameter / 2 or tool.radius
     shoulder, known = float(profile[-1, 0]), tool.stick_out or tool.overall_length
@@ -106,14 +108,20 @@ def outline_of(tool: Tool) -> ToolOutline:
     top = body[-1]
     if tool.holder:
         parts.append((Part.HOLDER, np.vstack([top, np.array(tool.holder) + (top[0], 0.0)])))
-    parts = [(part, points) for part, points in ((part, _without_doubles(points)) for part, points in parts) if len(points) > 1]
+    parts = [
+        (part, points)
+        for part, points in ((part, _without_doubles(points)) for part, points in parts)
+        if len(points) > 1
+    ]
     part, points = parts.pop()
     parts.append((part, _without_doubles(np.vstack([points, [points[-1, 0], 0.0]]))))
     return ToolOutline(tuple(Stretch(part, points) for part, points in parts))
 
 
 def profile_of(tool: Tool) -> Floats:
-    """Return (n, 2) height over the tip and radius of the cutter's end, mm, from the axis to where it is as wide as the tool."""
+    """Return (n, 2) height over the tip and radius of the cutter's end, mm, from the axis to where it is as wide as the
+    tool.
+    """
     radius = tool.radius
     if tool.kind is ToolKind.FLAT:
         return np.array([[0.0, 0.0], [0.0, radius]])
@@ -129,7 +137,9 @@ def profile_of(tool: Tool) -> Floats:
 
 
 def _rounding(flat: float, radius: float, turn: float) -> Floats:
-    """Return a rounding that begins level at a radius `flat` and turns up by an angle, radians: (n, 2) height and radius, mm."""
+    """Return a rounding that begins level at a radius `flat` and turns up by an angle, radians: (n, 2) height and
+    radius, mm.
+    """
     angles = np.linspace(0.0, turn, 1 + max(1, math.ceil(_STEPS * turn / (math.pi / 2)))) if radius else np.zeros(1)
     return np.column_stack([radius * (1.0 - np.cos(angles)), flat + radius * np.sin(angles)])
 

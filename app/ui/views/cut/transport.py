@@ -24,11 +24,12 @@ _BEFORE: tuple[Stepped, ...] = (
     ("previous-finding", "The finding before (Shift+N)", Step.FINDING, -1),
     ("previous-tool", "Back to the change of tool ([)", Step.TOOL, -1),
     ("back", "One NC line back (,)", Step.LINE, -1),
-)  # fmt: skip
+)
 _AFTER: tuple[Stepped, ...] = (
-    ("forward", "One NC line on (.)", Step.LINE, 1), ("next-tool", "On to the next tool (])", Step.TOOL, 1),
+    ("forward", "One NC line on (.)", Step.LINE, 1),
+    ("next-tool", "On to the next tool (])", Step.TOOL, 1),
     ("next-finding", "The next finding (N)", Step.FINDING, 1),
-)  # fmt: skip
+)
 
 
 class Transport(QWidget):
@@ -49,7 +50,10 @@ class Transport(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._player = player
         self.plot = TimePlot()
-        self.play, self.play_back = IconButton("play", "Play (Space)"), IconButton("play-back", "Play backward (Shift+Space)")
+        self.play, self.play_back = (
+            IconButton("play", "Play (Space)"),
+            IconButton("play-back", "Play backward (Shift+Space)"),
+        )
         self.record = IconButton("record", "Record to a GIF or to pictures…")
         self.steps: list[IconButton] = []
         self._finding_steps: list[IconButton] = []
@@ -121,9 +125,11 @@ class Transport(QWidget):
         """Return what keys do in the view."""
         player, plain, shift = self._player, Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ShiftModifier
         keys: dict[tuple[Qt.Key, Qt.KeyboardModifier], Callable[[], None]] = {
-            (Qt.Key.Key_Space, plain): lambda: player.toggle(1), (Qt.Key.Key_Space, shift): lambda: player.toggle(-1),
-            (Qt.Key.Key_Home, plain): lambda: player.go(0), (Qt.Key.Key_End, plain): lambda: player.go(player.length),
-        }  # fmt: skip
+            (Qt.Key.Key_Space, plain): lambda: player.toggle(1),
+            (Qt.Key.Key_Space, shift): lambda: player.toggle(-1),
+            (Qt.Key.Key_Home, plain): lambda: player.go(0),
+            (Qt.Key.Key_End, plain): lambda: player.go(player.length),
+        }
         return keys | {(key, held): partial(player.step, what, way) for key, held, what, way in _stepping(plain, shift)}
 
     def show_state(self) -> None:
@@ -131,7 +137,9 @@ class Transport(QWidget):
         player, timeline = self._player, self._player.timeline
         way = player.playing
         self.play.show_icon(*(("pause", "Pause (Space)") if way > 0 else ("play", "Play (Space)")))
-        self.play_back.show_icon(*(("pause", "Pause (Shift+Space)") if way < 0 else ("play-back", "Play backward (Shift+Space)")))
+        self.play_back.show_icon(
+            *(("pause", "Pause (Shift+Space)") if way < 0 else ("play-back", "Play backward (Shift+Space)"))
+        )
         ready = timeline is not None and len(timeline) > 0
         for widget in (self.play, self.play_back, self.record, self.pace, self.speed, *self.steps):
             widget.setEnabled(ready)
@@ -157,8 +165,12 @@ class Transport(QWidget):
             return
         row = timeline.current(player.at)
         line, tool = int(timeline.line[row]), shown.cut.setup.tools.get(int(timeline.tool[row]))
-        parts = [f"line {line}", f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
-                 f"{grouped(timeline.removed_at(player.at), 0)} mm³", shown.texts[shown.file_of(row)].line(line - 1).strip()]  # fmt: skip
+        parts = [
+            f"line {line}",
+            f"T{timeline.tool[row]}{f' {tool.label}' if tool is not None else ''}",
+            f"{grouped(timeline.removed_at(player.at), 0)} mm³",
+            shown.texts[shown.file_of(row)].line(line - 1).strip(),
+        ]
         self.place.setText(" · ".join(parts))
         self.place.setToolTip(parts[-1])
 
@@ -174,11 +186,16 @@ class Transport(QWidget):
         self.rate.setText(_WORDS[pace].format(figure))
 
 
-def _stepping(plain: Qt.KeyboardModifier, shift: Qt.KeyboardModifier) -> Iterator[tuple[Qt.Key, Qt.KeyboardModifier, Step, int]]:
+def _stepping(
+    plain: Qt.KeyboardModifier, shift: Qt.KeyboardModifier
+) -> Iterator[tuple[Qt.Key, Qt.KeyboardModifier, Step, int]]:
     """Yield which keys step where."""
     key = Qt.Key
     yield from ((key.Key_Comma, plain, Step.LINE, -1), (key.Key_Period, plain, Step.LINE, 1))
-    for back, on in ((key.Key_Comma, key.Key_Period), (key.Key_Less, key.Key_Greater)):  # as layouts tell the same two keys with Shift
+    for back, on in (
+        (key.Key_Comma, key.Key_Period),
+        (key.Key_Less, key.Key_Greater),
+    ):  # as layouts tell the same two keys with Shift
         yield from ((back, shift, Step.MOVE, -1), (on, shift, Step.MOVE, 1))
     yield from ((key.Key_Semicolon, shift, Step.MOVE, -1), (key.Key_Colon, shift, Step.MOVE, 1))
     for back, on in ((key.Key_BracketLeft, key.Key_BracketRight), (key.Key_PageUp, key.Key_PageDown)):
@@ -187,7 +204,9 @@ def _stepping(plain: Qt.KeyboardModifier, shift: Qt.KeyboardModifier) -> Iterato
 
 
 def speed_of(pace: Pace, notch: int) -> float:
-    """Return the speed at a notch of the slider: each notch is as much faster as the one before, rounded to two figures."""
+    """Return the speed at a notch of the slider: each notch is as much faster as the one before, rounded to two
+    figures.
+    """
     low, high = RANGES[pace]
     speed = low * (high / low) ** (notch / _NOTCHES)
     return float(f"{speed:.2g}")

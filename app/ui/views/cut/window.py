@@ -74,7 +74,9 @@ def serves(window: Window, detail: CutPicture | None) -> bool:
 
 
 def seen_part(sight: Sighted) -> tuple[Floats, Floats] | None:
-    """Return the corners of the rectangle, XY, round all metal that lines of sight through the view meet; None = they meet none."""
+    """Return the corners of the rectangle, XY, round all metal that lines of sight through the view meet; None = they
+    meet none.
+    """
     width, height = sight.size
     places = [(x, y) for x in np.linspace(0.5, width - 0.5, RAYS[0]) for y in np.linspace(0.5, height - 0.5, RAYS[1])]
     hits = (pick_finest(sight.picture, sight.detail, sight.camera.ray(at, sight.size), sight.section) for at in places)

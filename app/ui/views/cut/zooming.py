@@ -110,7 +110,10 @@ class Zooming(QObject):
         view, followed = self._view, self._followed
         if followed is None or view.picture is None or not view.isVisible() or self._looks >= MOST_LOOKS:
             return
-        sight, colour = Sighted(view.picture, view.detail, view.camera, pixel_size(view), view.section), view.colours.told
+        sight, colour = (
+            Sighted(view.picture, view.detail, view.camera, pixel_size(view), view.section),
+            view.colours.told,
+        )
         self._looks += 1
         self._job_id = self.worker.start(lambda progress: look_closer(followed, sight, colour, progress), 0)
 

@@ -1,4 +1,6 @@
-"""What belongs together in a text of the shape language: repeat, if, define … else … end, brackets; indents and remarks. No Qt."""
+"""What belongs together in a text of the shape language: repeat, if, define … else … end, brackets; indents and
+remarks. No Qt.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ def block_words(line: str) -> list[tuple[int, str]]:
 
 
 def family(lines: Sequence[str], row: int, column: int) -> tuple[Place, ...]:
-    """Return the places of the words of the block whose opening, dividing or closing word a place is at; () = it is at none."""
+    """Return the places of the words of the block whose opening, dividing or closing word a place is at; () = it is at
+    none.
+    """
     stack, closed = list[list[Place]](), list[list[Place]]()
     for number, line in enumerate(lines):
         for start, word in block_words(line):
@@ -44,12 +48,12 @@ def depth_change(line: str) -> tuple[int, bool]:
     """Return how many blocks a line leaves open (less than 0: closes), and whether it begins with else or end."""
     words = block_words(line)
     change = sum((word in _OPENS) - (word == "end") for _, word in words)
-    return change, bool(words) and words[0][1] in ("else", "end") and not line[:words[0][0]].strip()
+    return change, bool(words) and words[0][1] in ("else", "end") and not line[: words[0][0]].strip()
 
 
 def indent_after(line: str) -> str:
     """Return the indent of the line that follows a line."""
-    own = line[:len(line) - len(line.lstrip())]
+    own = line[: len(line) - len(line.lstrip())]
     change, closing = depth_change(line)
     steps = change + closing
     return own + INDENT * steps if steps > 0 else own

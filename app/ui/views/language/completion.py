@@ -33,7 +33,7 @@ def word_before(line: str) -> str:
     if "#" in re.sub(r"\"[^\"]*\"", "", line) or line.count('"') % 2:
         return ""
     found = _WORD_BEFORE.search(line)
-    return found[0] if found and not line[:found.start()].endswith((".", "_")) else ""
+    return found[0] if found and not line[: found.start()].endswith((".", "_")) else ""
 
 
 def offers(line: str, names: Iterable[tuple[str, bool]]) -> list[Offer]:
@@ -44,12 +44,14 @@ def offers(line: str, names: Iterable[tuple[str, bool]]) -> list[Offer]:
         names: (name, whether it is a command) of what the text and the drawing name.
     """
     begun = word_before(line).lower()
-    before = line[:len(line) - len(begun)]
+    before = line[: len(line) - len(begun)]
     statement = _STATEMENT.search(before)
     command = statement[1] if statement else None
     found = list[Offer]()
     if not command:
-        found += [Offer(usage.word, usage.form, " ") for key, usage in usages().items() if usage.kind is not Kind.FUNCTION]
+        found += [
+            Offer(usage.word, usage.form, " ") for key, usage in usages().items() if usage.kind is not Kind.FUNCTION
+        ]
         found += [Offer(name, "your command", " ") for name, runs in names if runs]
     else:
         usage = usage_of(command)
@@ -86,7 +88,9 @@ class OfferList(QListWidget):
         """Follow the theme."""
         self._painter.theme = theme
         edge = mixed(theme.paper, theme.ink, 0.24).name()
-        self.setStyleSheet(f"QListWidget#offers {{ background: {theme.raised.name()}; border: 1px solid {edge}; padding: 4px; }}")
+        self.setStyleSheet(
+            f"QListWidget#offers {{ background: {theme.raised.name()}; border: 1px solid {edge}; padding: 4px; }}"
+        )
 
     @property
     def current(self) -> Offer | None:
@@ -124,7 +128,9 @@ class _OfferPainter(QStyledItemDelegate):
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:  # noqa: N802 (Qt's name)
         return QSize(100, _ROW_PX)
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> None:
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
         offer, area = index.data(Qt.ItemDataRole.UserRole), option.rect
         if option.state & QStyle.StateFlag.State_Selected:
             painter.fillRect(area, self.theme.chosen)

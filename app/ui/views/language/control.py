@@ -1,4 +1,6 @@
-"""What the page of the text does: tries what is typed, runs it, fills it from the drawing, and keeps it for each drawing."""
+"""What the page of the text does: tries what is typed, runs it, fills it from the drawing, and keeps it for each
+drawing.
+"""
 
 from __future__ import annotations
 
@@ -100,7 +102,9 @@ class TextControl(QObject):
         written = draw_text(self._document.part)
         self._fill(written.text)
         if written.left_out:
-            self.page.verdict.say(f"{counted(written.left_out, 'curve')} shorter than what the program welds are left out.")
+            self.page.verdict.say(
+                f"{counted(written.left_out, 'curve')} shorter than what the program welds are left out."
+            )
 
     def fill_from_log(self) -> None:
         """Write the lines that drew what is drawn."""

@@ -28,7 +28,10 @@ from .highlight import Highlighter
 
 _OFFERED_AFTER = 2
 _MOST_MATCHED = 20_000  # lines; looking for what belongs together in more would be felt
-_HINT = "Draw in words, one command a line:\n\nrect 0,0 60,40 round 5\ncircle 30,20 8\n\nCtrl+Space offers words, F1 explains them."
+_HINT = (
+    "Draw in words, one command a line:\n\nrect 0,0 60,40 round 5\ncircle 30,20 8\n\nCtrl+Space offers words, F1 "
+    "explains them."
+)
 
 Names = Callable[[], Iterable[tuple[str, bool]]]
 
@@ -37,7 +40,8 @@ class ShapeEditor(QPlainTextEdit):
     """A text in the shape language.
 
     Signals:
-        run_asked(): Ctrl+Enter. help_asked(word, function): F1 on a word; a bracket follows it. find_asked(): Ctrl+F. left(): Esc.
+        run_asked(): Ctrl+Enter. help_asked(word, function): F1 on a word; a bracket follows it. find_asked(): Ctrl+F.
+        left(): Esc.
 
     Attributes:
         names: (name, whether it is a command) of what the drawing has named already.
@@ -123,7 +127,11 @@ class ShapeEditor(QPlainTextEdit):
 
     def event(self, event: QEvent) -> bool:
         """Keep the editor's keys from the window's shortcuts."""
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and self._act_of(event) is not None:
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and self._act_of(event) is not None
+        ):
             event.accept()
             return True
         return super().event(event)
@@ -171,7 +179,11 @@ class ShapeEditor(QPlainTextEdit):
             return lambda: self._indent(1)
         if event.key() == Qt.Key.Key_Backtab:
             return lambda: self._indent(-1)
-        acts = {Qt.Key.Key_Space: lambda: self.offer(asked=True), Qt.Key.Key_Slash: self.switch_remarks, Qt.Key.Key_F: self.find_asked.emit}
+        acts = {
+            Qt.Key.Key_Space: lambda: self.offer(asked=True),
+            Qt.Key.Key_Slash: self.switch_remarks,
+            Qt.Key.Key_F: self.find_asked.emit,
+        }
         if control and event.key() in acts:
             return acts[Qt.Key(event.key())]
         return self._ask_help if event.key() == Qt.Key.Key_F1 and plain else None
@@ -189,7 +201,9 @@ class ShapeEditor(QPlainTextEdit):
 
     def _see(self) -> None:
         first = self.firstVisibleBlock().blockNumber()
-        self.highlighter.see(max(first - 2, 0), first + self.viewport().height() // max(self.fontMetrics().height(), 1) + 2)
+        self.highlighter.see(
+            max(first - 2, 0), first + self.viewport().height() // max(self.fontMetrics().height(), 1) + 2
+        )
 
     def _lines(self, first: QTextBlock, last: QTextBlock) -> list[str]:
         found, block = [first.text()], first
@@ -201,7 +215,7 @@ class ShapeEditor(QPlainTextEdit):
     def _new_line(self) -> None:
         """Begin a line, indented as it belongs."""
         cursor = self.textCursor()
-        cursor.insertText("\n" + blocks.indent_after(cursor.block().text()[:cursor.positionInBlock()]))
+        cursor.insertText("\n" + blocks.indent_after(cursor.block().text()[: cursor.positionInBlock()]))
         self.setTextCursor(cursor)
         self.ensureCursorVisible()
 
@@ -234,7 +248,7 @@ class ShapeEditor(QPlainTextEdit):
         line = self.textCursor().block().text()
         if line.strip() in ("end", "else") and text in "de":
             self._align_closing(line)
-        if len(word_before(line[:self.textCursor().positionInBlock()])) >= _OFFERED_AFTER:
+        if len(word_before(line[: self.textCursor().positionInBlock()])) >= _OFFERED_AFTER:
             self.offer()
         else:
             self.list.hide()
@@ -249,15 +263,19 @@ class ShapeEditor(QPlainTextEdit):
         opening = rows[found[0][0]]
         at = QTextCursor(block)
         at.movePosition(QTextCursor.MoveOperation.Right, QTextCursor.MoveMode.KeepAnchor, column)
-        at.insertText(opening[:len(opening) - len(opening.lstrip())])
+        at.insertText(opening[: len(opening) - len(opening.lstrip())])
 
     def offer(self, asked: bool = False) -> None:
         """Show what the word at the cursor could become; `asked`: also where nothing was typed of it."""
         cursor = self.textCursor()
-        line = cursor.block().text()[:cursor.positionInBlock()]
+        line = cursor.block().text()[: cursor.positionInBlock()]
         begun = word_before(line)
         named = [*blocks.names_in(self.toPlainText()), *self.names()] if begun or asked else []
-        found = [each for each in offers(line, named) if asked or each.word.lower() != begun.lower()] if begun or asked else []
+        found = (
+            [each for each in offers(line, named) if asked or each.word.lower() != begun.lower()]
+            if begun or asked
+            else []
+        )
         if not found:
             self.list.hide()
             return
@@ -271,7 +289,9 @@ class ShapeEditor(QPlainTextEdit):
             self.list.step(-1 if key == Qt.Key.Key_Up else 1)
         elif key == Qt.Key.Key_Escape:
             self.list.hide()
-        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Tab) and not event.modifiers() and self.list.current:
+        elif (
+            key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Tab) and not event.modifiers() and self.list.current
+        ):
             self._take_offer(self.list.current)
         else:
             return False
@@ -279,7 +299,7 @@ class ShapeEditor(QPlainTextEdit):
 
     def _take_offer(self, offer: Offer) -> None:
         cursor = self.textCursor()
-        line = cursor.block().text()[:cursor.positionInBlock()]
+        line = cursor.block().text()[: cursor.positionInBlock()]
         cursor.movePosition(QTextCursor.MoveOperation.Left, QTextCursor.MoveMode.KeepAnchor, len(word_before(line)))
         cursor.insertText(offer.word + (offer.behind if offer.word not in ("end", "else") else ""))
         self.setTextCursor(cursor)
@@ -290,7 +310,7 @@ class ShapeEditor(QPlainTextEdit):
     def _ask_help(self) -> None:
         cursor = self.textCursor()
         cursor.select(QTextCursor.SelectionType.WordUnderCursor)
-        following = cursor.block().text()[cursor.selectionEnd() - cursor.block().position():][:1]
+        following = cursor.block().text()[cursor.selectionEnd() - cursor.block().position() :][:1]
         self.help_asked.emit(cursor.selectedText(), following == "(")
 
     def _show_marks(self) -> None:

@@ -46,8 +46,11 @@ class Gutter(QWidget):
         for block, top, height in blocks_in_sight(self._editor):
             row = block.blockNumber()
             painter.setPen(theme.error if row + 1 == self.wrong else theme.ink if row == current else theme.muted)
-            painter.drawText(QRect(0, round(top), self.width() - 12, round(height)),
-                             Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop, str(row + 1))
+            painter.drawText(
+                QRect(0, round(top), self.width() - 12, round(height)),
+                Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop,
+                str(row + 1),
+            )
             if row + 1 == self.wrong:
                 painter.fillRect(QRect(4, round(top) + 2, 3, round(height) - 4), theme.error)
 

@@ -1,4 +1,6 @@
-"""Colours of a text in the shape language. Only lines that have been in sight are coloured, so that 100,000 cost nothing."""
+"""Colours of a text in the shape language. Only lines that have been in sight are coloured, so that 100,000 cost
+nothing.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,8 @@ _UNITS = "|".join(sorted((re.escape(unit) for unit in ALL_UNITS if unit.isalpha(
 _TOKEN = re.compile(
     r"(?P<remark>#.*)|(?P<text>\"[^\"]*\"?)"
     r"|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+(?!\w))?(?P<unit>(?:" + _UNITS + r")(?!\w)|[\"°])?)"
-    r"|(?P<word>[^\W\d]\w*)|(?P<end>;)")
+    r"|(?P<word>[^\W\d]\w*)|(?P<end>;)"
+)
 
 
 class Ink(Enum):
@@ -43,8 +46,11 @@ def pieces(line: str) -> list[tuple[int, int, Ink]]:
         if kind == "end":
             first = True
             continue
-        ink = _word_ink(token["word"].lower(), first, line[token.end():token.end() + 1]) if token["word"] else {
-            "remark": Ink.REMARK, "text": Ink.TEXT}.get(kind or "", Ink.NUMBER)
+        ink = (
+            _word_ink(token["word"].lower(), first, line[token.end() : token.end() + 1])
+            if token["word"]
+            else {"remark": Ink.REMARK, "text": Ink.TEXT}.get(kind or "", Ink.NUMBER)
+        )
         first = False
         if ink is not None:
             found.append((start, length, ink))
@@ -66,8 +72,12 @@ def _word_ink(word: str, first: bool, following: str) -> Ink | None:
 def inks(theme: Theme) -> dict[Ink, QColor]:
     """Return the colour of each ink; all have a contrast of 4.5 on the theme's raised ground."""
     return {
-        Ink.COMMAND: theme.accent_text, Ink.BLOCK: theme.parameter, Ink.OPTION: mixed(theme.accent_text, theme.ink, 0.35),
-        Ink.FUNCTION: mixed(theme.left, theme.ink, 0.3), Ink.NUMBER: theme.warning, Ink.TEXT: mixed(theme.rest, theme.ink, 0.5),
+        Ink.COMMAND: theme.accent_text,
+        Ink.BLOCK: theme.parameter,
+        Ink.OPTION: mixed(theme.accent_text, theme.ink, 0.35),
+        Ink.FUNCTION: mixed(theme.left, theme.ink, 0.3),
+        Ink.NUMBER: theme.warning,
+        Ink.TEXT: mixed(theme.rest, theme.ink, 0.5),
         Ink.REMARK: theme.muted,
     }
 

@@ -76,7 +76,10 @@ class TextPage(QWidget):
         self.run_button.setProperty("role", "primary")
         self.run_button.setToolTip("Draw it (Ctrl+Enter)")
         self.run_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.find_button, self.more = IconButton("find", "Find (Ctrl+F)"), IconButton("more", "Text from the drawing, files, samples")
+        self.find_button, self.more = (
+            IconButton("find", "Find (Ctrl+F)"),
+            IconButton("more", "Text from the drawing, files, samples"),
+        )
         self.problem: Problem | None = None
         self._told = ""
         self._finding = QTimer(self)

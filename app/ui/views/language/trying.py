@@ -39,7 +39,8 @@ class Trial:
 
 
 class Trying(QObject):
-    """Tries one text at a time; a newer one takes its place, once the thread of the older one has seen that it should stop.
+    """Tries one text at a time; a newer one takes its place, once the thread of the older one has seen that it should
+    stop.
 
     Signals:
         answered(Trial | Problem): about the text that was given last. progress(fraction, text).

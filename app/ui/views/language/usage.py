@@ -64,17 +64,23 @@ class Usage:
 
 @cache
 def usages() -> Mapping[str, Usage]:
-    """Return the usage of every command, word of a block and function, by its word; a function's has a bracket behind."""
+    """Return the usage of every command, word of a block and function, by its word; a function's has a bracket
+    behind.
+    """
     page = resource("docs", "language.md").read_text(encoding="utf-8")
     forms: dict[str, list[tuple[str, str]]] = {word: [] for word in COMMANDS}
     told: dict[str, str] = {}
     for row in (line for line in page.splitlines() if line.startswith("|")):
         cells = [cell.strip() for cell in _BAR.split(row.strip()[1:-1])]
         _take_row(_SPAN.findall(cells[0]), re.sub(r"[`*]", "", cells[-1]), forms, told)
-    found = {word: Usage(word, Kind.COMMAND, tuple(ways) or ((word, ""),), _short(word)) for word, ways in forms.items()}
+    found = {
+        word: Usage(word, Kind.COMMAND, tuple(ways) or ((word, ""),), _short(word)) for word, ways in forms.items()
+    }
     found |= {word: Usage(word, Kind.BLOCK, (form,)) for word, form in _BLOCKS.items()}
     return found | {
-        f"{name}(": Usage(name, Kind.FUNCTION, ((function.shown, told.get(name, "")),)) for name, function in FUNCTIONS.items()}
+        f"{name}(": Usage(name, Kind.FUNCTION, ((function.shown, told.get(name, "")),))
+        for name, function in FUNCTIONS.items()
+    }
 
 
 def usage_of(word: str, function: bool = False) -> Usage | None:
@@ -96,7 +102,7 @@ def _take_row(spans: list[str], does: str, forms: dict[str, list[tuple[str, str]
     for span in spans:
         first = re.match(r"[a-z0-9]+", span)
         word = first[0] if first else ""
-        if span[len(word):len(word) + 1] == "(" and word in FUNCTIONS:
+        if span[len(word) : len(word) + 1] == "(" and word in FUNCTIONS:
             told.setdefault(word, does)
         elif word in forms and current != "select":
             current = word

@@ -66,4 +66,4 @@ class LanguageWiring(QObject):
         if word is None:
             self.help.show_page()
         else:
-            self.help.show_word(word[0], line[word.end():word.end() + 1] == "(")
+            self.help.show_word(word[0], line[word.end() : word.end() + 1] == "(")

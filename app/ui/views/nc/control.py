@@ -34,7 +34,8 @@ class NcControl(QObject):
     """Decides what the NC view shows; the drawing and its job are never touched from here.
 
     Signals:
-        changed(): another program, or none, is shown. failed(sentence). cut_wanted(Shown | None): the cut of another program
+        changed(): another program, or none, is shown. failed(sentence). cut_wanted(Shown | None): the cut of another
+        program
             than the job's shall be shown; None = the job's.
     """
 
@@ -80,7 +81,9 @@ class NcControl(QObject):
 
     def choose(self) -> None:
         """Ask for a program and open it."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Open NC program", self._window.settings.last_folder, FILTER)
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, "Open NC program", self._window.settings.last_folder, FILTER
+        )
         if name:
             self.open(Path(name))
 
@@ -123,8 +126,9 @@ class NcControl(QObject):
         """Compare the shown program with that of a file, which is shown beside it."""
         shown, side = self._view.shown, self._view.side
         if shown is not None:
-            self.reading.start(partial(compared, shown, Source(path.name, path=path, tools=self._tools()), side),
-                               self._on_compared)
+            self.reading.start(
+                partial(compared, shown, Source(path.name, path=path, tools=self._tools()), side), self._on_compared
+            )
 
     def stop_comparing(self) -> None:
         """Take the second program away."""
@@ -245,7 +249,9 @@ class NcControl(QObject):
 
     def _show_own(self) -> None:
         source = self.source
-        self._view.show_text(source.name if source is not None else "", program_text(source.bytes() if source is not None else b""))
+        self._view.show_text(
+            source.name if source is not None else "", program_text(source.bytes() if source is not None else b"")
+        )
         self._show_heads()
         if source is not None:
             self.reading.read(source, self._view.side, self._on_own)

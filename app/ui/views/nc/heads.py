@@ -132,7 +132,8 @@ class PathHead(QWidget):
     """Sides and colours of the path.
 
     Signals:
-        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything. cut_asked(): show what the program leaves.
+        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything. cut_asked(): show what the program
+        leaves.
     """
 
     fit_asked = Signal()

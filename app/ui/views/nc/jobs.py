@@ -53,7 +53,9 @@ def restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
     """
     from ....gcode.rework.restart import RestartOptions, restart
 
-    data = restart(shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5))
+    data = restart(
+        shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5)
+    )
     name = Path(shown.source.name)
     source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools)
     return read_shown(source, side, progress.part(0.5, 1.0))
@@ -83,4 +85,6 @@ def drawn(shown: Shown, both: Compared | None, side: Side, progress: Progress) -
     progress.step(0.0, "Preparing the picture")
     picture = MotionPicture(shown.shapes, side)
     progress.step(0.5, "Preparing the picture")
-    return Drawn(shown, picture, both, drawn_apart(shown, both.other, both.differences, side) if both is not None else None)
+    return Drawn(
+        shown, picture, both, drawn_apart(shown, both.other, both.differences, side) if both is not None else None
+    )

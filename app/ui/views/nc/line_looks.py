@@ -1,4 +1,6 @@
-"""What the text view shows of each line beside its words: what it moves, what is wrong with it, where it differs. No Qt."""
+"""What the text view shows of each line beside its words: what it moves, what is wrong with it, where it differs. No
+Qt.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ from .motion_shapes import Look, MotionShapes, tools_of
 Ints = NDArray[np.int64]
 
 NOTHING, RAPID, PLUNGE, CUT = 0, 1, 2, 3
-"""What a line moves: nothing, a rapid, straight down; CUT + k = cuts with the program's k-th tool (by kind: CUT + MotionKind)."""
+"""What a line moves: nothing, a rapid, straight down; CUT + k = cuts with the program's k-th tool (by kind: CUT +
+MotionKind).
+"""
 
 
 @dataclass(frozen=True, eq=False)

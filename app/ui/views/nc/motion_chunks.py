@@ -16,7 +16,9 @@ from ..canvas.program_geometry import RUN
 from .motion_shapes import Floats, Ints, Look, MotionShapes, Side
 
 _MOST_RUNS = 5_000
-"""So many changes from lines to arcs and back are told apart along contours; of more, no eye could see where dashes meet."""
+"""So many changes from lines to arcs and back are told apart along contours; of more, no eye could see where dashes
+meet.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +58,14 @@ class Chunks:
             list(chain.from_iterable(part.chunks for part in every)),
             np.concatenate([np.zeros((0, 4)), *(part.boxes for part in every)]),
             np.concatenate([np.zeros(0, np.int64), *(part.sizes for part in every)]),
-        )  # fmt: skip
+        )
 
 
 def chunks_by_style(shapes: MotionShapes, side: Side, rows: Ints) -> Chunks:
     """Return some motions in chunks of about 96 of one look, tool and kind."""
-    codes = (shapes.tool[rows].astype(np.int64) * len(Look) + shapes.look[rows]) * len(MotionKind) + shapes.program.motions.kind[rows]
+    codes = (shapes.tool[rows].astype(np.int64) * len(Look) + shapes.look[rows]) * len(
+        MotionKind
+    ) + shapes.program.motions.kind[rows]
     return Chunks.joined(_cut(shapes, side, own, np.arange(0, len(own), RUN)) for own in _alike(rows, codes))
 
 
@@ -107,19 +111,34 @@ def _cut(shapes: MotionShapes, side: Side, own: Ints, heads: Ints) -> Chunks:
     edges = np.append(at[heads], at[-1])
     data, columns = elements.tobytes(), list(side.value)
     begins = _begins(shapes, side, own, heads)
-    kinds, look, tool = shapes.program.motions.kind[own[heads]], Look(int(shapes.look[own[0]])), int(shapes.tool[own[0]])
+    kinds, look, tool = (
+        shapes.program.motions.kind[own[heads]],
+        Look(int(shapes.look[own[0]])),
+        int(shapes.tool[own[0]]),
+    )
     pieces = zip(pairwise((edges * elements.itemsize).tolist()), kinds.tolist(), begins, strict=True)
-    chunks = [Chunk(path_of(data[first:last]), look, tool, MotionKind(kind), begin) for (first, last), kind, begin in pieces]
-    boxes = np.hstack([np.minimum.reduceat(shapes.low[own][:, columns], heads), np.maximum.reduceat(shapes.high[own][:, columns], heads)])
+    chunks = [
+        Chunk(path_of(data[first:last]), look, tool, MotionKind(kind), begin) for (first, last), kind, begin in pieces
+    ]
+    boxes = np.hstack(
+        [
+            np.minimum.reduceat(shapes.low[own][:, columns], heads),
+            np.maximum.reduceat(shapes.high[own][:, columns], heads),
+        ]
+    )
     return Chunks(chunks, boxes, np.diff(edges))
 
 
 def _begins(shapes: MotionShapes, side: Side, own: Ints, heads: Ints) -> list[float]:
-    """Return how long the path is before each head, from where it last began anew, as it is seen, mm; 0 but for contours."""
+    """Return how long the path is before each head, from where it last began anew, as it is seen, mm; 0 but for
+    contours.
+    """
     if shapes.look[own[0]] != Look.CONTOUR:
         return [0.0] * len(heads)
     motions, columns = shapes.program.motions, list(side.value)
     chord = np.hypot(*(motions.end[own] - motions.start[own])[:, columns].T)
-    before = np.concatenate([[0.0], np.cumsum(np.where(motions.kind[own] == MotionKind.LINE, chord, shapes.length[own]))])
+    before = np.concatenate(
+        [[0.0], np.cumsum(np.where(motions.kind[own] == MotionKind.LINE, chord, shapes.length[own]))]
+    )
     begun = np.flatnonzero(shapes.breaks(own))
     return list((before[heads] - before[begun[np.searchsorted(begun, heads, side="right") - 1]]).tolist())

@@ -13,8 +13,13 @@ from .motion_shapes import MotionShapes, Side
 
 Floats = NDArray[np.float64]
 
-_NAMES = {MotionKind.RAPID: "Rapid", MotionKind.LINE: "Line", MotionKind.ARC_CW: "Arc clockwise",
-          MotionKind.ARC_CCW: "Arc counter-clockwise", MotionKind.SPLINE: "Spline"}
+_NAMES = {
+    MotionKind.RAPID: "Rapid",
+    MotionKind.LINE: "Line",
+    MotionKind.ARC_CW: "Arc clockwise",
+    MotionKind.ARC_CCW: "Arc counter-clockwise",
+    MotionKind.SPLINE: "Spline",
+}
 _MOST_CURVED = 300
 _CUBIC_POINTS = 33
 
@@ -44,7 +49,9 @@ def nearest_motion(shapes: MotionShapes, side: Side, at: Point, reach: float) ->
 
 
 def _distances(shapes: MotionShapes, rows: NDArray[np.int64], columns: list[int], at: Floats) -> Floats:
-    """Return the distance of a point from each of some motions, mm; arcs to 1e-5 of their radius, the last 300 of them only."""
+    """Return the distance of a point from each of some motions, mm; arcs to 1e-5 of their radius, the last 300 of them
+    only.
+    """
     motions = shapes.program.motions
     distance = _from_lines(motions.start[rows][:, columns], motions.end[rows][:, columns], at)
     curved = np.flatnonzero(shapes.offset[rows + 1] - shapes.offset[rows] > 1)
@@ -72,7 +79,7 @@ def outline(shapes: MotionShapes, row: int) -> Floats:
     begin = np.vstack([start, points[2:-1:3]])[:, None]
     t = np.linspace(0, 1, _CUBIC_POINTS)[1:, None]
     one, two, end = (points[k::3][:, None] for k in range(3))
-    cubics = (1 - t)**3 * begin + 3 * (1 - t)**2 * t * one + 3 * (1 - t) * t**2 * two + t**3 * end
+    cubics = (1 - t) ** 3 * begin + 3 * (1 - t) ** 2 * t * one + 3 * (1 - t) * t**2 * two + t**3 * end
     return np.vstack([start, cubics.reshape(-1, 3)])
 
 
@@ -85,7 +92,9 @@ def describe_motion(shapes: MotionShapes, row: int) -> str:
         words.append(f"T{int(shapes.tool[row])}")
     if kind is not MotionKind.RAPID:
         words.append("no feed told" if np.isnan(motions.feed[row]) else f"F {motions.feed[row]:g}")
-    words.append("to the machine's home" if row in shapes.program.homeward else f"{grouped(float(shapes.length[row]))} mm")
+    words.append(
+        "to the machine's home" if row in shapes.program.homeward else f"{grouped(float(shapes.length[row]))} mm"
+    )
     if kind in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
         words.append(f"R {float(np.linalg.norm((motions.start - motions.centre)[row])):.3f}")
     words.append(_heights(shapes, row))

@@ -1,4 +1,6 @@
-"""Paints a program's motions from one side: rapids dotted, plunges in their own hue, cuts by tool or by kind of motion."""
+"""Paints a program's motions from one side: rapids dotted, plunges in their own hue, cuts by tool or by kind of
+motion.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +35,13 @@ _PORTION = 15_000
 """Elements of paths that are painted before the window listens again."""
 
 _MIX = np.uint64(0x9E3779B97F4A7C15)
-_KIND_NAMES = {MotionKind.RAPID: "G0 rapid", MotionKind.LINE: "G1 line", MotionKind.ARC_CW: "G2 clockwise",
-               MotionKind.ARC_CCW: "G3 counter-clockwise", MotionKind.SPLINE: "Spline"}
+_KIND_NAMES = {
+    MotionKind.RAPID: "G0 rapid",
+    MotionKind.LINE: "G1 line",
+    MotionKind.ARC_CW: "G2 clockwise",
+    MotionKind.ARC_CCW: "G3 counter-clockwise",
+    MotionKind.SPLINE: "Spline",
+}
 
 
 class PathColour(Enum):
@@ -67,8 +74,13 @@ def tool_colour(order: int, theme: Theme) -> QColor:
 
 def motion_colour(kind: MotionKind, theme: Theme) -> QColor:
     """Return the colour of a kind of motion."""
-    return {MotionKind.RAPID: theme.rapid, MotionKind.LINE: theme.pocket, MotionKind.ARC_CW: theme.contour,
-            MotionKind.ARC_CCW: theme.rest, MotionKind.SPLINE: theme.parameter}[kind]
+    return {
+        MotionKind.RAPID: theme.rapid,
+        MotionKind.LINE: theme.pocket,
+        MotionKind.ARC_CW: theme.contour,
+        MotionKind.ARC_CCW: theme.rest,
+        MotionKind.SPLINE: theme.parameter,
+    }[kind]
 
 
 def _tool_name(number: int, note: ToolNote | None) -> str:
@@ -113,8 +125,10 @@ class MotionPicture:
         self._rapids = _once(rapid[np.any(rapid[:, :2] != rapid[:, 2:], axis=1)])
         feeds = (Look.CUT,) if side is Side.XY else (Look.CUT, Look.PLUNGE)
         plain, contour = chunks_by_style(shapes, side, rows[np.isin(look, feeds)]), rows[look == Look.CONTOUR]
-        self._chunks = {colour: Chunks.joined([plain, contour_chunks(shapes, side, contour, colour is PathColour.MOTION)])
-                        for colour in PathColour}
+        self._chunks = {
+            colour: Chunks.joined([plain, contour_chunks(shapes, side, contour, colour is PathColour.MOTION)])
+            for colour in PathColour
+        }
         self.box = self.box_of(only)
         self._kinds = np.unique(motions.kind).tolist()
         looks = np.unique(shapes.tool.astype(np.int64) * len(Look) + shapes.look)
@@ -130,13 +144,17 @@ class MotionPicture:
         theme, looks = how.theme, {look for _, look in self._looks}
         plunge = [KeyRow("Plunge", theme.plunge)] if Look.PLUNGE in looks else []
         if how.colour is PathColour.TOOL:
-            return [row for at in range(min(len(self.tools), _MOST_TOOLS)) for row in self._tool_rows(at, theme)] + plunge
+            return [
+                row for at in range(min(len(self.tools), _MOST_TOOLS)) for row in self._tool_rows(at, theme)
+            ] + plunge
         rows = [KeyRow(_KIND_NAMES[MotionKind(kind)], motion_colour(MotionKind(kind), theme)) for kind in self._kinds]
         contour = [KeyRow("Contour", theme.muted, KeyMark.DASHES)] if Look.CONTOUR in looks else []
         return rows + contour + plunge
 
     def _tool_rows(self, at: int, theme: Theme) -> list[KeyRow]:
-        """Return the lines of the key for the tool at a place in order: what it cuts, and dashed the contours that it cuts."""
+        """Return the lines of the key for the tool at a place in order: what it cuts, and dashed the contours that it
+        cuts.
+        """
         tool = self.tools[at]
         note = next((note for note in self.shapes.program.tools if note.number == tool), None)
         words, colour = _tool_name(tool, note), tool_colour(at, theme)
@@ -177,7 +195,9 @@ class MotionPicture:
         painter.setTransform(view.transform(), True)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for chunk in chunks:
-            pen = screen_pen(painter, self._colour(chunk, how), how.width, CONTOUR_DASHES if chunk.look is Look.CONTOUR else ())
+            pen = screen_pen(
+                painter, self._colour(chunk, how), how.width, CONTOUR_DASHES if chunk.look is Look.CONTOUR else ()
+            )
             if chunk.begins_at:
                 pen.setDashOffset(chunk.begins_at * view.scale * painter.device().devicePixelRatioF() / pen.widthF())
             painter.setPen(pen)
@@ -203,7 +223,11 @@ class MotionPicture:
             return how.one
         if chunk.look is Look.PLUNGE:
             return how.theme.plunge
-        return motion_colour(chunk.kind, how.theme) if how.colour is PathColour.MOTION else tool_colour(self._order[chunk.tool], how.theme)
+        return (
+            motion_colour(chunk.kind, how.theme)
+            if how.colour is PathColour.MOTION
+            else tool_colour(self._order[chunk.tool], how.theme)
+        )
 
 
 def _once(rows: Floats) -> Floats:

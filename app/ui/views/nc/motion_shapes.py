@@ -59,7 +59,8 @@ class MotionShapes:
         low, high: (n, 3) corners of the box round each motion's elements, mm.
         length: (n,) mm.
         look: (n,) uint8 Look. tool: (n,) int32 T number.
-        home: (n, 3) whether the motion ends, along an axis, at a place that only the machine knows. away: whether it begins there.
+        home: (n, 3) whether the motion ends, along an axis, at a place that only the machine knows. away: whether it
+            begins there.
         by_line: (n,) the motions in the order of their lines. lines: (n,) those lines, 1-based, not decreasing.
     """
 
@@ -159,9 +160,20 @@ def shape_motions(program: NcProgram, contour: Bools | None = None) -> MotionSha
     tools = np.array([state.tool for state in program.states], np.int32)
     by_line = np.argsort(motions.line, kind="stable")
     return MotionShapes(
-        program, kinds, points, offset, low, high, length, _looks(program, contour), tools[motions.state], home, away,
-        by_line, motions.line[by_line],
-    )  # fmt: skip
+        program,
+        kinds,
+        points,
+        offset,
+        low,
+        high,
+        length,
+        _looks(program, contour),
+        tools[motions.state],
+        home,
+        away,
+        by_line,
+        motions.line[by_line],
+    )
 
 
 def _looks(program: NcProgram, contour: Bools | None) -> NDArray[np.uint8]:
@@ -186,7 +198,7 @@ def _elements(program: NcProgram) -> tuple[NDArray[np.uint8], Floats, Ints]:
     kinds, points = np.full(int(offset[-1]), LINE_TO, np.uint8), np.zeros((int(offset[-1]), 3))
     points[offset[1:] - 1] = motions.end
     for row, spline in motions.splines.items():
-        points[offset[row]:offset[row + 1]] = spline_points(spline, _SPLINE_CHORDS + 1)[1:]
+        points[offset[row] : offset[row + 1]] = spline_points(spline, _SPLINE_CHORDS + 1)[1:]
     if len(arcs):
         _fill_arcs(program, (kinds, points), offset, pieces)
     return kinds, points, offset
@@ -206,14 +218,30 @@ def _fill_arcs(program: NcProgram, elements: tuple[NDArray[np.uint8], Floats], o
     begin_radius, end_radius = (arcs.start_radius[at_arc] + grow[at_arc] * t for t in (first, last))
     at = offset[arcs.rows][at_arc] + 3 * number
     columns = (
-        (CURVE_TO, begin_radius, np.cos(a) - handle * np.sin(a), np.sin(a) + handle * np.cos(a), first + (last - first) / 3),
-        (CURVE_DATA, end_radius, np.cos(b) + handle * np.sin(b), np.sin(b) - handle * np.cos(b), last - (last - first) / 3),
+        (
+            CURVE_TO,
+            begin_radius,
+            np.cos(a) - handle * np.sin(a),
+            np.sin(a) + handle * np.cos(a),
+            first + (last - first) / 3,
+        ),
+        (
+            CURVE_DATA,
+            end_radius,
+            np.cos(b) + handle * np.sin(b),
+            np.sin(b) - handle * np.cos(b),
+            last - (last - first) / 3,
+        ),
         (CURVE_DATA, end_radius, np.cos(b), np.sin(b), last),
     )
     for k, (kind, radius, u, v, share) in enumerate(columns):
-        own = np.column_stack([
-            arcs.centre[at_arc, 0] + radius * u, arcs.centre[at_arc, 1] + radius * v, arcs.height[at_arc] + arcs.rise[at_arc] * share,
-        ])  # fmt: skip
+        own = np.column_stack(
+            [
+                arcs.centre[at_arc, 0] + radius * u,
+                arcs.centre[at_arc, 1] + radius * v,
+                arcs.height[at_arc] + arcs.rise[at_arc] * share,
+            ]
+        )
         turned = np.empty_like(own)
         np.put_along_axis(turned, arcs.axes[at_arc], own, axis=1)
         kinds[at + k], points[at + k] = kind, turned

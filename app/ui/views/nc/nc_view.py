@@ -1,4 +1,6 @@
-"""The NC view: text at the left, its path at the right; a click on either shows the other. A second program fits beside it."""
+"""The NC view: text at the left, its path at the right; a click on either shows the other. A second program fits beside
+it.
+"""
 
 from __future__ import annotations
 
@@ -92,7 +94,9 @@ class NcView(QWidget):
     def active(self) -> TextPane:
         """The text that the keys are for: the second one only while it has the focus."""
         focus = self.focusWidget()
-        return self.other if focus is not None and self.other.isVisible() and self.other.isAncestorOf(focus) else self.pane
+        return (
+            self.other if focus is not None and self.other.isVisible() and self.other.isAncestorOf(focus) else self.pane
+        )
 
     @property
     def summary(self) -> str:
@@ -173,7 +177,11 @@ class NcView(QWidget):
 
     def event(self, event: QEvent) -> bool:
         """Keep F3 from the drawing: here it finds the next place."""
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_F3:
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and event.key() == Qt.Key.Key_F3
+        ):
             event.accept()
             return True
         return super().event(event)

@@ -68,7 +68,9 @@ def beside_key(size: QSizeF, area: QRectF) -> tuple[QRectF, QRectF]:
     """Return what is left of an area beside a key at its upper right, and what is left below it."""
     if size.isEmpty():
         return area, area
-    return area.adjusted(0.0, 0.0, -size.width() - _EDGE_PX, 0.0), area.adjusted(0.0, size.height() + _EDGE_PX, 0.0, 0.0)
+    return area.adjusted(0.0, 0.0, -size.width() - _EDGE_PX, 0.0), area.adjusted(
+        0.0, size.height() + _EDGE_PX, 0.0, 0.0
+    )
 
 
 def _paint_mark(painter: QPainter, left: QPointF, row: KeyRow) -> None:
@@ -115,7 +117,9 @@ def cuts_within(shapes: MotionShapes, side: Side, box: Box) -> bool:
         box: x0, y0, x1, y1, mm.
     """
     columns, low, high = list(side.value), np.array(box[:2]), np.array(box[2:])
-    near = (shapes.look != Look.RAPID) & np.all((shapes.low[:, columns] <= high) & (shapes.high[:, columns] >= low), axis=1)
+    near = (shapes.look != Look.RAPID) & np.all(
+        (shapes.low[:, columns] <= high) & (shapes.high[:, columns] >= low), axis=1
+    )
     rows = shapes.seen(side, np.flatnonzero(near))
     curved = rows[shapes.offset[rows + 1] - shapes.offset[rows] > 1]
     if len(rows) > _MOST_NEAR or len(curved) > _MOST_CURVED:
@@ -127,7 +131,9 @@ def cuts_within(shapes: MotionShapes, side: Side, box: Box) -> bool:
 
 
 def _enter(first: Floats, last: Floats, low: Floats, high: Floats) -> bool:
-    """Return whether one of the lines from `first` to `last`, (k, 2), enters a box: by its part within each pair of sides."""
+    """Return whether one of the lines from `first` to `last`, (k, 2), enters a box: by its part within each pair of
+    sides.
+    """
     way = last - first
     still = way == 0
     share = 1.0 / np.where(still, 1.0, way)

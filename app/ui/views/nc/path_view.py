@@ -40,9 +40,8 @@ class PathView(Viewport):
     """Shows motions and tells which one is picked.
 
     Signals:
-        motion_picked(index): a motion was clicked. other_picked(index): one of the other program, where the first has none.
-        hovered(sentence): what is under the mouse, or "".
-        cursor_moved(right, up): the place under the mouse, mm.
+        motion_picked(index): a motion was clicked. other_picked(index): one of the other program, where the first has
+        none. hovered(sentence): what is under the mouse, or "". cursor_moved(right, up): the place under the mouse, mm.
     """
 
     motion_picked = Signal(int)
@@ -88,7 +87,9 @@ class PathView(Viewport):
         self.corner = self._free_corner(self.view) or self.corner
         self.repaint_scene()
 
-    def show_pictures(self, picture: MotionPicture | None = None, alone: tuple[MotionPicture, MotionPicture] | None = None) -> None:
+    def show_pictures(
+        self, picture: MotionPicture | None = None, alone: tuple[MotionPicture, MotionPicture] | None = None
+    ) -> None:
         """Show a program's motions; what was lit up is not any more.
 
         Args:
@@ -117,7 +118,8 @@ class PathView(Viewport):
         self._band, self._band_other = motions, of_other
         self._lit, self._lit_other = (
             picture.shapes.path(rows, picture.side) if picture is not None else QPainterPath()
-            for picture, rows in ((self.picture, motions), (self.other, of_other)))
+            for picture, rows in ((self.picture, motions), (self.other, of_other))
+        )
         self.update()
 
     def bring_into_sight(self) -> None:
@@ -230,7 +232,9 @@ class PathView(Viewport):
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """F and Home fit, + and - zoom."""
         keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_F: self.fit, Qt.Key.Key_Home: self.fit, Qt.Key.Key_Plus: lambda: self.zoom_by(1.5),
+            Qt.Key.Key_F: self.fit,
+            Qt.Key.Key_Home: self.fit,
+            Qt.Key.Key_Plus: lambda: self.zoom_by(1.5),
             Qt.Key.Key_Minus: lambda: self.zoom_by(1 / 1.5),
         }
         act = keys.get(event.key())
@@ -269,14 +273,18 @@ class PathView(Viewport):
             return []
         theme = self._how.theme
         both = (("Only in the first", self._alone, theme.parameter), ("Only in the second", self.other, theme.left))
-        return self.picture.key(self._how) + [KeyRow(words, hue) for words, alone, hue in both if alone is not None and alone.some]
+        return self.picture.key(self._how) + [
+            KeyRow(words, hue) for words, alone, hue in both if alone is not None and alone.some
+        ]
 
     def _paint_end(self, painter: QPainter, theme: Theme) -> None:
         """Paint where the last of the lit motions ends: this is where the tool is."""
         if self.picture is not None and len(self.picture.shapes.seen(self.picture.side, self._band[-1:])):
             painter.setPen(QPen(theme.accent_text, 1.8))
             painter.setBrush(theme.canvas)
-            painter.drawEllipse(self.view.to_screen(self._seen(self.picture.shapes.program.motions.end[self._band[-1]])), 4.5, 4.5)
+            painter.drawEllipse(
+                self.view.to_screen(self._seen(self.picture.shapes.program.motions.end[self._band[-1]])), 4.5, 4.5
+            )
 
     def _name_axes(self, painter: QPainter) -> None:
         """Write the names of the two axes at the arrows of the zero."""

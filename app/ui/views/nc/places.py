@@ -33,8 +33,12 @@ class Compared:
 _APART = (DifferenceKind.PATH, DifferenceKind.RAPID, DifferenceKind.MISSING, DifferenceKind.EXTRA)
 
 
-def drawn_apart(first: Shown, second: Shown, differences: Differences, side: Side) -> tuple[MotionPicture, MotionPicture]:
-    """Return pictures of what only the first program does, and of what only the second does: where paths differ, not their feeds."""
+def drawn_apart(
+    first: Shown, second: Shown, differences: Differences, side: Side
+) -> tuple[MotionPicture, MotionPicture]:
+    """Return pictures of what only the first program does, and of what only the second does: where paths differ, not
+    their feeds.
+    """
     items = [item for item in differences.items if item.kind in _APART]
     one, other = (_motions([getattr(item, name) for item in items]) for name in "ab")
     return MotionPicture(first.shapes, side, one), MotionPicture(second.shapes, side, other)
@@ -69,7 +73,9 @@ def difference_places(differences: Differences) -> tuple[str, list[Place]]:
     if not items:
         words = "No motion, feed, tool, length, work offset, spindle, coolant, path mode or dwell differs."
         return "Both programs do the same.", [Place(words, "", Weight.REMARK)]
-    motion = "the same motion" if differences.same_motion else f"paths up to {differences.largest_distance:.3f} mm apart"
+    motion = (
+        "the same motion" if differences.same_motion else f"paths up to {differences.largest_distance:.3f} mm apart"
+    )
     return f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items]
 
 

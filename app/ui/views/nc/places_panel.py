@@ -1,4 +1,6 @@
-"""A list of places in the program under its text: problems, or differences; a row jumps there. Empty, it is not there."""
+"""A list of places in the program under its text: problems, or differences; a row jumps there. Empty, it is not
+there.
+"""
 
 from __future__ import annotations
 

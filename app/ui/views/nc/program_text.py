@@ -35,12 +35,12 @@ class ProgramText:
 
     def line(self, row: int) -> str:
         """Return a line (0-based) without its end."""
-        return self.text[self.starts[row]:self.ends[row]]
+        return self.text[self.starts[row] : self.ends[row]]
 
     def piece(self, row: int, first: int, count: int) -> str:
         """Return at most `count` characters of a line from its character `first` (0-based) on."""
         begin = int(self.starts[row]) + first
-        return self.text[begin:min(begin + count, int(self.ends[row]))]
+        return self.text[begin : min(begin + count, int(self.ends[row]))]
 
     def length(self, row: int) -> int:
         """Return how many characters a line has."""
@@ -53,7 +53,7 @@ class ProgramText:
 
     def rows(self, first: int, last: int) -> str:
         """Return the lines from `first` to `last` (0-based, both included), joined by line feeds."""
-        return self.text[self.starts[first]:self.ends[last]]
+        return self.text[self.starts[first] : self.ends[last]]
 
     def row_at(self, position: int) -> int:
         """Return the row of a position in the text."""
@@ -93,7 +93,11 @@ def program_text(data: bytes) -> ProgramText:
     """Return the lines of a file's bytes."""
     read = Text(data)
     text = read.data.decode(read.encoding)
-    codes = np.frombuffer(read.data, np.uint8) if read.encoding == "ascii" else np.frombuffer(text.encode("utf-32-le"), np.uint32)
+    codes = (
+        np.frombuffer(read.data, np.uint8)
+        if read.encoding == "ascii"
+        else np.frombuffer(text.encode("utf-32-le"), np.uint32)
+    )
     ends = np.flatnonzero(codes == ord("\n")).astype(np.int64)
     starts = np.concatenate([np.zeros(min(1, len(ends)), np.int64), ends[:-1] + 1])
     lower = text.lower()

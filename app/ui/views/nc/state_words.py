@@ -79,8 +79,13 @@ def _motion_items(shapes: MotionShapes, motion: int) -> list[Item]:
 
 
 def _modal_items(state: ModalState) -> list[Item]:
-    words = [_PLANES[int(state.plane)], "G20" if state.units is Units.INCH else "G21", "G90" if state.absolute else "G91",
-             state.feed_mode.value, state.work_offset]
+    words = [
+        _PLANES[int(state.plane)],
+        "G20" if state.units is Units.INCH else "G21",
+        "G90" if state.absolute else "G91",
+        state.feed_mode.value,
+        state.work_offset,
+    ]
     words.append(f"G43{THIN_SPACE}H{state.length_offset}" if state.length_offset else "G49")
     words.append(state.path)
     if any(state.shift):

@@ -19,7 +19,9 @@ class Part(Enum):
 
 Span = tuple[int, int, Part]
 
-_FLOW_WORDS = "sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|end\\d*|repeat|endrepeat|break|continue|goto|then"
+_FLOW_WORDS = (
+    "sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|end\\d*|repeat|endrepeat|break|continue|goto|then"
+)
 _NUMBER = r"[-+]?\s*(?:\d[\d ]*\.?\d*|\.\d+)"
 _PARTS = re.compile(
     r"(?P<comment>\([^)]*\)?|;.*|^\s*%.*)"
@@ -28,7 +30,13 @@ _PARTS = re.compile(
     rf"|(?P<number>n\s*\d+\.?\d*)|(?P<command>[gm]\s*{_NUMBER})|(?P<setting>[fst]\s*{_NUMBER})",
     re.IGNORECASE,
 )
-_KINDS = {"comment": Part.COMMENT, "flow": Part.FLOW, "number": Part.LINE_NUMBER, "command": Part.COMMAND, "setting": Part.SETTING}
+_KINDS = {
+    "comment": Part.COMMENT,
+    "flow": Part.FLOW,
+    "number": Part.LINE_NUMBER,
+    "command": Part.COMMAND,
+    "setting": Part.SETTING,
+}
 
 
 def spans(line: str) -> list[Span]:

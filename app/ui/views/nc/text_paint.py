@@ -68,7 +68,13 @@ def paint_lines(painter: QPainter, area: QRect, shift: tuple[int, int], look: Te
     rows = range(first, min(len(look.text), (shift[1] + area.height()) // LINE_PX + 1))
     painter.setClipRect(gutter, 0, area.width() - gutter - MARKS_PX, area.height())
     for row in rows:
-        line = _Line(painter, look, row, QRectF(gutter - shift[0], row * LINE_PX - shift[1], area.width() + shift[0], LINE_PX), letter)
+        line = _Line(
+            painter,
+            look,
+            row,
+            QRectF(gutter - shift[0], row * LINE_PX - shift[1], area.width() + shift[0], LINE_PX),
+            letter,
+        )
         line.paint(shift[0])
     painter.setClipping(False)
     for row in rows:
@@ -82,8 +88,12 @@ def paint_marks(painter: QPainter, area: QRect, look: TextLook) -> None:
     scale = area.height() / max(1, len(look.text))
     errors = [row for row, each in look.lines.problems.items() if _worst(each) is Severity.ERROR]
     warnings = [row for row, each in look.lines.problems.items() if _worst(each) is Severity.WARNING]
-    layers = ((look.lines.differing, theme.parameter), (np.array(look.found), theme.accent), (np.array(warnings), theme.warning),
-              (np.array(errors), theme.error))
+    layers = (
+        (look.lines.differing, theme.parameter),
+        (np.array(look.found), theme.accent),
+        (np.array(warnings), theme.warning),
+        (np.array(errors), theme.error),
+    )
     for rows, colour in layers:
         for y in np.unique((rows * scale).astype(np.int64)).tolist():
             painter.fillRect(left + 2, min(y, area.height() - 3), MARKS_PX - 4, 3, colour)
@@ -100,7 +110,9 @@ def _paint_gutter(painter: QPainter, place: QRectF, look: TextLook, row: int) ->
         painter.fillRect(QRectF(12, place.top() + 3, 3, LINE_PX - 6), bar)
     worst = _worst(look.lines.problems.get(row, []))
     painter.setPen({Severity.ERROR: theme.error, Severity.WARNING: theme.warning, None: theme.muted}[worst])
-    painter.drawText(place.adjusted(0, 0, -12, 0), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, str(row + 1))
+    painter.drawText(
+        place.adjusted(0, 0, -12, 0), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, str(row + 1)
+    )
 
 
 def _bar_colour(look: TextLook, row: int) -> QColor | None:
@@ -139,19 +151,26 @@ class _Line:
         self._paint_ground()
         length = look.text.length(row)
         first = 0 if length <= _LONG else max(0, int(scrolled / self.letter) - 2)
-        text = look.text.piece(row, first, _LONG if length <= _LONG else int(self.painter.device().width() / self.letter) + 4)
+        text = look.text.piece(
+            row, first, _LONG if length <= _LONG else int(self.painter.device().width() / self.letter) + 4
+        )
         self._mark_found(text, first)
         for begin, end, part in spans(text):
             self.painter.setPen(_part_colour(part, look.theme))
-            self.painter.drawText(self._spot(text, begin, first), Qt.AlignmentFlag.AlignVCenter, text[begin:end].translate(_BLANK))
+            self.painter.drawText(
+                self._spot(text, begin, first), Qt.AlignmentFlag.AlignVCenter, text[begin:end].translate(_BLANK)
+            )
         for problem in look.lines.problems.get(row, []):
             self._underline(problem, text, first)
 
     def _x(self, text: str, column: int, first: int) -> float:
         """Return where a character of the piece begins; letters of other widths count as wide as they are."""
         plain = text.isascii()
-        return self.place.left() + first * self.letter + (
-            column * self.letter if plain else QFontMetricsF(self.painter.font()).horizontalAdvance(text[:column]))
+        return (
+            self.place.left()
+            + first * self.letter
+            + (column * self.letter if plain else QFontMetricsF(self.painter.font()).horizontalAdvance(text[:column]))
+        )
 
     def _spot(self, text: str, column: int, first: int) -> QRectF:
         return QRectF(self._x(text, column, first), self.place.top(), 1e6, LINE_PX)
@@ -187,13 +206,19 @@ class _Line:
         steps = np.arange(left, max(right, left + self.letter) + 1, 2.0)
         wave = QPolygonF([QPointF(x, y + (1.0 if k % 2 else -1.0)) for k, x in enumerate(steps.tolist())])
         self.painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self.painter.setPen(QPen(self.look.theme.error if problem.severity is Severity.ERROR else self.look.theme.warning, 1.4))
+        self.painter.setPen(
+            QPen(self.look.theme.error if problem.severity is Severity.ERROR else self.look.theme.warning, 1.4)
+        )
         self.painter.drawPolyline(wave)
         self.painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
 
 
 def _part_colour(part: Part, theme: Theme) -> QColor:
     return {
-        Part.COMMENT: theme.muted, Part.LINE_NUMBER: theme.muted, Part.COMMAND: theme.accent_text, Part.SETTING: theme.warning,
-        Part.FLOW: theme.parameter, Part.PLAIN: theme.ink,
+        Part.COMMENT: theme.muted,
+        Part.LINE_NUMBER: theme.muted,
+        Part.COMMAND: theme.accent_text,
+        Part.SETTING: theme.warning,
+        Part.FLOW: theme.parameter,
+        Part.PLAIN: theme.ink,
     }[part]

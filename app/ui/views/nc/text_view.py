@@ -32,7 +32,8 @@ class NcTextView(QAbstractScrollArea):
     """Read-only NC text.
 
     Signals:
-        rows_picked(first, last): the user chose lines (0-based, both included). menu_asked(point): right click, on the screen.
+        rows_picked(first, last): the user chose lines (0-based, both included). menu_asked(point): right click, on the
+        screen.
     """
 
     rows_picked = Signal(int, int)
@@ -123,7 +124,11 @@ class NcTextView(QAbstractScrollArea):
             bar.setValue(top - LINE_PX)
         elif top > bar.value() + height - _SPARE_ROWS * LINE_PX:
             bar.setValue(top - height + _SPARE_ROWS * LINE_PX)
-        across, x, room = self.horizontalScrollBar(), round(column * self._letter), self.viewport().width() - self._look.gutter() - 60
+        across, x, room = (
+            self.horizontalScrollBar(),
+            round(column * self._letter),
+            self.viewport().width() - self._look.gutter() - 60,
+        )
         if not across.value() <= x <= across.value() + room:
             across.setValue(x - room // 2 if column else 0)
 
@@ -153,7 +158,9 @@ class NcTextView(QAbstractScrollArea):
         painter.end()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Pick the line under the mouse; with Shift all lines up to it. Beside the scroll bar: go to that place of the program."""
+        """Pick the line under the mouse; with Shift all lines up to it. Beside the scroll bar: go to that place of the
+        program.
+        """
         at = event.position()
         if event.button() is Qt.MouseButton.LeftButton and at.x() >= self.viewport().width() - MARKS_PX:
             self.pick(int(at.y() / self.viewport().height() * len(self.text)))
@@ -184,14 +191,19 @@ class NcTextView(QAbstractScrollArea):
 
     def event(self, event: QEvent) -> bool:
         """Keep Ctrl+A and Ctrl+C from the drawing."""
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and (
-                event.matches(QKeySequence.StandardKey.SelectAll) or event.matches(QKeySequence.StandardKey.Copy)):
+        if (
+            event.type() == QEvent.Type.ShortcutOverride
+            and isinstance(event, QKeyEvent)
+            and (event.matches(QKeySequence.StandardKey.SelectAll) or event.matches(QKeySequence.StandardKey.Copy))
+        ):
             event.accept()
             return True
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Walk through the lines, with Shift pick them; Home and End go along the line, with Ctrl to the program's ends."""
+        """Walk through the lines, with Shift pick them; Home and End go along the line, with Ctrl to the program's
+        ends.
+        """
         page = max(1, self.rows_in_sight - 1)
         steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_PageUp: -page, Qt.Key.Key_PageDown: page}
         control = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
@@ -202,7 +214,10 @@ class NcTextView(QAbstractScrollArea):
         elif event.matches(QKeySequence.StandardKey.SelectAll):
             self.pick_rows(0, len(self.text) - 1)
         elif key in steps:
-            self.pick(max(self.current, 0) + steps[Qt.Key(key)] if self.current >= 0 or key == Qt.Key.Key_PageDown else 0, extend)
+            self.pick(
+                max(self.current, 0) + steps[Qt.Key(key)] if self.current >= 0 or key == Qt.Key.Key_PageDown else 0,
+                extend,
+            )
         elif key in (Qt.Key.Key_Home, Qt.Key.Key_End) and control:
             self.pick(0 if key == Qt.Key.Key_Home else len(self.text) - 1, extend)
         elif key in (Qt.Key.Key_Home, Qt.Key.Key_End) and self.current >= 0:

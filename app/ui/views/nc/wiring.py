@@ -56,6 +56,7 @@ class NcWiring(QObject):
 
     def _in_view(self, name: str, act: Callable[[], object]) -> None:
         """Do something in the NC view, which comes to the front."""
+
         def bring_and_act() -> None:
             if self._showing.view is not View.NC:
                 self._showing.show_view(View.NC)

@@ -118,7 +118,9 @@ def _paint(painter: QPainter, painted: Painted, place: Similarity) -> None:
 
 
 def _pen(pen: Pen, scale: float) -> QPen:
-    made = QPen(QColor(pen.colour), pen.width / scale, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
+    made = QPen(
+        QColor(pen.colour), pen.width / scale, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin
+    )
     if pen.dash:
         if min(pen.dash) > pen.width:
             made.setCapStyle(Qt.PenCapStyle.FlatCap)

@@ -75,9 +75,17 @@ class PlotPanel(QWidget):
         self.paper = ListField("Paper", list(_PAPERS.items()))
         self.lies = ChoiceField("Lies", [(True, "Landscape"), (False, "Portrait")])
         self.scale = ListField("Scale", [(None, "Fit one sheet"), *((each, scale_words(each)) for each in _SCALES)])
-        self.factor = NumberField(Spec("Factor", "", decimals=4, is_length=False, tip="Any other scale: 1:3, 0.25 or 75%."), read_scale)
-        self.framed, self.paths = SwitchField("Frame, title"), SwitchField("Tool paths", "Contours dashed, pockets solid, a colour a tool.")
-        self.notes, self.black = SwitchField("Dimensions", "With points and dimensions."), SwitchField("Black only", "All in one ink.")
+        self.factor = NumberField(
+            Spec("Factor", "", decimals=4, is_length=False, tip="Any other scale: 1:3, 0.25 or 75%."), read_scale
+        )
+        self.framed, self.paths = (
+            SwitchField("Frame, title"),
+            SwitchField("Tool paths", "Contours dashed, pockets solid, a colour a tool."),
+        )
+        self.notes, self.black = (
+            SwitchField("Dimensions", "With points and dimensions."),
+            SwitchField("Black only", "All in one ink."),
+        )
         self.told, self.wrong = muted(), QLabel()
         self.save, self.print, self.leave = QPushButton("Save…"), QPushButton("Print…"), QPushButton("Close")
         self._lay_out()
@@ -93,8 +101,10 @@ class PlotPanel(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(EDGE + 1, 12, EDGE, 12)
         column.setSpacing(6)
-        groups = ((heading("Plot"), self.paper, self.lies, self.scale, self.factor, self.told, self.wrong),
-                  (self.framed, self.paths, self.notes, self.black))
+        groups = (
+            (heading("Plot"), self.paper, self.lies, self.scale, self.factor, self.told, self.wrong),
+            (self.framed, self.paths, self.notes, self.black),
+        )
         for group in groups:
             for widget in group:
                 column.addWidget(widget)

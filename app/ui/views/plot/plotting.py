@@ -1,4 +1,6 @@
-"""Print or plot: shows the sheets beside what is asked of them, keeps them in step with the drawing, writes and prints them."""
+"""Print or plot: shows the sheets beside what is asked of them, keeps them in step with the drawing, writes and prints
+them.
+"""
 
 from __future__ import annotations
 
@@ -116,7 +118,11 @@ class Plotting(QObject):
         current = program is not None and not self._window.computation.outdated
         self._panel.show_paths_there(current)
         moves = program.moves if program is not None and current and wish.paths else None
-        shown, layout, today = Shown(self._window.document.part, moves, wish.notes, wish.black), wish.layout, self._today()
+        shown, layout, today = (
+            Shown(self._window.document.part, moves, wish.notes, wish.black),
+            wish.layout,
+            self._today(),
+        )
         self.worker.start(lambda progress: _made_ready(shown, layout, today, progress), self._window.document.revision)
 
     def _on_done(self, answer: Answer) -> None:
@@ -157,7 +163,10 @@ class Plotting(QObject):
 
     def choose_printer(self) -> None:
         """Ask for a printer and print the sheets at true size."""
-        from PySide6.QtPrintSupport import QPrintDialog, QPrinter  # asks the system for its printers, which takes a while
+        from PySide6.QtPrintSupport import (
+            QPrintDialog,
+            QPrinter,
+        )  # asks the system for its printers, which takes a while
 
         if self.ready is None:
             return

@@ -71,7 +71,9 @@ class PlotPreview(QWidget):
     def px_per_mm(self) -> float:
         """How large a millimetre of paper is shown."""
         whole = self._whole()
-        return self._zoom * min((self.width() - 2 * _EDGE_PX) / whole.width(), (self.height() - 2 * _EDGE_PX) / whole.height())
+        return self._zoom * min(
+            (self.width() - 2 * _EDGE_PX) / whole.width(), (self.height() - 2 * _EDGE_PX) / whole.height()
+        )
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Paint the sheets once, and then their picture."""
@@ -93,7 +95,9 @@ class PlotPreview(QWidget):
         painter.translate(-whole.width() / 2, -whole.height() / 2)
         for at, sheet in enumerate(self.sheets):
             painter.save()
-            painter.translate(at % self._columns * (page.width + _GAP_MM), at // self._columns * (page.height + _GAP_MM))
+            painter.translate(
+                at % self._columns * (page.width + _GAP_MM), at // self._columns * (page.height + _GAP_MM)
+            )
             painter.setClipRect(QRectF(0, 0, page.width, page.height))
             painter.fillRect(QRectF(0, 0, page.width, page.height), QColor("#FFFFFF"))
             paint(painter, sheet)

@@ -38,8 +38,15 @@ def plot_files(path: Path, sheets: Sequence[Sheet], name: str) -> dict[Path, byt
         return {path: hpgl_bytes(sheet.page for sheet in sheets)}
     if suffix not in FORMATS:
         raise InputError(f"{path.name} names no format; end it in {', '.join(FORMATS)}.")
-    paths = [path] if len(sheets) == 1 else [path.with_stem(f"{path.stem}-{number}") for number in range(1, len(sheets) + 1)]
-    return {each: page_svg(sheet.page, name) if suffix == ".svg" else png_bytes(sheet) for each, sheet in zip(paths, sheets, strict=True)}
+    paths = (
+        [path]
+        if len(sheets) == 1
+        else [path.with_stem(f"{path.stem}-{number}") for number in range(1, len(sheets) + 1)]
+    )
+    return {
+        each: page_svg(sheet.page, name) if suffix == ".svg" else png_bytes(sheet)
+        for each, sheet in zip(paths, sheets, strict=True)
+    }
 
 
 def pdf_bytes(sheets: Sequence[Sheet], name: str) -> bytes:
@@ -51,7 +58,9 @@ def pdf_bytes(sheets: Sequence[Sheet], name: str) -> bytes:
     writer.setCreator(f"Hitofude {__version__}")
     writer.setResolution(_PDF_DPI)
     page = sheets[0].page
-    size = QPageSize(QSizeF(page.width, page.height), QPageSize.Unit.Millimeter, "", QPageSize.SizeMatchPolicy.ExactMatch)
+    size = QPageSize(
+        QSizeF(page.width, page.height), QPageSize.Unit.Millimeter, "", QPageSize.SizeMatchPolicy.ExactMatch
+    )
     writer.setPageLayout(QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF()))
     painter = QPainter(writer)
     paint_all(painter, sheets, writer)

@@ -56,7 +56,9 @@ def amount(text: str, low: float, high: float) -> float:
     except CommandError as error:
         raise InputError(f"? {error.reason}") from error
     if not low <= value <= high:
-        raise InputError(f"? {value:g} mm is out of range. Enter {_inwards(low, math.ceil)} to {_inwards(high, math.floor)} mm.")
+        raise InputError(
+            f"? {value:g} mm is out of range. Enter {_inwards(low, math.ceil)} to {_inwards(high, math.floor)} mm."
+        )
     return value
 
 
@@ -69,7 +71,8 @@ def _inwards(value: float, towards: Callable[[float], int]) -> str:
 def job_of(job: Job, given: Offsets) -> Job:
     """Return the job with a pocket and a contour operation whose tools have these offsets, and with no other.
 
-    Speeds, feeds, depths and everything else stay; a tool whose offset is what it was stays as it is, another becomes flat.
+    Speeds, feeds, depths and everything else stay; a tool whose offset is what it was stays as it is, another becomes
+    flat.
     """
     pocket, contour = _operations(job)
     large = _sized(_tool(job, pocket, Tool(1, 6.0)), given.pocket)
@@ -80,15 +83,18 @@ def job_of(job: Job, given: Offsets) -> Job:
     tools = (*own.values(), *(tool for tool in job.tools if tool.number not in own))
     stepover = None if abs(given.step - given.pocket) < 1e-9 else given.step
     operations: tuple[Operation, ...] = (
-        PocketOperation(_cut(pocket.cut, large), stepover), ContourOperation(_cut(contour.cut, small)),
-    )  # fmt: skip
+        PocketOperation(_cut(pocket.cut, large), stepover),
+        ContourOperation(_cut(contour.cut, small)),
+    )
     return replace(job, tools=tools, operations=operations)
 
 
 def _operations(job: Job) -> tuple[PocketOperation, ContourOperation]:
     """Return the job's first pocket and contour operation, or usual ones."""
     pocket = next((each for each in job.operations if isinstance(each, PocketOperation)), PocketOperation(Cut(tool=1)))
-    contour = next((each for each in job.operations if isinstance(each, ContourOperation)), ContourOperation(Cut(tool=2)))
+    contour = next(
+        (each for each in job.operations if isinstance(each, ContourOperation)), ContourOperation(Cut(tool=2))
+    )
     return pocket, contour
 
 
@@ -102,4 +108,6 @@ def _cut(cut: Cut, tool: Tool) -> Cut:
 
 
 def _sized(tool: Tool, radius: float) -> Tool:
-    return tool if abs(tool.radius - radius) < 1e-9 else replace(tool.as_kind(ToolKind.FLAT), diameter=2 * radius, name="")
+    return (
+        tool if abs(tool.radius - radius) < 1e-9 else replace(tool.as_kind(ToolKind.FLAT), diameter=2 * radius, name="")
+    )

@@ -80,16 +80,32 @@ Z ####### .....## ....##. ..###.. .##.... ##..... #######
 _ ....... ....... ....... ....... ....... ....... #######
 """
 _FIRST = ord(" ")
-_OTHERS = str.maketrans({
-    "…": "...", "µ": "U", "°": " DEG", "\xd7": "X", "\u2013": "-", "\u2212": "-", "\u2009": " ", "\u202f": " ", "\xa0": " ",
-    "≥": ">=", "≤": "<=", "`": "'", "|": "!", "~": "-", "{": "(", "}": ")",
-})
+_OTHERS = str.maketrans(
+    {
+        "…": "...",
+        "µ": "U",
+        "°": " DEG",
+        "\xd7": "X",
+        "\u2013": "-",
+        "\u2212": "-",
+        "\u2009": " ",
+        "\u202f": " ",
+        "\xa0": " ",
+        "≥": ">=",
+        "≤": "<=",
+        "`": "'",
+        "|": "!",
+        "~": "-",
+        "{": "(",
+        "}": ")",
+    }
+)
 
 
 def _read_shapes() -> Bits:
     cells = np.zeros((64, CELL, CELL), np.bool_)
     for cell, line in zip(cells, _SHAPES.strip("\n").split("\n"), strict=True):
-        cell[:CELL - 1, :CELL - 1] = [[point == "#" for point in row] for row in line[2:].split(" ")]
+        cell[: CELL - 1, : CELL - 1] = [[point == "#" for point in row] for row in line[2:].split(" ")]
     return cells
 
 

@@ -1,4 +1,6 @@
-"""What the data processing unit does between two questions: from a shape to its paths on 400 x 400 points. On a worker; no Qt."""
+"""What the data processing unit does between two questions: from a shape to its paths on 400 x 400 points. On a worker;
+no Qt.
+"""
 
 from __future__ import annotations
 
@@ -128,7 +130,9 @@ def outline_of(shape: Shape, given: Offsets, progress: Progress = NO_PROGRESS) -
     job = job_of(shape.job, given)
     paths = operation_paths(job, 1, shape.part, progress.part(0.0, 0.8))
     if not paths.area.any():
-        raise GeometryError(f"? Nothing is left of the shape with an offset of {given.contour:g} mm. Enter a smaller one.")
+        raise GeometryError(
+            f"? Nothing is left of the shape with an offset of {given.contour:g} mm. Enter a smaller one."
+        )
     seen = takewhile(lambda stage: stage.number != 140, stages(job, shape.part, [paths]))
     after = (stage for stage in seen if stage.number != 110)
     return Outline(tuple(stills_of(after, _chains(paths))))
@@ -149,14 +153,18 @@ def paths_of(shape: Shape, given: Offsets, progress: Progress = NO_PROGRESS) -> 
     made = compute_on_bitmap(job, shape.part, progress.part(0.0, 0.6))
     pocket, contour = (next(each for each in made.paths if each.index == index) for index in (0, 1))
     if not pocket.levels or not pocket.levels[0]:
-        raise GeometryError(f"? Nothing is left of the area with an offset of {given.pocket:g} mm. Enter a smaller one.")
+        raise GeometryError(
+            f"? Nothing is left of the area with an offset of {given.pocket:g} mm. Enter a smaller one."
+        )
     progress.step(0.6, "Writing the program")
     files = write_and_check(made.program, job, load_post(job.post), None, progress.part(0.6, 0.9)).files
     own = dropwhile(lambda stage: stage.number != 301, stages(job, shape.part, made.paths))
     stills = tuple(stills_of(own, _chains(contour), [*_chains(contour), *_chains(pocket)]))
     again = tuple(still for still in stills if still.number == 140)
     listing = tuple(line for file in files for line in file.nc.text.splitlines())
-    given_up = f"The paths keep up to {made.given_up.most_mm:.3f} mm more from the walls than asked, for the points' sake."
+    given_up = (
+        f"The paths keep up to {made.given_up.most_mm:.3f} mm more from the walls than asked, for the points' sake."
+    )
     return Paths(job, (*stills, *again), listing, (*_notes(made.program.findings), given_up))
 
 

@@ -63,7 +63,9 @@ class SessionOpening(QObject):
         self._window.document.change_job("1986 session", job)
         if other:
             self._window.computation.forget()
-        tools = ", ".join(f"T{job.tool(each.cut.tool).number} {job.tool(each.cut.tool).label}" for each in job.operations)
+        tools = ", ".join(
+            f"T{job.tool(each.cut.tool).number} {job.tool(each.cut.tool).label}" for each in job.operations
+        )
         self._log.note("1986 session", f"{tools}; undo takes it back.")
         self._showing.show_view(View.PATHS)
         self._window.canvas.fit()

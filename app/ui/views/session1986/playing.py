@@ -17,7 +17,9 @@ LONGEST_S = 8.0
 """No listing scrolls longer: of a long one several lines come at a time."""
 
 LONGEST_PLAY_MS, LEAST_MS = 25_000, 16
-"""Stills of many areas and peels go by quicker, so that all together take no longer, but none quicker than the screen."""
+"""Stills of many areas and peels go by quicker, so that all together take no longer, but none quicker than the
+screen.
+"""
 
 
 class Playing(QObject):
@@ -77,7 +79,10 @@ class Playing(QObject):
     def _show(self, at: int) -> None:
         self.at, still = at, self._stills[at]
         self._screen.picture = still.picture
-        self._screen.head = (f"{still.number} {still.name}", f"{'HELD  ' if self.held else ''}{at + 1}/{len(self._stills)}")
+        self._screen.head = (
+            f"{still.number} {still.name}",
+            f"{'HELD  ' if self.held else ''}{at + 1}/{len(self._stills)}",
+        )
         if self.held:
             self._clock.stop()
         else:
@@ -141,6 +146,6 @@ class Listing(QObject):
             return
         page = self._screen.page
         if page is not None:
-            page += self._left[:self._at_once]
-        del self._left[:self._at_once]
+            page += self._left[: self._at_once]
+        del self._left[: self._at_once]
         self.changed.emit()

@@ -21,7 +21,13 @@ class Ask(Enum):
     DONE = auto()
 
 
-BACK = {Ask.DRAW: Ask.SHAPE, Ask.CONTOUR: Ask.SHAPE, Ask.POCKET: Ask.CONTOUR, Ask.OVERLAP: Ask.POCKET, Ask.DONE: Ask.OVERLAP}
+BACK = {
+    Ask.DRAW: Ask.SHAPE,
+    Ask.CONTOUR: Ask.SHAPE,
+    Ask.POCKET: Ask.CONTOUR,
+    Ask.OVERLAP: Ask.POCKET,
+    Ask.DONE: Ask.OVERLAP,
+}
 """The question before each."""
 
 BUSY = (Ask.WORK, Ask.PLAY, Ask.LIST)
@@ -36,7 +42,8 @@ def prompt(ask: Ask, given: Offsets, drawn: bool) -> str:
         drawn: the job has a drawing.
     """
     return {
-        Ask.SHAPE: f"SHAPE [{1 if drawn else 2}]?", Ask.DRAW: "DRAW?",
+        Ask.SHAPE: f"SHAPE [{1 if drawn else 2}]?",
+        Ask.DRAW: "DRAW?",
         Ask.CONTOUR: f"CONTOUR TOOL OFFSET, MM [{given.contour:.6g}]?",
         Ask.POCKET: f"POCKET TOOL OFFSET, MM [{given.pocket:.6g}]?",
         Ask.OVERLAP: f"POCKET TOOL OVERLAP, MM [{given.overlap:.6g}]?",

@@ -32,12 +32,28 @@ PAGE_LINES = (POINTS - HEAD_PX - 4) // LINE_PX
 """Lines of a page, the one that is typed in included."""
 
 _CARD = (
-    "400 X 400 POINTS, 1 BIT", "", "",
-    "ENTER A SHAPE AND THREE AMOUNTS:", "", "110  SHAPE", "120  OFFSET OF THE CONTOUR TOOL", "140  OFFSET OF THE POCKET TOOL",
-    "     OVERLAP OF ITS PATHS", "", "",
-    "RETURN   ANSWER; GO TO THE END", "SPACE    HOLD, GO ON", "ARROWS   STEP BY STEP; CROSS HAIR; PAGE",
-    "TAB      PUT THE CROSS HAIR", "DELETE   CLEAR THE ANSWER", "CTRL-C   BREAK", "F2       GREEN, AMBER", "ESC      LEAVE", "",
-    "BACK     THE QUESTION BEFORE", "NEW      ANOTHER SESSION",
+    "400 X 400 POINTS, 1 BIT",
+    "",
+    "",
+    "ENTER A SHAPE AND THREE AMOUNTS:",
+    "",
+    "110  SHAPE",
+    "120  OFFSET OF THE CONTOUR TOOL",
+    "140  OFFSET OF THE POCKET TOOL",
+    "     OVERLAP OF ITS PATHS",
+    "",
+    "",
+    "RETURN   ANSWER; GO TO THE END",
+    "SPACE    HOLD, GO ON",
+    "ARROWS   STEP BY STEP; CROSS HAIR; PAGE",
+    "TAB      PUT THE CROSS HAIR",
+    "DELETE   CLEAR THE ANSWER",
+    "CTRL-C   BREAK",
+    "F2       GREEN, AMBER",
+    "ESC      LEAVE",
+    "",
+    "BACK     THE QUESTION BEFORE",
+    "NEW      ANOTHER SESSION",
 )
 CURSOR = "_"
 Place = tuple[int, int]
@@ -49,8 +65,10 @@ class Screen:
     """What the terminal shows; whoever changes it has it painted.
 
     Attributes:
-        head: in the bar at the top, left and right. picture: (400, 400) points. talk: lines of the dialogue, oldest first.
-        page: lines of a page that takes the place of picture and dialogue; None = there is none. up: lines that it is scrolled back.
+        head: in the bar at the top, left and right. picture: (400, 400) points. talk: lines of the dialogue, oldest
+            first.
+        page: lines of a page that takes the place of picture and dialogue; None = there is none. up: lines that it is
+            scrolled back.
         prompt: what is asked; "" = nothing is. typed: the answer so far. lit: the cursor is in its lit half.
         hair: where the cross hair is; None = there is none.
     """
@@ -75,7 +93,7 @@ class Screen:
         if not self.prompt:
             return []
         text = f"{self.prompt} {spoken(self.typed)}{CURSOR if self.lit else ' '}"
-        return [text[k:k + COLUMNS] for k in range(0, len(text), COLUMNS)]
+        return [text[k : k + COLUMNS] for k in range(0, len(text), COLUMNS)]
 
     def scroll(self, lines: int) -> None:
         """Scroll the page back (> 0) or on."""
@@ -89,7 +107,7 @@ class Screen:
         if self.page is not None:
             end = len(self.page) - self.up
             asked = self.asked()
-            write(points, HEAD_PX + 4, [*self.page[max(end - PAGE_LINES + len(asked), 0):end], *asked])
+            write(points, HEAD_PX + 4, [*self.page[max(end - PAGE_LINES + len(asked), 0) : end], *asked])
             return points
         points[TOP:BOTTOM] = self.picture[TOP:BOTTOM]
         points[BOTTOM, ::2] = True
@@ -101,16 +119,16 @@ class Screen:
 
     def _write_head(self, points: Bits) -> None:
         left, right = (spoken(text) for text in self.head)
-        right = right[:COLUMNS - 1]
-        write(points, 1, [f"{left[:COLUMNS - len(right) - 1].ljust(COLUMNS - len(right))}{right}"])
-        points[:HEAD_PX + 1] ^= True
+        right = right[: COLUMNS - 1]
+        write(points, 1, [f"{left[: COLUMNS - len(right) - 1].ljust(COLUMNS - len(right))}{right}"])
+        points[: HEAD_PX + 1] ^= True
 
 
 def write(points: Bits, top: int, lines: Sequence[str]) -> None:
     """Write lines of text into (400, 400) points, from row `top` on."""
     for k, line in enumerate(lines):
         bits = line_bits(line[:COLUMNS])
-        points[top + k * LINE_PX:top + k * LINE_PX + CELL, MARGIN_PX:MARGIN_PX + bits.shape[1]] = bits
+        points[top + k * LINE_PX : top + k * LINE_PX + CELL, MARGIN_PX : MARGIN_PX + bits.shape[1]] = bits
 
 
 def card() -> Bits:

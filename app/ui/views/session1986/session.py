@@ -1,4 +1,6 @@
-"""The dialogue with the operator: which question comes next, what its answer sets off, and what the display shows meanwhile."""
+"""The dialogue with the operator: which question comes next, what its answer sets off, and what the display shows
+meanwhile.
+"""
 
 from __future__ import annotations
 
@@ -131,7 +133,9 @@ class Session(QObject):
     def point(self, place: Place) -> None:
         """Put the cross hair on a point of the picture."""
         row, col = place
-        self.screen.hair = (min(max(row, TOP), BOTTOM - 1), min(max(col, 0), POINTS - 1)) if self.ask is Ask.DRAW else None
+        self.screen.hair = (
+            (min(max(row, TOP), BOTTOM - 1), min(max(col, 0), POINTS - 1)) if self.ask is Ask.DRAW else None
+        )
         if self.ask is Ask.DRAW:
             x, y = self.draft.point(self.screen.hair or place).split(",")
             self._head(f"X {x} Y {y}")
@@ -150,8 +154,12 @@ class Session(QObject):
             self.begin()
         else:
             answers: dict[Ask, Callable[[str], None]] = {
-                Ask.SHAPE: self._choose, Ask.DRAW: self._draw, Ask.CONTOUR: self._take_contour, Ask.POCKET: self._take_pocket,
-                Ask.OVERLAP: self._take_overlap, Ask.DONE: self._end,
+                Ask.SHAPE: self._choose,
+                Ask.DRAW: self._draw,
+                Ask.CONTOUR: self._take_contour,
+                Ask.POCKET: self._take_pocket,
+                Ask.OVERLAP: self._take_overlap,
+                Ask.DONE: self._end,
             }
             answers[self.ask](text)
 
@@ -294,7 +302,10 @@ class Session(QObject):
         if ask in (Ask.POCKET, Ask.OVERLAP) and self.outline is not None:
             still = self.outline.stills[-1]
         if still is not None:
-            screen.picture, screen.head = still.picture, (f"{still.number} {still.name}", f"{self._shape().pitch:.3g} MM A POINT")
+            screen.picture, screen.head = (
+                still.picture,
+                (f"{still.number} {still.name}", f"{self._shape().pitch:.3g} MM A POINT"),
+            )
         else:
             screen.picture = self.draft.picture() if ask is Ask.DRAW else card()
             screen.head = ("DRAW THE SHAPE" if ask is Ask.DRAW else "TOOL PATH GENERATION", "1986")

@@ -99,7 +99,7 @@ def _blocks(marks: Bits) -> Bits:
     blocks = marks.copy()
     for row in range(3):
         for col in range(3):
-            blocks |= around[row:row + POINTS, col:col + POINTS]
+            blocks |= around[row : row + POINTS, col : col + POINTS]
     return blocks
 
 

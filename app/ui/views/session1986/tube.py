@@ -6,7 +6,17 @@ from collections.abc import Callable
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPointF, QRect, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QHideEvent, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
+from PySide6.QtGui import (
+    QColor,
+    QFocusEvent,
+    QHideEvent,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QShowEvent,
+)
 from PySide6.QtWidgets import QWidget
 
 from ....core.settings import Phosphor
@@ -112,9 +122,14 @@ class Tube(QWidget):
         """Everything is done by keys."""
         session, key = self.session, event.key()
         keys: dict[int, Callable[[], object]] = {
-            Qt.Key.Key_Escape: self.left.emit, Qt.Key.Key_Return: session.enter, Qt.Key.Key_Enter: session.enter,
-            Qt.Key.Key_Backspace: session.erase, Qt.Key.Key_Delete: lambda: session.erase(everything=True), Qt.Key.Key_Tab: session.put,
-            Qt.Key.Key_F2: self.switch_phosphor, Qt.Key.Key_PageUp: lambda: self._scroll(PAGE_LINES // 2),
+            Qt.Key.Key_Escape: self.left.emit,
+            Qt.Key.Key_Return: session.enter,
+            Qt.Key.Key_Enter: session.enter,
+            Qt.Key.Key_Backspace: session.erase,
+            Qt.Key.Key_Delete: lambda: session.erase(everything=True),
+            Qt.Key.Key_Tab: session.put,
+            Qt.Key.Key_F2: self.switch_phosphor,
+            Qt.Key.Key_PageUp: lambda: self._scroll(PAGE_LINES // 2),
             Qt.Key.Key_PageDown: lambda: self._scroll(-PAGE_LINES // 2),
         }
         if key in keys:

@@ -1,4 +1,6 @@
-"""The chain codes that a step has found or read: a list, the code of the chosen one as text, and what its digits mean."""
+"""The chain codes that a step has found or read: a list, the code of the chosen one as text, and what its digits
+mean.
+"""
 
 from __future__ import annotations
 
@@ -96,8 +98,11 @@ class ChainsPanel(QWidget):
 
     def _show_text(self, index: int) -> None:
         if index < 0:
-            self.text.setPlainText("Click a line to see its code: row, column of S, then a digit for each step." if self.chains
-                                   else "This step traces no line.")
+            self.text.setPlainText(
+                "Click a line to see its code: row, column of S, then a digit for each step."
+                if self.chains
+                else "This step traces no line."
+            )
             return
         code = self.chains[index].text()
         self.text.setPlainText(code if len(code) <= _MOST_DIGITS else f"{code[:_MOST_DIGITS]}…")

@@ -1,4 +1,6 @@
-"""The key of the stages: what each code's colour means at the step that is shown; the code under the mouse stands out."""
+"""The key of the stages: what each code's colour means at the step that is shown; the code under the mouse stands
+out.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,13 @@ def paint_code_key(painter: QPainter, place: QRectF, rows: tuple[CodeRow, ...], 
     ground.setAlphaF(0.92)
     painter.fillRect(place, ground)
     for k, row in enumerate(rows):
-        _paint_row(painter, QPointF(place.left() + PAD_PX, place.top() + PAD_PX / 2 + (k + 0.5) * ROW_PX), row, row.code == lit, theme)
+        _paint_row(
+            painter,
+            QPointF(place.left() + PAD_PX, place.top() + PAD_PX / 2 + (k + 0.5) * ROW_PX),
+            row,
+            row.code == lit,
+            theme,
+        )
 
 
 def _paint_row(painter: QPainter, at: QPointF, row: CodeRow, lit: bool, theme: Theme) -> None:

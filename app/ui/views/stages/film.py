@@ -1,4 +1,6 @@
-"""All stages of a job, kept as what each changes of the one before: small enough to keep hundreds, quick to step through. No Qt."""
+"""All stages of a job, kept as what each changes of the one before: small enough to keep hundreds, quick to step
+through. No Qt.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,14 @@ from ....raster.walls import Mask
 
 Ints = NDArray[np.int32]
 
-PHASES = ((110, 120), (201, 202, 203, 204, 205, 206, 207, 208, 130), (301, 302, 303, 304, 305, 306, 307, 141, 142, 143, 144),
-          (145, 146, 147, 148), (140,), (401, 402, 403, 404, 405, 406, 407))  # fmt: skip
+PHASES = (
+    (110, 120),
+    (201, 202, 203, 204, 205, 206, 207, 208, 130),
+    (301, 302, 303, 304, 305, 306, 307, 141, 142, 143, 144),
+    (145, 146, 147, 148),
+    (140,),
+    (401, 402, 403, 404, 405, 406, 407),
+)
 """Steps that belong together: within one, the same codes have the same meaning."""
 
 _DASH = (6, 3)
@@ -82,7 +90,9 @@ class Film:
         return tuple(number for number in STEPS if number in seen)
 
     def codes_near(self, at: int) -> frozenset[int]:
-        """Return the codes to explain at a stage: those of its step, or of all steps that are repeated together with it."""
+        """Return the codes to explain at a stage: those of its step, or of all steps that are repeated together with
+        it.
+        """
         still = self.stills[at]
         together = PHASES[still.phase] if still.phase in _REPEATED else (still.number,)
         return frozenset().union(*(self.codes.get(number, frozenset()) for number in together))
@@ -97,7 +107,9 @@ class Film:
         return next((k for k in places if k > at), places[0]) if places else at
 
     def seek_part(self, at: int, way: int) -> int:
-        """Return where the next part begins (way +1), or this one, or the one before (-1): another phase, or another region."""
+        """Return where the next part begins (way +1), or this one, or the one before (-1): another phase, or another
+        region.
+        """
         starts = [0, *(k for k in range(1, len(self)) if self._part(k) != self._part(k - 1))]
         if way > 0:
             return next((k for k in starts if k > at), len(self) - 1)
@@ -125,8 +137,21 @@ def film_of(stages: Iterable[Stage], count: int, progress: Progress = NO_PROGRES
         plane = stage.plane.ravel()
         before = last if last is not None else np.zeros_like(plane)
         pixels = np.flatnonzero(plane != before).astype(np.int32)
-        stills.append(Still(stage.number, stage.name, stage.sentence, stage.chains, stage.rows, stage.region, stage.turn, stage.wrong,
-                            pixels, before[pixels], plane[pixels]))
+        stills.append(
+            Still(
+                stage.number,
+                stage.name,
+                stage.sentence,
+                stage.chains,
+                stage.rows,
+                stage.region,
+                stage.turn,
+                stage.wrong,
+                pixels,
+                before[pixels],
+                plane[pixels],
+            )
+        )
         present = np.flatnonzero(np.bincount(plane)).tolist()
         codes[stage.number] = codes.get(stage.number, frozenset()) | frozenset(present)
         last = plane

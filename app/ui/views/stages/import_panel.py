@@ -21,8 +21,17 @@ from ...panels.side_panel import WIDTH
 from .preview import ASSUMED_DPI, Measure, Preview, Reading
 
 _LIST_PX = 96
-_DOUBTS = {Doubt.GAP: "Gap", Doubt.OPEN: "Open line", Doubt.JUNCTION: "Lines meet", Doubt.MERGED: "Thick line", Doubt.NARROW: "Narrow"}
-_KINDS = {Shows.LINES: "Read as lines: what they enclose is machined.", Shows.AREAS: "Read as areas: the ink itself is machined."}
+_DOUBTS = {
+    Doubt.GAP: "Gap",
+    Doubt.OPEN: "Open line",
+    Doubt.JUNCTION: "Lines meet",
+    Doubt.MERGED: "Thick line",
+    Doubt.NARROW: "Narrow",
+}
+_KINDS = {
+    Shows.LINES: "Read as lines: what they enclose is machined.",
+    Shows.AREAS: "Read as areas: the ink itself is machined.",
+}
 
 
 class See(Enum):
@@ -67,12 +76,20 @@ class ImportPanel(QWidget):
         self.see = ChoiceField("See", [(see, see.value) for see in See])
         self.threshold, self.level, self.otsu = QSlider(Qt.Orientation.Horizontal), muted(), QPushButton("Automatic")
         self.invert = Switch("Ink is light on dark")
-        self.despeckle = NumberField(Spec("Despeckle", "px", 0, 100_000, 0, False, "Spots of up to so many pixels are taken away."))
+        self.despeckle = NumberField(
+            Spec("Despeckle", "px", 0, 100_000, 0, False, "Spots of up to so many pixels are taken away.")
+        )
         self.ink = ChoiceField("Ink is", [(kind, kind.value.capitalize()) for kind in Shows])
         self.measure = ChoiceField("Size by", [(by, by.value) for by in By])
         self.dpi = NumberField(Spec("Resolution", "dpi", 1, 99_999, 2, False, "Pixels an inch."))
         self.apart = NumberField(Spec("Apart", "mm", 0.001, 99_999, tip="How far the two points are from one another."))
-        self.kind, self.told, self.doubts, self.list, self.wrong = muted(), muted(), heading("Doubtful places"), QListWidget(), QLabel()
+        self.kind, self.told, self.doubts, self.list, self.wrong = (
+            muted(),
+            muted(),
+            heading("Doubtful places"),
+            QListWidget(),
+            QLabel(),
+        )
         self.take, self.leave = QPushButton("Use it as the part"), QPushButton("Leave it")
         self._lay_out()
         self._connect()
@@ -93,9 +110,19 @@ class ImportPanel(QWidget):
         column = QVBoxLayout(inner)
         column.setContentsMargins(EDGE, 0, EDGE, 8)
         column.setSpacing(6)
-        groups = ((self.see,), (heading("Ink"), self._threshold_row(), self._row("Light on dark", self.invert), self.despeckle, self.ink,
-                   self.kind),
-                  (heading("Size"), self.measure, self.dpi, self.apart, self.told), (self.doubts, self.list))
+        groups = (
+            (self.see,),
+            (
+                heading("Ink"),
+                self._threshold_row(),
+                self._row("Light on dark", self.invert),
+                self.despeckle,
+                self.ink,
+                self.kind,
+            ),
+            (heading("Size"), self.measure, self.dpi, self.apart, self.told),
+            (self.doubts, self.list),
+        )
         for k, group in enumerate(groups):
             if k:
                 column.addSpacing(4)
@@ -197,7 +224,9 @@ class ImportPanel(QWidget):
             for k, place in enumerate(preview.places):
                 self.list.item(k).setToolTip(f"At {place.where}, {place.doubt.value}")
             self.list.setCurrentRow(-1)
-        self.doubts.setText(f"{counted(len(preview.places), 'doubtful place')}" if preview.places else "No doubtful place")
+        self.doubts.setText(
+            f"{counted(len(preview.places), 'doubtful place')}" if preview.places else "No doubtful place"
+        )
         self.list.setVisible(bool(preview.places))
         self.refuse("")
         self._show_measure(reading)
@@ -253,15 +282,24 @@ class ImportPanel(QWidget):
         self.dpi.show_value(MM_PER_INCH / frame.pitch)
         if measure.apart is not None:
             self.apart.show_value(measure.apart)
-        self.about.setText(f"{grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px, "
-                           f"{grouped(frame.cols * frame.pitch, 1)} {TIMES} {grouped(frame.rows * frame.pitch, 1)} mm")
+        self.about.setText(
+            f"{grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px, "
+            f"{grouped(frame.cols * frame.pitch, 1)} {TIMES} {grouped(frame.rows * frame.pitch, 1)} mm"
+        )
         self.told.setText(self._words(reading))
 
     def _words(self, reading: Reading) -> str:
         """Return what is known of the size, or what to do next."""
         if self.by is By.DPI:
             assumed = not reading.names_size and reading.measure.dpi == ASSUMED_DPI
-            guess = f"The file does not say how large it is; {ASSUMED_DPI:g} dpi is a guess. Type it, or measure two points."
+            guess = (
+                f"The file does not say how large it is; {ASSUMED_DPI:g} dpi is a guess. Type it, or measure two "
+                "points."
+            )
             return guess if assumed else ""
         asked = ("Click the first point in the picture.", "Click the second point.", "Type how far apart they are.")
-        return asked[len(reading.measure.points)] if reading.measure.apart is None or len(reading.measure.points) < 2 else ""
+        return (
+            asked[len(reading.measure.points)]
+            if reading.measure.apart is None or len(reading.measure.points) < 2
+            else ""
+        )

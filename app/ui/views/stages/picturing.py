@@ -94,8 +94,11 @@ class Picturing(QObject):
                 self.leave()
         elif change & Change.PART and self._taken is not None and self._window.document.part is not self._taken:
             self._taken = None
-            self._log.note("picture", "The drawing was changed: from here on it is an ordinary drawing, no longer the picture's pixels. "
-                                      "Undo the change to have them back.")
+            self._log.note(
+                "picture",
+                "The drawing was changed: from here on it is an ordinary drawing, no longer the picture's pixels. "
+                "Undo the change to have them back.",
+            )
 
     def _start(self, function: Callable[..., object]) -> None:
         self.worker.start(function, self._window.document.revision)
@@ -149,7 +152,10 @@ class Picturing(QObject):
         computation.forget(ready.findings)
         frame = ready.part.frame
         doubts = f" {counted(len(preview.places), 'doubtful place')}: see Compute, Findings." if preview.places else ""
-        self._log.note(f"open {path.name}", f"{counted(len(ready.part.regions), 'region')} on {frame.cols} by {frame.rows} px.{doubts}")
+        self._log.note(
+            f"open {path.name}",
+            f"{counted(len(ready.part.regions), 'region')} on {frame.cols} by {frame.rows} px.{doubts}",
+        )
         self.taken.emit(path)
 
     def _on_failed(self, answer: Answer) -> None:

@@ -1,4 +1,6 @@
-"""Paints a plane of codes: nearest-neighbour pixels from one image, their raster when they are large, their letters when very large."""
+"""Paints a plane of codes: nearest-neighbour pixels from one image, their raster when they are large, their letters
+when very large.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +65,12 @@ def window_of(frame: Frame, view: View, area: QRectF) -> Window:
     """Return the pixels that lie in a screen rectangle, those at its edges included."""
     x0, y0, x1, y1 = view.world_box(area)
     (col0, row1), (col1, row0) = frame.to_px(np.array([(x0, y0), (x1, y1)])).tolist()
-    return Window(max(math.floor(row0), 0), max(math.floor(col0), 0), min(math.ceil(row1), frame.rows), min(math.ceil(col1), frame.cols))
+    return Window(
+        max(math.floor(row0), 0),
+        max(math.floor(col0), 0),
+        min(math.ceil(row1), frame.rows),
+        min(math.ceil(col1), frame.cols),
+    )
 
 
 def screen_rect(frame: Frame, view: View, window: Window) -> QRectF:
@@ -87,7 +94,7 @@ def paint_pixels(painter: QPainter, view: View, area: QRectF, pixels: Pixels) ->
     size = pixels.frame.pitch * view.scale
     group = 1 if pixels.ranks is None else max(math.floor(1 / size), 1)
     window = _whole_groups(window, group)
-    part = np.ascontiguousarray(pixels.plane[window.row0:window.row1, window.col0:window.col1])
+    part = np.ascontiguousarray(pixels.plane[window.row0 : window.row1, window.col0 : window.col1])
     if group > 1 and pixels.ranks is not None:
         part = _highest(part, pixels.ranks, group)
     rows, cols = part.shape
@@ -111,7 +118,7 @@ def _highest(plane: Plane, ranks: NDArray[np.uint8], group: int) -> Plane:
     for r in range(group):
         for c in range(group):
             part = ranked[r::group, c::group]
-            own = best[:part.shape[0], :part.shape[1]]
+            own = best[: part.shape[0], : part.shape[1]]
             np.maximum(own, part, out=own)
     code = np.zeros(len(ranks), np.uint8)
     code[ranks] = np.arange(len(ranks))
@@ -131,8 +138,10 @@ def paint_raster(painter: QPainter, view: View, area: QRectF, frame: Frame, colo
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     columns = [inside.left() + k * size for k in range(window.col1 - window.col0 + 1)]
     rows = [inside.top() + k * size for k in range(window.row1 - window.row0 + 1)]
-    painter.drawLines([QLineF(x, inside.top(), x, inside.bottom()) for x in columns]
-                      + [QLineF(inside.left(), y, inside.right(), y) for y in rows])
+    painter.drawLines(
+        [QLineF(x, inside.top(), x, inside.bottom()) for x in columns]
+        + [QLineF(inside.left(), y, inside.right(), y) for y in rows]
+    )
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
 
@@ -144,8 +153,10 @@ def paint_letters(painter: QPainter, view: View, area: QRectF, pixels: Pixels) -
         return
     painter.setFont(text_font(min(round(0.62 * size), 26)))
     first = screen_rect(pixels.frame, view, window).topLeft()
-    part = pixels.plane[window.row0:window.row1, window.col0:window.col1]
+    part = pixels.plane[window.row0 : window.row1, window.col0 : window.col1]
     for code, letter in pixels.letters.items():
         painter.setPen(ink_on(QColor(pixels.colours[code]), 0.28 if code == 0 else 0.9))
         for row, col in np.argwhere(part == code).tolist():
-            painter.drawText(QRectF(first.x() + col * size, first.y() + row * size, size, size), Qt.AlignmentFlag.AlignCenter, letter)
+            painter.drawText(
+                QRectF(first.x() + col * size, first.y() + row * size, size, size), Qt.AlignmentFlag.AlignCenter, letter
+            )

@@ -1,4 +1,6 @@
-"""Shows a plane of pixels: wheel zooms at the mouse, dragging pans, F fits; the pixel under the mouse says what it is."""
+"""Shows a plane of pixels: wheel zooms at the mouse, dragging pans, F fits; the pixel under the mouse says what it
+is.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ from .pixel_paint import Pixels, Window, paint_letters, paint_pixels, paint_rast
 
 _CLICK_PX = 4.0
 _FAINT, _LARGE_PX = 0.3, 5.0
-"""How strong fitted lines are over pixels of one of the screen's, and how large pixels are under lines of full strength."""
+"""How strong fitted lines are over pixels of one of the screen's, and how large pixels are under lines of full
+strength.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +107,9 @@ class PixelView(Viewport):
                 self._lit.moveTo(*points[0])
                 for x, y in points[1:]:
                     self._lit.lineTo(x, y)
-                self._starts.addRect(points[0][0] - frame.pitch / 2, points[0][1] - frame.pitch / 2, frame.pitch, frame.pitch)
+                self._starts.addRect(
+                    points[0][0] - frame.pitch / 2, points[0][1] - frame.pitch / 2, frame.pitch, frame.pitch
+                )
         self.update()
 
     def show_marks(self, marks: tuple[Mark, ...]) -> None:
@@ -164,7 +170,9 @@ class PixelView(Viewport):
             paint_ruler_marks(painter, self._mouse, theme)
 
     def _row_pen(self) -> QPen:
-        """Return the pen of fitted lines: fine and faint until pixels are large, so that their colours show beside it."""
+        """Return the pen of fitted lines: fine and faint until pixels are large, so that their colours show beside
+        it.
+        """
         size = self.pixels.frame.pitch * self.view.scale if self.pixels is not None else 0.0
         grown = min(max((size - 1) / (_LARGE_PX - 1), 0.0), 1.0)
         ink = QColor(self._theme.ink)
@@ -234,7 +242,9 @@ class PixelView(Viewport):
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
         """F fits, + and - zoom."""
         keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_F: self.fit, Qt.Key.Key_Plus: lambda: self.zoom_by(1.5), Qt.Key.Key_Minus: lambda: self.zoom_by(1 / 1.5),
+            Qt.Key.Key_F: self.fit,
+            Qt.Key.Key_Plus: lambda: self.zoom_by(1.5),
+            Qt.Key.Key_Minus: lambda: self.zoom_by(1 / 1.5),
         }
         act = keys.get(event.key())
         if act is not None and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
@@ -244,7 +254,9 @@ class PixelView(Viewport):
 
     def _look(self, position: QPointF) -> None:
         inside = self.pixels is not None and self.area.contains(position)
-        self._tell(pixel_at(self.pixels.frame, self.view.to_world(position)) if inside and self.pixels is not None else None)
+        self._tell(
+            pixel_at(self.pixels.frame, self.view.to_world(position)) if inside and self.pixels is not None else None
+        )
 
     def _tell(self, pixel: tuple[int, int] | None) -> None:
         self.pixel = pixel

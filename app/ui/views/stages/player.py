@@ -38,8 +38,14 @@ class Player(QWidget):
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._began, self._done = 0, 0
         self.play = IconButton("play", "Play (Space)")
-        self.first, self.last = IconButton("first", "An earlier part (Page up)"), IconButton("last", "The next part (Page down)")
-        self.back, self.forward = IconButton("back", "One stage back (Left)"), IconButton("forward", "One stage on (Right)")
+        self.first, self.last = (
+            IconButton("first", "An earlier part (Page up)"),
+            IconButton("last", "The next part (Page down)"),
+        )
+        self.back, self.forward = (
+            IconButton("back", "One stage back (Left)"),
+            IconButton("forward", "One stage on (Right)"),
+        )
         self.slider, self.place, self.speed = QSlider(Qt.Orientation.Horizontal), muted(), QComboBox()
         self._lay_out()
         self._connect()

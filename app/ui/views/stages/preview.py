@@ -1,4 +1,6 @@
-"""A picture on its way to become a part: read, thresholded, what it encloses, and the places that can be read in two ways. No Qt."""
+"""A picture on its way to become a part: read, thresholded, what it encloses, and the places that can be read in two
+ways. No Qt.
+"""
 
 from __future__ import annotations
 
@@ -127,7 +129,9 @@ def preview_of(reading: Reading, progress: Progress = NO_PROGRESS) -> Preview:
     ink = thresholded(reading.picture.gray, reading.measure.pitch, reading.options)
     picture = replace(ink, stretched=reading.picture.stretched)
     kind = shows(picture.ink, reading.options.shows)
-    plane = np.where(picture.ink, PixelCode.CONTOUR if kind is Shows.LINES else PixelCode.INSIDE, PixelCode.EMPTY).astype(np.uint8)
+    plane = np.where(
+        picture.ink, PixelCode.CONTOUR if kind is Shows.LINES else PixelCode.INSIDE, PixelCode.EMPTY
+    ).astype(np.uint8)
     progress.step(0.4, "Looking for what lines enclose")
     if kind is Shows.LINES:
         plane[inner_faces(picture.ink)] = PixelCode.INSIDE

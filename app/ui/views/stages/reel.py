@@ -82,7 +82,9 @@ def reel_of(wish: Wish, before: Reel | None = None, progress: Progress = NO_PROG
         _check(part, wish.pixels is not None)
         made = compute_on_bitmap(wish.job, part, progress.part(0.02, 0.6))
     variant = Variant.PUBLISHED if wish.published else Variant.SETTLED
-    films[wish.published] = film_of(stages(wish.job, part, made.paths, variant), _about(part, made), progress.part(0.6, 1.0))
+    films[wish.published] = film_of(
+        stages(wish.job, part, made.paths, variant), _about(part, made), progress.part(0.6, 1.0)
+    )
     return Reel(wish, part, made, films)
 
 
@@ -100,8 +102,11 @@ def _check(part: BitmapPart, picture: bool) -> None:
     """
     frame = part.frame
     if frame.rows * frame.cols > MOST_PX:
-        raise ParameterError(f"The bitmap has {frame.cols} x {frame.rows} px; up to {MOST_PX / 1e6:.1f} million are shown stage by stage, "
-                             "so use a larger pitch, or a smaller picture.")
+        raise ParameterError(
+            f"The bitmap has {frame.cols} x {frame.rows} px; up to {MOST_PX / 1e6:.1f} million are shown stage by "
+            "stage, "
+            "so use a larger pitch, or a smaller picture."
+        )
     frame.ask_memory(STAGES_BYTES, picture)
 
 

@@ -1,4 +1,6 @@
-"""Beside the stages: what the step does and what was settled, its chain codes, the fill's rules, and how fine the bitmap is."""
+"""Beside the stages: what the step does and what was settled, its chain codes, the fill's rules, and how fine the
+bitmap is.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ _LEAST_ROUND = 16
 """Rows and columns of a bitmap that is as large as it must be, at the least."""
 
 _TOLD_PX = 208
-"""Height that nearly all explanations fit in, so that what is below stays where it is while stages follow one another."""
+"""Height that nearly all explanations fit in, so that what is below stays where it is while stages follow one
+another.
+"""
 
 
 class Rules(Enum):
@@ -40,7 +44,8 @@ class StagesPanel(QScrollArea):
     """Words for one stage, and what the whole film is made with.
 
     Signals:
-        chain_picked(index): light this chain up. rules_chosen(Rules): fill by these. size_chosen(BitmapSize): see it as finely.
+        chain_picked(index): light this chain up. rules_chosen(Rules): fill by these. size_chosen(BitmapSize): see it as
+        finely.
     """
 
     chain_picked = Signal(int)
@@ -56,15 +61,27 @@ class StagesPanel(QScrollArea):
         self.title, self.place, self.sentence, self.notes = heading(""), muted(), QLabel(), muted()
         self.rules = ChoiceField("Fill", [(rules, rules.value) for rules in Rules])
         self.wrong, self.chains = QLabel(), ChainsPanel()
-        self.points = NumberField(Spec("Resolution", "px", LEAST, MOST, 0, False, "Rows and columns of the bitmap; in 1986, 400."))
-        self.pitch = NumberField(Spec("Pitch", "mm", 0.0001, 1000, 4, True, "Size of a pixel; the bitmap is then as large as it must be."))
+        self.points = NumberField(
+            Spec("Resolution", "px", LEAST, MOST, 0, False, "Rows and columns of the bitmap; in 1986, 400.")
+        )
+        self.pitch = NumberField(
+            Spec("Pitch", "mm", 0.0001, 1000, 4, True, "Size of a pixel; the bitmap is then as large as it must be.")
+        )
         self.bitmap, self.given_up, self.finding = muted(), muted(), QLabel()
         self.finding.setProperty("role", "error")
         self._shape = (0, 0)
         self._told = QWidget()
         self._lines = [hairline(), hairline()]
-        self._of_still: tuple[QWidget, ...] = (self.place, self.sentence, self.notes, self.rules, self.wrong, self.chains, *self._lines,
-                                               self.given_up)
+        self._of_still: tuple[QWidget, ...] = (
+            self.place,
+            self.sentence,
+            self.notes,
+            self.rules,
+            self.wrong,
+            self.chains,
+            *self._lines,
+            self.given_up,
+        )
         self._lay_out()
         self.rules.chosen.connect(self.rules_chosen)
         self.chains.picked.connect(self.chain_picked)
@@ -125,8 +142,12 @@ class StagesPanel(QScrollArea):
         self.points.show_value(max(frame.rows, frame.cols))
         self.pitch.show_value(frame.pitch)
         self.bitmap.setVisible(picture)
-        self.bitmap.setText(f"The picture's own {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px of {frame.pitch:.4g} mm")
-        cost = f"Never gouging costs up to {given_up.most_mm:.3f} mm at the walls, {given_up.mean_mm:.3f} mm in the mean."
+        self.bitmap.setText(
+            f"The picture's own {grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px of {frame.pitch:.4g} mm"
+        )
+        cost = (
+            f"Never gouging costs up to {given_up.most_mm:.3f} mm at the walls, {given_up.mean_mm:.3f} mm in the mean."
+        )
         paths = any(each.levels for each in reel.made.paths)
         self.given_up.setText(f"{cost}{_rough(reel.made.unsmoothed)}" if paths else "")
         self.finding.setText(_finding(reel))
@@ -138,7 +159,10 @@ class StagesPanel(QScrollArea):
         if not reel.wish.published:
             text, role = "Always right: parity comes from the crossings, not from the look of the pixels.", "muted"
         elif count:
-            text, role = f"The rules as published fill {counted(count, 'pixel')} wrongly here; they are red in 208 and 130.", "error"
+            text, role = (
+                f"The rules as published fill {counted(count, 'pixel')} wrongly here; they are red in 208 and 130.",
+                "error",
+            )
         else:
             text, role = "The rules as published get every pixel of this part right.", "ok"
         self.wrong.setText(text)

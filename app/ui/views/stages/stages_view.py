@@ -89,7 +89,11 @@ class StagesView(QWidget):
     @property
     def summary(self) -> str:
         """What there is to say about the film as a whole, or ""."""
-        return f"{counted(len(self.film), 'stage')} of {counted(len(self.film.numbers), 'step')}" if self.film is not None else ""
+        return (
+            f"{counted(len(self.film), 'stage')} of {counted(len(self.film.numbers), 'step')}"
+            if self.film is not None
+            else ""
+        )
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
@@ -154,7 +158,7 @@ class StagesView(QWidget):
     def light_chain(self, index: int) -> None:
         """Light up a chain of the stage; -1 = none."""
         chains = self.still.chains if self.still is not None else ()
-        self.pixels.light(chains[index:index + 1] if index >= 0 else ())
+        self.pixels.light(chains[index : index + 1] if index >= 0 else ())
 
     def zoom_by(self, factor: float) -> None:
         """Zoom at the middle."""
@@ -168,18 +172,26 @@ class StagesView(QWidget):
         """Space plays, arrows step, Page up and down go part by part, Home and End to the ends."""
         player = self.player
         keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_Space: player.switch, Qt.Key.Key_Right: lambda: player.step(1), Qt.Key.Key_Left: lambda: player.step(-1),
-            Qt.Key.Key_Home: lambda: player.step(-player.count), Qt.Key.Key_End: lambda: player.step(player.count),
-            Qt.Key.Key_PageDown: lambda: player.last.click(), Qt.Key.Key_PageUp: lambda: player.first.click(),
+            Qt.Key.Key_Space: player.switch,
+            Qt.Key.Key_Right: lambda: player.step(1),
+            Qt.Key.Key_Left: lambda: player.step(-1),
+            Qt.Key.Key_Home: lambda: player.step(-player.count),
+            Qt.Key.Key_End: lambda: player.step(player.count),
+            Qt.Key.Key_PageDown: lambda: player.last.click(),
+            Qt.Key.Key_PageUp: lambda: player.first.click(),
         }
         act = keys.get(event.key())
-        if act is not None and not event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier):
+        if act is not None and not event.modifiers() & (
+            Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
+        ):
             act()
         else:
             super().keyPressEvent(event)
 
     def _show_pixels(self) -> None:
-        """Hand the stage's pixels to the picture: the memory itself, or a copy with what is wrong marked, or lines dashed."""
+        """Hand the stage's pixels to the picture: the memory itself, or a copy with what is wrong marked, or lines
+        dashed.
+        """
         still, plane = self.still, self.plane
         if still is None or plane is None or self.film is None or self._preview is not None:
             return

@@ -82,7 +82,11 @@ class Staging(QObject):
             return Missing("The stages are being computed.", "Cancel  Shift+F5", "cancel")
         if self.error:
             return Missing(self.error, "Compute again", "stages_again")
-        return NOTHING if self.reel is not None else Missing("The stages are not computed yet.", "Compute the stages", "stages_again")
+        return (
+            NOTHING
+            if self.reel is not None
+            else Missing("The stages are not computed yet.", "Compute the stages", "stages_again")
+        )
 
     def see(self, seen: bool) -> None:
         """The view is at the front, or no longer: then nothing more is computed."""
@@ -108,7 +112,11 @@ class Staging(QObject):
     def _follow(self) -> None:
         """Compute what is to be seen, unless it is there, on its way, or was asked for and failed."""
         wish = self._wish()
-        if not self._seen or not self._document.part.entities or (self._asked is not None and _alike(wish, self._asked)):
+        if (
+            not self._seen
+            or not self._document.part.entities
+            or (self._asked is not None and _alike(wish, self._asked))
+        ):
             return
         self._asked, self.error, before = wish, "", self.reel
         self.worker.start(lambda progress: reel_of(wish, before, progress), self._document.revision)

@@ -31,8 +31,10 @@ class VectorField(QWidget):
         super().__init__()
         reason = reason_label()
         axes = "XYZ" if ask.name != "Turn" else ("from", "to")
-        specs = [Spec(f"{ask.name} {axis}", ask.unit, ask.low, ask.high, ask.decimals, ask.unit == "mm", ask.tip)
-                 for axis, _ in zip(axes, ask.value, strict=False)]  # fmt: skip
+        specs = [
+            Spec(f"{ask.name} {axis}", ask.unit, ask.low, ask.high, ask.decimals, ask.unit == "mm", ask.tip)
+            for axis, _ in zip(axes, ask.value, strict=False)
+        ]
         self.fields = [NumberField(spec, None, reason) for spec in specs]
         name = muted(ask.name)
         name.setFixedWidth(LABEL_WIDTH)

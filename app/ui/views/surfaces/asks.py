@@ -64,20 +64,49 @@ class Ask:
     @property
     def form(self) -> tuple[object, ...]:
         """What stays the same while only values change."""
-        return (self.kind, self.name, self.key, self.unit, self.choices, self.auto, self.value if self.kind is Kind.TOLD else None)
+        return (
+            self.kind,
+            self.name,
+            self.key,
+            self.unit,
+            self.choices,
+            self.auto,
+            self.value if self.kind is Kind.TOLD else None,
+        )
 
 
 SHAPES: Mapping[str, str] = {
-    "plane": "Plane", "sphere": "Sphere", "cylinder": "Cylinder", "cone": "Cone", "torus": "Torus", "bilinear": "Bilinear",
-    "bicubic": "Bicubic", "bspline": "B-spline", "loft": "Loft", "ruled": "Ruled", "revolved": "Revolved",
-    "swept": "Swept", "mesh": "Mesh", "step": "STEP faces",
-}  # fmt: skip
+    "plane": "Plane",
+    "sphere": "Sphere",
+    "cylinder": "Cylinder",
+    "cone": "Cone",
+    "torus": "Torus",
+    "bilinear": "Bilinear",
+    "bicubic": "Bicubic",
+    "bspline": "B-spline",
+    "loft": "Loft",
+    "ruled": "Ruled",
+    "revolved": "Revolved",
+    "swept": "Swept",
+    "mesh": "Mesh",
+    "step": "STEP faces",
+}
 """What the window calls each kind of shape."""
-_LINES: Choices = ((LineType.AUTO, "Auto"), (LineType.SOLID, "Solid"), (LineType.DOTTED, "Dotted"), (LineType.CHAIN, "Chain"))
+_LINES: Choices = (
+    (LineType.AUTO, "Auto"),
+    (LineType.SOLID, "Solid"),
+    (LineType.DOTTED, "Dotted"),
+    (LineType.CHAIN, "Chain"),
+)
 _KEEP: Choices = ((Keep.PARALLEL, "Parallel"), (Keep.FOLLOW, "Follows"))
 _STRATEGIES: Choices = ((Strategy.ZIGZAG, "Zigzag"), (Strategy.ONE_WAY, "One way"))
-_TOOLS: Choices = (("ball", "Ball end mill"), ("flat", "Flat end mill"), ("bull", "Bull-nose mill"), ("v", "V cutter"),
-                   ("taper", "Tapered ball mill"))
+_TOOLS: Choices = (
+    ("ball", "Ball end mill"),
+    ("flat", "Flat end mill"),
+    ("bull", "Bull-nose mill"),
+    ("v", "V cutter"),
+    ("taper", "Tapered ball mill"),
+)
 _ORIGINS: Choices = (("drawing", "Scene"), ("lower-left", "Lower left"), ("centre", "Centre"))
 _HEIGHTS: Choices = ((None, "Scene"), ("top", "Top"), ("bottom", "Bottom"))
 
@@ -93,15 +122,26 @@ def surface_asks(surface: Surface) -> tuple[Ask, ...]:
         Ask(Kind.HEADING, SHAPES.get(surface.shape.kind, surface.shape.kind)),
         *shape_asks(surface.shape),
         Ask(Kind.HEADING, "Place"),
-        Ask(Kind.VECTOR, "Turned by", ("rotate_deg",), surface.rotate_deg, "°", -360, 360, 2,
-            "About X, then Y, then Z, through the origin"),
+        Ask(
+            Kind.VECTOR,
+            "Turned by",
+            ("rotate_deg",),
+            surface.rotate_deg,
+            "°",
+            -360,
+            360,
+            2,
+            "About X, then Y, then Z, through the origin",
+        ),
         Ask(Kind.VECTOR, "Moved by", ("move",), surface.move, tip="Along X, Y and Z, after it is turned"),
         *((Ask(Kind.TOLD, f"{len(surface.trims)} trims; edit them in the text."),) if surface.trims else ()),
     )
 
 
 def shape_asks(shape: Shape) -> tuple[Ask, ...]:
-    """Return what is asked of a shape: its numbers and places; of curves and tables of points only how many there are."""
+    """Return what is asked of a shape: its numbers and places; of curves and tables of points only how many there
+    are.
+    """
     asks = []
     for each in fields(shape):
         value, key, name = getattr(shape, each.name), ("shape", each.name), spoken(each.name)
@@ -123,12 +163,20 @@ def shape_asks(shape: Shape) -> tuple[Ask, ...]:
         elif isinstance(value, tuple) and len(value) == 3 and all(isinstance(part, float) for part in value):
             asks.append(Ask(Kind.VECTOR, name, key, value, "" if each.name == "axis" else "mm"))
     told = curves_told(shape)
-    return (*asks, Ask(Kind.TOLD, f"{told}; edit {'it' if told.startswith('1 ') else 'them'} in the text.")) if told else tuple(asks)
+    return (
+        (*asks, Ask(Kind.TOLD, f"{told}; edit {'it' if told.startswith('1 ') else 'them'} in the text."))
+        if told
+        else tuple(asks)
+    )
 
 
 def curves_told(shape: Shape) -> str:
     """Return what a shape has beside numbers, in words; "" for nothing."""
-    words = (("sections", "section", "sections"), ("corners", "corner", "corners"), ("points", "row of points", "rows of points"))
+    words = (
+        ("sections", "section", "sections"),
+        ("corners", "corner", "corners"),
+        ("points", "row of points", "rows of points"),
+    )
     for name, one, many in words:
         held = getattr(shape, name, ())
         if held:
@@ -139,40 +187,98 @@ def curves_told(shape: Shape) -> str:
 
 def passes_asks(passes: Passes, scene: Scene) -> tuple[Ask, ...]:
     """Return what is asked of a family of passes."""
-    tools = tuple((tool.number, f"T{tool.number} {tool.label}") for tool in scene.tools if tool.kind is not ToolKind.DRILL)
+    tools = tuple(
+        (tool.number, f"T{tool.number} {tool.label}") for tool in scene.tools if tool.kind is not ToolKind.DRILL
+    )
     by_pitch, apart = passes.pitch is not None, passes.pitch if passes.pitch is not None else passes.scallop
 
     def other(name: object) -> Mapping[Place, object]:
         fresh = {"pitch": 1.0, "scallop": 0.01}
         return {(key,): fresh[key] if key == name else None for key in fresh}
 
-    direction = (Ask(Kind.TOLD, "The first plane goes through a line; edit it in the text."),) if passes.line else (
-        Ask(Kind.NUMBER, "Direction", ("angle_deg",), passes.angle_deg, "°", -360, 360, 2, "Of the cutting planes to the X axis"),
-        Ask(Kind.VECTOR, "Through", ("through",), passes.through, tip="A place on the first plane"),
-    )  # fmt: skip
+    direction = (
+        (Ask(Kind.TOLD, "The first plane goes through a line; edit it in the text."),)
+        if passes.line
+        else (
+            Ask(
+                Kind.NUMBER,
+                "Direction",
+                ("angle_deg",),
+                passes.angle_deg,
+                "°",
+                -360,
+                360,
+                2,
+                "Of the cutting planes to the X axis",
+            ),
+            Ask(Kind.VECTOR, "Through", ("through",), passes.through, tip="A place on the first plane"),
+        )
+    )
     return (
         Ask(Kind.WORDS, "Name", ("name",), passes.name),
         Ask(Kind.SWITCH, "On", ("enabled",), passes.enabled),
         Ask(Kind.LIST, "Tool", ("tool",), passes.tool, choices=tools),
         *direction,
-        Ask(Kind.CHOICE, "Apart by", ("pitch",), "pitch" if by_pitch else "scallop", edits=other,
-            choices=(("pitch", "Pitch"), ("scallop", "Scallop"))),
-        Ask(Kind.NUMBER, "Pitch" if by_pitch else "Scallop", ("pitch" if by_pitch else "scallop",), apart, low=1e-5, decimals=4,
-            tip="From plane to plane" if by_pitch else "Greatest height of the ridges between passes"),
+        Ask(
+            Kind.CHOICE,
+            "Apart by",
+            ("pitch",),
+            "pitch" if by_pitch else "scallop",
+            edits=other,
+            choices=(("pitch", "Pitch"), ("scallop", "Scallop")),
+        ),
+        Ask(
+            Kind.NUMBER,
+            "Pitch" if by_pitch else "Scallop",
+            ("pitch" if by_pitch else "scallop",),
+            apart,
+            low=1e-5,
+            decimals=4,
+            tip="From plane to plane" if by_pitch else "Greatest height of the ridges between passes",
+        ),
         Ask(Kind.CHOICE, "Way", ("strategy",), passes.strategy, choices=_STRATEGIES),
-        Ask(Kind.NUMBER, "Leave", ("stock_to_leave",), passes.stock_to_leave, low=0.0, tip="Metal left on the surfaces on purpose"),
-        Ask(Kind.NUMBER, "Chords", ("chord_tolerance",), passes.chord_tolerance, low=1e-5, high=10.0, decimals=4,
-            tip="How far chords may be above the true path; into the metal they never go"),
+        Ask(
+            Kind.NUMBER,
+            "Leave",
+            ("stock_to_leave",),
+            passes.stock_to_leave,
+            low=0.0,
+            tip="Metal left on the surfaces on purpose",
+        ),
+        Ask(
+            Kind.NUMBER,
+            "Chords",
+            ("chord_tolerance",),
+            passes.chord_tolerance,
+            low=1e-5,
+            high=10.0,
+            decimals=4,
+            tip="How far chords may be above the true path; into the metal they never go",
+        ),
         Ask(Kind.NUMBER, "Floor", ("floor",), passes.floor, tip="The tip goes no lower", auto="none"),
-        Ask(Kind.NUMBER, "Link gap", ("link_gap",), passes.link_gap, low=0.0, auto="auto",
-            tip="Ends nearer than this are joined over the surface, others by a retract"),
-        Ask(Kind.NUMBER, "Overrun", ("overrun",), passes.overrun, low=0.0, auto="auto",
-            tip="How far the tool's centre leaves the box round the surfaces; auto: as far as it touches one"),
+        Ask(
+            Kind.NUMBER,
+            "Link gap",
+            ("link_gap",),
+            passes.link_gap,
+            low=0.0,
+            auto="auto",
+            tip="Ends nearer than this are joined over the surface, others by a retract",
+        ),
+        Ask(
+            Kind.NUMBER,
+            "Overrun",
+            ("overrun",),
+            passes.overrun,
+            low=0.0,
+            auto="auto",
+            tip="How far the tool's centre leaves the box round the surfaces; auto: as far as it touches one",
+        ),
         _rate("Feed", "feed_rate", passes.feed_rate, "mm/min"),
         _rate("Plunge", "plunge_rate", passes.plunge_rate, "mm/min"),
         _rate("Speed", "spindle_speed", passes.spindle_speed, "rpm"),
         *((Ask(Kind.TOLD, f"{len(passes.boundary)} boundaries; edit them in the text."),) if passes.boundary else ()),
-    )  # fmt: skip
+    )
 
 
 def _rate(name: str, key: str, value: float | None, unit: str) -> Ask:
@@ -185,16 +291,35 @@ def tool_asks(tool: Tool) -> tuple[Ask, ...]:
 
     def as_kind(kind: object) -> Mapping[Place, object]:
         wanted = shape_keys(ToolKind(kind))
-        fresh = {"corner_radius": tool.diameter / 8, "tip_angle": 90.0 if kind == "v" else 10.0,
-                 "tip_diameter": 0.0 if kind == "v" else tool.diameter / 4}
+        fresh = {
+            "corner_radius": tool.diameter / 8,
+            "tip_angle": 90.0 if kind == "v" else 10.0,
+            "tip_diameter": 0.0 if kind == "v" else tool.diameter / 4,
+        }
         return {("kind",): kind, **{(key,): fresh[key] if key in wanted else None for key in fresh}}
 
     shape = {
         "corner_radius": Ask(Kind.NUMBER, "Corner radius", ("corner_radius",), tool.corner_radius, low=0.0, high=1000),
-        "tip_angle": Ask(Kind.NUMBER, "Full angle", ("tip_angle",), math.degrees(tool.tip_angle), "°", 1, 179, 2,
-                         "Of the point, or of the cone"),
-        "tip_diameter": Ask(Kind.NUMBER, "Tip", ("tip_diameter",), tool.tip_diameter, low=0.0, high=1000,
-                            tip="Diameter of the flat at the point, or of the ball at the tip"),
+        "tip_angle": Ask(
+            Kind.NUMBER,
+            "Full angle",
+            ("tip_angle",),
+            math.degrees(tool.tip_angle),
+            "°",
+            1,
+            179,
+            2,
+            "Of the point, or of the cone",
+        ),
+        "tip_diameter": Ask(
+            Kind.NUMBER,
+            "Tip",
+            ("tip_diameter",),
+            tool.tip_diameter,
+            low=0.0,
+            high=1000,
+            tip="Diameter of the flat at the point, or of the ball at the tip",
+        ),
     }
     return (
         Ask(Kind.NUMBER, "T number", ("number",), tool.number, "", 1, 9999, 0),
@@ -204,7 +329,7 @@ def tool_asks(tool: Tool) -> tuple[Ask, ...]:
         Ask(Kind.NUMBER, "Speed", ("spindle_speed",), tool.spindle_speed, "rpm", 1, 200_000, 0),
         Ask(Kind.NUMBER, "Feed", ("feed_rate",), tool.feed_rate, "mm/min", LEAST_RATE, 100_000, 0),
         Ask(Kind.NUMBER, "Plunge", ("plunge_rate",), tool.plunge_rate, "mm/min", LEAST_RATE, 100_000, 0),
-    )  # fmt: skip
+    )
 
 
 def scene_asks(scene: Scene, block: tuple[float, ...], posts: Choices) -> tuple[Ask, ...]:
@@ -218,23 +343,53 @@ def scene_asks(scene: Scene, block: tuple[float, ...], posts: Choices) -> tuple[
     def corner(low: bool) -> Callable[[Any], Mapping[Place, object]]:
         return lambda value: {("stock", "box"): (*value, *(box or block)[3:]) if low else (*(box or block)[:3], *value)}
 
-    stock = (Ask(Kind.NUMBER, "Margin", ("stock", "margin"), scene.stock.margin, low=0.0, tip="Round the surfaces"),) if box is None else (
-        Ask(Kind.VECTOR, "From", ("stock", "box", 0), box[:3], edits=corner(True)),
-        Ask(Kind.VECTOR, "To", ("stock", "box", 3), box[3:], edits=corner(False)),
-    )  # fmt: skip
+    stock = (
+        (Ask(Kind.NUMBER, "Margin", ("stock", "margin"), scene.stock.margin, low=0.0, tip="Round the surfaces"),)
+        if box is None
+        else (
+            Ask(Kind.VECTOR, "From", ("stock", "box", 0), box[:3], edits=corner(True)),
+            Ask(Kind.VECTOR, "To", ("stock", "box", 3), box[3:], edits=corner(False)),
+        )
+    )
     return (
         Ask(Kind.WORDS, "Name", ("name",), scene.name),
         Ask(Kind.HEADING, "Stock"),
-        Ask(Kind.CHOICE, "Given by", ("stock",), "margin" if box is None else "box",
-            choices=(("margin", "Margin"), ("box", "Box")), edits=other),
+        Ask(
+            Kind.CHOICE,
+            "Given by",
+            ("stock",),
+            "margin" if box is None else "box",
+            choices=(("margin", "Margin"), ("box", "Box")),
+            edits=other,
+        ),
         *stock,
         Ask(Kind.HEADING, "Program"),
         Ask(Kind.LIST, "Control", ("output", "post"), scene.post, choices=posts),
         Ask(Kind.CHOICE, "Zero X, Y", ("origin", "xy"), word_of(ORIGIN_XY, scene.origin_xy), choices=_ORIGINS),
-        Ask(Kind.CHOICE, "Zero Z", ("origin", "z"), word_of(ORIGIN_Z, scene.origin_z) if scene.origin_z else None, choices=_HEIGHTS),
-        Ask(Kind.NUMBER, "Safe Z", ("heights", "safe_z"), scene.safe_z, low=0.001, tip="Above the stock, between places far apart"),
-        Ask(Kind.NUMBER, "Retract Z", ("heights", "retract_z"), scene.retract_z, low=0.001, tip="Above the stock, where plunges begin"),
-    )  # fmt: skip
+        Ask(
+            Kind.CHOICE,
+            "Zero Z",
+            ("origin", "z"),
+            word_of(ORIGIN_Z, scene.origin_z) if scene.origin_z else None,
+            choices=_HEIGHTS,
+        ),
+        Ask(
+            Kind.NUMBER,
+            "Safe Z",
+            ("heights", "safe_z"),
+            scene.safe_z,
+            low=0.001,
+            tip="Above the stock, between places far apart",
+        ),
+        Ask(
+            Kind.NUMBER,
+            "Retract Z",
+            ("heights", "retract_z"),
+            scene.retract_z,
+            low=0.001,
+            tip="Above the stock, where plunges begin",
+        ),
+    )
 
 
 def spoken(key: str) -> str:

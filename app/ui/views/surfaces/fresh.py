@@ -78,25 +78,35 @@ def _shape(kind: str, at: NDArray[np.float64], r: float) -> Table:
         case "bilinear":
             return {"corners": (place(-1, -1, 0), place(1, -1, 0.4), place(1, 1, 0), place(-1, 1, 0.4))}
         case "bicubic":
-            return {"points": tuple(tuple(place(-1 + 2 * i / 3, -1 + 2 * j / 3, 0.5 * (0 < i < 3 and 0 < j < 3)) for j in range(4))
-                                    for i in range(4))}  # fmt: skip
+            return {
+                "points": tuple(
+                    tuple(place(-1 + 2 * i / 3, -1 + 2 * j / 3, 0.5 * (0 < i < 3 and 0 < j < 3)) for j in range(4))
+                    for i in range(4)
+                )
+            }
         case "loft":
             return {"sections": (arc(-1), arc(0), arc(1))}
         case "ruled":
             return {"first": arc(-1), "second": {"points": (place(-1, 1, 0), place(1, 1, 0))}}
         case "revolved":
-            return {"profile": {"points": (place(0.2, 0, 0.2), place(0.6, 0, 0), place(1, 0, -0.6))}, "centre": tuple(at.tolist())}
+            return {
+                "profile": {"points": (place(0.2, 0, 0.2), place(0.6, 0, 0), place(1, 0, -0.6))},
+                "centre": tuple(at.tolist()),
+            }
         case _:
             guide = {"points": (place(0, -1, 0), place(0.2, 0, 0), place(0, 1, 0))}
-            return {"profile": {"points": (place(-0.6, -1, -0.4), place(0, -1, 0), place(0.6, -1, -0.4))}, "guide": guide}
+            return {
+                "profile": {"points": (place(-0.6, -1, -0.4), place(0, -1, 0), place(0.6, -1, -0.4))},
+                "guide": guide,
+            }
 
 
 def surface_from_curves(kind: str, curves: Sequence[SectionCurve], scene: Scene) -> Table:
     """Return a new surface from curves of the drawing.
 
-    A loft stands its curves upright one behind the other, half as wide apart as they are long; a ruled surface goes from the first at
-    z 0 to the second as far above it; a revolved one turns its profile, upright, about the Z axis; a swept one leads the first, upright
-    and its start on the guide's, along the second.
+    A loft stands its curves upright one behind the other, half as wide apart as they are long; a ruled surface goes
+    from the first at z 0 to the second as far above it; a revolved one turns its profile, upright, about the Z axis; a
+    swept one leads the first, upright and its start on the guide's, along the second.
     """
     name = free_name(kind, (surface.name for surface in scene.surfaces))
     upright = {"x_axis": (1.0, 0.0, 0.0), "y_axis": (0.0, 0.0, 1.0)}
@@ -104,7 +114,9 @@ def surface_from_curves(kind: str, curves: Sequence[SectionCurve], scene: Scene)
     first, second = _curve(curves[0]), _curve(curves[-1])
     match kind:
         case "loft":
-            sections = tuple({**_curve(curve), "origin": (0.0, apart * n, 0.0), **upright} for n, curve in enumerate(curves))
+            sections = tuple(
+                {**_curve(curve), "origin": (0.0, apart * n, 0.0), **upright} for n, curve in enumerate(curves)
+            )
             shape: dict[str, object] = {"sections": sections}
         case "ruled":
             shape = {"first": first, "second": {**second, "origin": (0.0, 0.0, apart)}}
@@ -129,7 +141,11 @@ def fresh_passes(scene: Scene) -> Table:
     """Return new passes with the scene's last mill, across the ones there are."""
     tool = scene.tools[-1] if scene.tools else None
     turned = (scene.passes[-1].angle_deg + 90.0) % 180.0 if scene.passes else 0.0
-    return {"tool": tool.number if tool else 1, "angle_deg": turned, "pitch": round(tool.diameter / 6, 3) if tool else 1.0}
+    return {
+        "tool": tool.number if tool else 1,
+        "angle_deg": turned,
+        "pitch": round(tool.diameter / 6, 3) if tool else 1.0,
+    }
 
 
 def fresh_tool(scene: Scene) -> Table:

@@ -1,7 +1,7 @@
 """Compiled: surfaces and lines as pixels, with a depth for each pixel, so that what crosses does so at the right place.
 
-A frame is what a camera sees: its axes (to the right, up, towards the eye), its target, px per mm, width and height in px.
-Depths are mm towards the eye; -inf where nothing is.
+A frame is what a camera sees: its axes (to the right, up, towards the eye), its target, px per mm, width and height in
+px. Depths are mm towards the eye; -inf where nothing is.
 """
 
 from __future__ import annotations
@@ -15,8 +15,10 @@ _DEPTHS, _OWNERS, _LIGHTS, _PIXELS = "float32[:, ::1]", "int16[:, ::1]", "float3
 TARGET, SCALE, WIDE, HIGH = 9, 12, 13, 14
 """Of a frame (15,): behind nine numbers of the axes."""
 WIDTH, PATTERN, HIDDEN, BIAS, STRENGTH, LEAST = 3, 4, 8, 9, 10, 11
-"""Of a pen (12,): behind its blue, green and red: px wide; dash and gap twice, px; how much is left of it where it is hidden, how far
-behind a surface it is before that, mm, how strong it is where it is not, up to 1; and px: shorter steps are joined with the next."""
+"""Of a pen (12,): behind its blue, green and red: px wide; dash and gap twice, px; how much is left of it where it is
+hidden, how far
+behind a surface it is before that, mm, how strong it is where it is not, up to 1; and px: shorter steps are joined with
+the next."""
 _DARKEST = 0.45
 
 
@@ -145,7 +147,9 @@ def draw_lines(points, joined, frame, pen, depths, image):  # type: ignore[no-un
             step = math.sqrt((bx - ax) ** 2 + (by - ay) ** 2)
             if step < pen[LEAST] and joined[n]:
                 continue
-            inside = (min(ax, bx) < wide + edge and max(ax, bx) > -edge and min(ay, by) < high + edge and max(ay, by) > -edge)
+            inside = (
+                min(ax, bx) < wide + edge and max(ax, bx) > -edge and min(ay, by) < high + edge and max(ay, by) > -edge
+            )
             if inside:
                 _stroke(ax, ay, az, bx, by, bz, along, pen, depths, image)
                 count += 1

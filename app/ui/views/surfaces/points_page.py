@@ -14,8 +14,14 @@ from ...framework.theme import Theme
 
 WIDTH = 440
 _HEADS = ("", "Plane", "X", "Y", "Z", "Kind")
-_TIPS = ("The surfaces that meet, by their numbers", "Cutting plane, counted over all passes", "mm", "mm", "mm",
-         "crossing; edge: one ends; jump: two heights at one place; tangent: they touch")
+_TIPS = (
+    "The surfaces that meet, by their numbers",
+    "Cutting plane, counted over all passes",
+    "mm",
+    "mm",
+    "mm",
+    "crossing; edge: one ends; jump: two heights at one place; tangent: they touch",
+)
 _CELLS = "QTableView::item { padding-left: 12px; padding-right: 4px; }"
 _Index = QModelIndex | QPersistentModelIndex
 
@@ -48,7 +54,9 @@ class PointsModel(QAbstractTableModel):
         if role != Qt.ItemDataRole.DisplayRole:
             return None
         row = self.points[index.row()]
-        return (row.name, str(row.plane + 1), *(f"{value:.3f}" for value in row.place.tolist()), row.kind)[index.column()]
+        return (row.name, str(row.plane + 1), *(f"{value:.3f}" for value in row.place.tolist()), row.kind)[
+            index.column()
+        ]
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:  # noqa: N802 (Qt's)
         """Name of a column."""
@@ -96,7 +104,9 @@ class PointsPage(QWidget):
         whole.setSpacing(0)
         whole.addWidget(self.told)
         whole.addWidget(self.table, 1)
-        self.table.selectionModel().currentRowChanged.connect(lambda now, _: self.chosen.emit(now.row()) if now.isValid() else None)
+        self.table.selectionModel().currentRowChanged.connect(
+            lambda now, _: self.chosen.emit(now.row()) if now.isValid() else None
+        )
         self.show_points(())
 
     def set_theme(self, theme: Theme) -> None:
@@ -107,8 +117,11 @@ class PointsPage(QWidget):
     def show_points(self, points: tuple[BoundaryPoint, ...]) -> None:
         """Show other points."""
         self.model.show_points(points)
-        self.told.setText(f"{counted(len(points), 'boundary point')}: where the topmost surface changes" if points
-                          else "No boundary points: one surface is on top all along.")
+        self.told.setText(
+            f"{counted(len(points), 'boundary point')}: where the topmost surface changes"
+            if points
+            else "No boundary points: one surface is on top all along."
+        )
         self.table.setVisible(bool(points))
 
     def choose(self, number: int) -> None:

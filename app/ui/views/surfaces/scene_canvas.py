@@ -32,7 +32,9 @@ from .shown_scene import Picture
 _MARK_PX, _REACH_PX, _TURN, _ZOOM, _STEP = 3.0, 9.0, 0.008, 1.0015, 40.0
 _CLICK_PX = 3.0
 _MANY, _SAME_PX, _BEHIND = 300, 150, 0.3
-"""More boundary points than this are dots; the same name stands this far apart, px; what is left of points behind a surface."""
+"""More boundary points than this are dots; the same name stands this far apart, px; what is left of points behind a
+surface.
+"""
 _EDGE = 16
 _LONG_S, _REST_MS = 0.03, 150
 """A picture that takes longer is painted coarsely while it moves, and fine when it has rested for so long."""
@@ -60,7 +62,8 @@ class SceneCanvas(QWidget):
         pointed(Pointed | None): what the mouse is over. picked(Pointed): it was clicked.
 
     Attributes:
-        camera: from where it is looked at. turns: dragging turns it; else it shifts it. layers, colour_by: see `scene_raster`.
+        camera: from where it is looked at. turns: dragging turns it; else it shifts it. layers, colour_by: see
+            `scene_raster`.
         marked: number of the boundary point that stands out, -1 = none. drawn: the picture as it was painted last.
     """
 
@@ -95,9 +98,17 @@ class SceneCanvas(QWidget):
         self._theme = theme
         self._refresh()
 
-    def show_picture(self, picture: Picture | None, colours: Sequence[str] = (), names: Sequence[str] = (),
-                     lines: Sequence[LineType] = (), tools: dict[int, str] | None = None) -> None:  # fmt: skip
-        """Show another picture; colours, names and line types of surfaces by number, names of tools. What is looked at stays."""
+    def show_picture(
+        self,
+        picture: Picture | None,
+        colours: Sequence[str] = (),
+        names: Sequence[str] = (),
+        lines: Sequence[LineType] = (),
+        tools: dict[int, str] | None = None,
+    ) -> None:
+        """Show another picture; colours, names and line types of surfaces by number, names of tools. What is looked at
+        stays.
+        """
         self._picture, self._colours, self._names, self._lines = picture, tuple(colours), tuple(names), tuple(lines)
         self._tools = tools or {}
         self.marked = -1
@@ -157,11 +168,20 @@ class SceneCanvas(QWidget):
     def _inks(self) -> Inks:
         theme = self._theme
         tools = {number: _rgb(theme.regions[at % len(theme.regions)]) for at, number in enumerate(self._tools)}
-        return Inks(_rgb(theme.canvas), _rgb(theme.ink), _rgb(theme.rapid), _rgb(theme.plunge),
-                    [_rgb(QColor(colour)) for colour in self._colours], tools, self._lines)  # fmt: skip
+        return Inks(
+            _rgb(theme.canvas),
+            _rgb(theme.ink),
+            _rgb(theme.rapid),
+            _rgb(theme.plunge),
+            [_rgb(QColor(colour)) for colour in self._colours],
+            tools,
+            self._lines,
+        )
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Paint surfaces and lines, unless they are as they were, and over them points, names, the legend, and the tool."""
+        """Paint surfaces and lines, unless they are as they were, and over them points, names, the legend, and the
+        tool.
+        """
         painter = QPainter(self)
         if self._picture is None:
             painter.fillRect(self.rect(), self._theme.canvas)
@@ -170,14 +190,18 @@ class SceneCanvas(QWidget):
             self.drawn = self._drawn_now(self._picture)
         pixels = self.drawn.pixels
         size = (pixels.shape[1], pixels.shape[0])
-        painter.drawImage(QRectF(self.rect()), QImage(pixels.data, size[0], size[1], 4 * size[0], QImage.Format.Format_RGB32))
+        painter.drawImage(
+            QRectF(self.rect()), QImage(pixels.data, size[0], size[1], 4 * size[0], QImage.Format.Format_RGB32)
+        )
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_marks(painter, self._picture)
         self._paint_tool(painter, self._picture)
         self._paint_legend(painter)
 
     def _drawn_now(self, picture: Picture) -> Raster:
-        """Paint the picture anew: while it moves, and that takes long, with half as many px each way, and fine once it rests."""
+        """Paint the picture anew: while it moves, and that takes long, with half as many px each way, and fine once it
+        rests.
+        """
         coarse = self._moving and self._took_s > _LONG_S
         self._ratio = self.devicePixelRatioF() * (0.5 if coarse else 1.0)
         size = (max(round(self.width() * self._ratio), 1), max(round(self.height() * self._ratio), 1))
@@ -274,8 +298,10 @@ class SceneCanvas(QWidget):
             entries = [(tools[at % len(tools)], name, LineType.SOLID) for at, name in enumerate(self._tools.values())]
         else:
             by_line = self.colour_by is ColourBy.LINE
-            entries = [(self._theme.ink if by_line else QColor(colour), name, line if by_line else LineType.SOLID)
-                       for colour, name, line in zip(self._colours, self._names, self._lines, strict=False)]  # fmt: skip
+            entries = [
+                (self._theme.ink if by_line else QColor(colour), name, line if by_line else LineType.SOLID)
+                for colour, name, line in zip(self._colours, self._names, self._lines, strict=False)
+            ]
         for row, (colour, name, line) in enumerate(entries):
             y = _EDGE + row * step
             pen = QPen(colour, 3.0 if line is LineType.SOLID else 1.6)
@@ -287,7 +313,9 @@ class SceneCanvas(QWidget):
             painter.drawText(QPointF(_EDGE + 32, y + step / 2 + painter.fontMetrics().ascent() / 2 - 1), name)
 
     def _point(self, at: QPointF) -> Pointed | None:
-        """Return what is at a place of the widget: a boundary point that is near, else the surface; in a section, the place."""
+        """Return what is at a place of the widget: a boundary point that is near, else the surface; in a section, the
+        place.
+        """
         picture, drawn = self._picture, self.drawn
         if picture is None:
             return None
@@ -322,7 +350,10 @@ class SceneCanvas(QWidget):
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """A press that did not become a drag picks."""
-        if event.button() is Qt.MouseButton.LeftButton and (event.position() - self._pressed).manhattanLength() <= _CLICK_PX:
+        if (
+            event.button() is Qt.MouseButton.LeftButton
+            and (event.position() - self._pressed).manhattanLength() <= _CLICK_PX
+        ):
             found = self._point(event.position())
             if found is not None:
                 self.picked.emit(found)
@@ -362,7 +393,11 @@ class SceneCanvas(QWidget):
             super().keyPressEvent(event)
         elif way is not None:
             if self.turns:
-                self._move(self.camera.orbited(way[0] * _STEP * _TURN / 4, -way[1] * _STEP * _TURN / 4, np.array(self.camera.target)))
+                self._move(
+                    self.camera.orbited(
+                        way[0] * _STEP * _TURN / 4, -way[1] * _STEP * _TURN / 4, np.array(self.camera.target)
+                    )
+                )
             else:
                 self._move(self.camera.panned(-way[0] * _STEP, -way[1] * _STEP))
         elif event.key() == Qt.Key.Key_F:

@@ -40,7 +40,9 @@ _SOLIDS = "Meshes and STEP files (*.stl *.obj *.ply *.step *.stp)"
 
 @dataclass(frozen=True, eq=False)
 class SceneProgram:
-    """A scene's program: its text and how it is read, what it is to come to, and how many there are of it; the first is told of."""
+    """A scene's program: its text and how it is read, what it is to come to, and how many there are of it; the first is
+    told of.
+    """
 
     source: Source
     dialect: Dialect
@@ -55,7 +57,8 @@ class SceneControl(QObject):
         failed(sentence). nc_wanted(Source): to be shown in the NC view. cut_wanted(SceneProgram): in the Cut view.
 
     Attributes:
-        work: reads and computes. choose_file: asks for a path to save to, given a first choice; choose_mesh: for one to read.
+        work: reads and computes. choose_file: asks for a path to save to, given a first choice; choose_mesh: for one to
+            read.
     """
 
     failed = Signal(str)
@@ -89,7 +92,9 @@ class SceneControl(QObject):
     def _connect_side(self) -> None:
         panel, side = self._side.panel, self._side
         panel.changed.connect(self._change)
-        panel.surface_wanted.connect(lambda kind: self._add("surface", lambda scene: fresh_surface(kind, scene, self._box)))
+        panel.surface_wanted.connect(
+            lambda kind: self._add("surface", lambda scene: fresh_surface(kind, scene, self._box))
+        )
         panel.curves_wanted.connect(self.add_from_curves)
         panel.file_wanted.connect(self.add_from_file)
         panel.passes_wanted.connect(lambda: self._add("passes", fresh_passes))
@@ -115,7 +120,9 @@ class SceneControl(QObject):
         self.open(resource("samples", f"{name}.toml"))
 
     def compute(self) -> None:
-        """Compute the scene again; one whose file another program has changed is read anew, unless it is changed here too."""
+        """Compute the scene again; one whose file another program has changed is read anew, unless it is changed here
+        too.
+        """
         document = self.document
         if not document.open:
             return
@@ -141,7 +148,11 @@ class SceneControl(QObject):
         """Ask for a file, and save to that from now on."""
         folder = Path(self._window.settings.last_folder or Path.home())
         path = self.document.path
-        first = folder / self.document.name if path is None or path.parent == resource("samples", "compound.toml").parent else path
+        first = (
+            folder / self.document.name
+            if path is None or path.parent == resource("samples", "compound.toml").parent
+            else path
+        )
         chosen = self.choose_file(first)
         if chosen is not None:
             self._save(chosen if chosen.suffix else chosen.with_suffix(".toml"), then)
@@ -151,9 +162,15 @@ class SceneControl(QObject):
         if not self.document.modified:
             act()
             return
-        self._window.notice.ask(f"{question} The changes to the scene {self.document.name} are not saved.", [
-            ("Save", lambda: self.save(lambda: self.leave(question, act))),
-            ("Give up the changes", act), ("Keep the scene", lambda: None)], stays=True)
+        self._window.notice.ask(
+            f"{question} The changes to the scene {self.document.name} are not saved.",
+            [
+                ("Save", lambda: self.save(lambda: self.leave(question, act))),
+                ("Give up the changes", act),
+                ("Keep the scene", lambda: None),
+            ],
+            stays=True,
+        )
 
     def may_close(self) -> None:
         """Ask before the window closes and changes are lost."""
@@ -171,8 +188,10 @@ class SceneControl(QObject):
         """Show what the scene's program leaves of its stock, beside the surfaces."""
         program = self._program()
         if program is not None and program.files > 1:
-            self.failed.emit(f"This control takes {program.files} programs, one a tool, and the Cut view cuts one; "
-                             "choose a control that changes tools to see the whole cut.")
+            self.failed.emit(
+                f"This control takes {program.files} programs, one a tool, and the Cut view cuts one; "
+                "choose a control that changes tools to see the whole cut."
+            )
         elif program is not None:
             self.cut_wanted.emit(program)
 
@@ -197,8 +216,13 @@ class SceneControl(QObject):
         kind = "step" if path.suffix.lower() in (".step", ".stp") else "mesh"
         base = self.document.path.parent if self.document.path is not None else None
         named = path.name if base is not None and path.parent == base else str(path)
-        self._add("surface", lambda scene: {"name": free_name(path.stem, (each.name for each in scene.surfaces)),
-                                            "shape": {"kind": kind, "file": named}})  # fmt: skip
+        self._add(
+            "surface",
+            lambda scene: {
+                "name": free_name(path.stem, (each.name for each in scene.surfaces)),
+                "shape": {"kind": kind, "file": named},
+            },
+        )
 
     @property
     def _box(self) -> tuple[float, ...]:
@@ -316,7 +340,9 @@ class SceneControl(QObject):
             from ....formats.scene.toml import sources_of
             from ....usecases.scene_part import scene_part
 
-            return scene_part(computed.scene, sources_of(lambda name: read_file(shown.path.parent / name)), None, None, None)
+            return scene_part(
+                computed.scene, sources_of(lambda name: read_file(shown.path.parent / name)), None, None, None
+            )
 
         return SceneProgram(source, written.post.dialect, part, len(written.files))
 
@@ -325,7 +351,9 @@ class SceneControl(QObject):
         return Path(name) if name else None
 
     def _choose_mesh(self) -> Path | None:
-        name, _ = QFileDialog.getOpenFileName(self._window, "Add a surface from a file", self._window.settings.last_folder, _SOLIDS)
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, "Add a surface from a file", self._window.settings.last_folder, _SOLIDS
+        )
         return Path(name) if name else None
 
 
@@ -338,7 +366,9 @@ def _decoded(path: Path) -> str:
     try:
         return read_file(path).decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
-        raise InputError(f"{path.name} is no UTF-8 text (byte {error.start}), so it is no scene; choose another file.") from error
+        raise InputError(
+            f"{path.name} is no UTF-8 text (byte {error.start}), so it is no scene; choose another file."
+        ) from error
 
 
 def _made_of(scene: Scene) -> str:

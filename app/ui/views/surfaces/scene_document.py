@@ -1,4 +1,6 @@
-"""The scene that is open in the window: its text. Panel and editor change the same text, and one undo goes through both."""
+"""The scene that is open in the window: its text. Panel and editor change the same text, and one undo goes through
+both.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ class SceneDocument(QObject):
     """One text.
 
     Signals:
-        changed(): the text is another. standing_changed(): it came to be saved or unsaved, or what can be undone changed.
+        changed(): the text is another. standing_changed(): it came to be saved or unsaved, or what can be undone
+        changed.
 
     Attributes:
         document: what editors show. path: of the file; None = in no file yet. open: there is a scene.
@@ -60,7 +63,9 @@ class SceneDocument(QObject):
         self.standing_changed.emit()
 
     def replace(self, text: str) -> None:
-        """Change the text; one step for undo, and what stays the same is not touched, so that editors stay where they are."""
+        """Change the text; one step for undo, and what stays the same is not touched, so that editors stay where they
+        are.
+        """
         before = self.text
         if text == before:
             return

@@ -22,9 +22,14 @@ from .shown_scene import ShownScene
 from .surfaces_view import Look
 
 FORMATS: Mapping[str, str] = {
-    "NC program (*.ngc)": ".ngc", "Plot, SVG (*.svg)": ".svg", "Plot, PDF (*.pdf)": ".pdf", "Plot, PNG (*.png)": ".png",
-    "Plot for pen plotters, HP-GL/2 (*.hpgl)": ".hpgl", "Table of points (*.csv)": ".csv", "Report (*.json)": ".json",
-}  # fmt: skip
+    "NC program (*.ngc)": ".ngc",
+    "Plot, SVG (*.svg)": ".svg",
+    "Plot, PDF (*.pdf)": ".pdf",
+    "Plot, PNG (*.png)": ".png",
+    "Plot for pen plotters, HP-GL/2 (*.hpgl)": ".hpgl",
+    "Table of points (*.csv)": ".csv",
+    "Report (*.json)": ".json",
+}
 """What the file dialog offers, by suffix."""
 _PLOTS = (".svg", ".pdf", ".png", ".hpgl", ".plt")
 _VIEWS = {Look.SPACE: "isometric", Look.PLAN: "plan", Look.SECTION: "front"}
@@ -90,7 +95,9 @@ class SceneExport(QObject):
         exported = answer.value
         assert isinstance(exported, _Exported)
         first, said = exported.paths[0], " ".join(exported.remarks)
-        self._log.note(f"export {first.name}", f"{grouped(exported.size / 1000, 1)} kB written to {first.parent}. {said}".strip())
+        self._log.note(
+            f"export {first.name}", f"{grouped(exported.size / 1000, 1)} kB written to {first.parent}. {said}".strip()
+        )
         self._window.status.show_message(f"{first.name} is written.")
         if exported.remarks:
             self._window.notice.ask(f"{first.name} is written. {said}")

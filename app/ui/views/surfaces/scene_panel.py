@@ -28,7 +28,9 @@ from .fresh import FROM_CURVES, KINDS
 
 Change = Callable[[str], str]
 Subject = tuple[str, int]
-"""What properties are shown of: "surface", "passes" or "tool" and its number from 0; or the scene itself, ("scene", 0)."""
+"""What properties are shown of: "surface", "passes" or "tool" and its number from 0; or the scene itself, ("scene",
+0).
+"""
 THE_SCENE: Subject = ("scene", 0)
 _DASHES: Mapping[LineType, list[float]] = {LineType.SOLID: [], LineType.DOTTED: [1, 2], LineType.CHAIN: [6, 2, 1, 2]}
 
@@ -145,8 +147,9 @@ class ScenePanel(QScrollArea):
     """Lists and properties of a scene.
 
     Signals:
-        changed(change): a function from the text to another one. surface_wanted(kind), curves_wanted(kind), file_wanted(),
-        passes_wanted(), tool_wanted(): one more. text_wanted(name, number): of the subject, as in the text.
+        changed(change): a function from the text to another one. surface_wanted(kind), curves_wanted(kind),
+        file_wanted(), passes_wanted(), tool_wanted(): one more. text_wanted(name, number): of the subject, as in the
+        text.
 
     Attributes:
         subject: whose properties are shown. awaited: to be chosen as soon as the scene has it.
@@ -228,7 +231,11 @@ class ScenePanel(QScrollArea):
     def show_scene(self, scene: Scene) -> None:
         """Show another scene, or another state of it."""
         before, self._shown = self._shown, scene
-        if before is None or (before.surfaces, before.passes, before.tools) != (scene.surfaces, scene.passes, scene.tools):
+        if before is None or (before.surfaces, before.passes, before.tools) != (
+            scene.surfaces,
+            scene.passes,
+            scene.tools,
+        ):
             self._fill(scene)
         self._show_stock(scene)
         self.control.setText(dict(self._posts).get(scene.post, scene.post))
@@ -266,7 +273,9 @@ class ScenePanel(QScrollArea):
 
     def _show_stock(self, scene: Scene) -> None:
         box = scene.stock.box or self._block
-        size = f" {TIMES} ".join(f"{high - low:.3f}".rstrip("0").rstrip(".") for low, high in zip(box[:3], box[3:], strict=True))
+        size = f" {TIMES} ".join(
+            f"{high - low:.3f}".rstrip("0").rstrip(".") for low, high in zip(box[:3], box[3:], strict=True)
+        )
         self.stock.setText(f"{size} mm")
 
     def _fill(self, scene: Scene) -> None:
@@ -275,12 +284,26 @@ class ScenePanel(QScrollArea):
         for number, surface in enumerate(scene.surfaces):
             line = line_of(number) if surface.line is LineType.AUTO else surface.line
             sample = SurfaceSample(surface.colour or colour_of(number), line, surface.visible)
-            surfaces.append(self._row(("surface", number), surface.enabled, sample, Elided(surface.name),
-                                      muted(SHAPES.get(surface.shape.kind, surface.shape.kind))))  # fmt: skip
+            surfaces.append(
+                self._row(
+                    ("surface", number),
+                    surface.enabled,
+                    sample,
+                    Elided(surface.name),
+                    muted(SHAPES.get(surface.shape.kind, surface.shape.kind)),
+                )
+            )
         for number, each in enumerate(scene.passes):
             apart = f"pitch {each.pitch:g}" if each.pitch is not None else f"scallop {each.scallop:g}"
-            passes.append(self._row(("passes", number), each.enabled, QLabel(f"T{each.tool}"), Elided(each.name or "Passes"),
-                                    muted(f"{math_degrees(each.angle)}°, {apart}")))
+            passes.append(
+                self._row(
+                    ("passes", number),
+                    each.enabled,
+                    QLabel(f"T{each.tool}"),
+                    Elided(each.name or "Passes"),
+                    muted(f"{math_degrees(each.angle)}°, {apart}"),
+                )
+            )
         for number, tool in enumerate(scene.tools):
             row = Row(IconLabel(icon_of(tool.kind)), QLabel(f"T{tool.number}"), Elided(tool.label), stretch_after=2)
             tools.append(self._known(("tool", number), row))
@@ -312,7 +335,9 @@ class ScenePanel(QScrollArea):
             self.choose(keys[at])
 
     def _on_changed(self, ask: Ask, value: object) -> None:
-        if ask.kind is Kind.COLOUR or not (isinstance(value, str) and value == "" and ask.kind is Kind.WORDS and ask.name != "Name"):
+        if ask.kind is Kind.COLOUR or not (
+            isinstance(value, str) and value == "" and ask.kind is Kind.WORDS and ask.name != "Name"
+        ):
             self._set(self.subject, ask.changes(value))
             if self.subject[0] == "tool" and ask.key == ("number",):
                 self._renumber(int(ask.value), value)

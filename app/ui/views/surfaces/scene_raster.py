@@ -38,12 +38,21 @@ class ColourBy(Enum):
     LINE = "line"
 
 
-LAYER_OF = {Role.SURFACE: Layer.PATHS, Role.PATH: Layer.PATHS, Role.LINK: Layer.LINKS, Role.RAPID: Layer.RAPIDS,
-            Role.PLUNGE: Layer.RAPIDS, Role.TIP: Layer.PATHS}  # fmt: skip
+LAYER_OF = {
+    Role.SURFACE: Layer.PATHS,
+    Role.PATH: Layer.PATHS,
+    Role.LINK: Layer.LINKS,
+    Role.RAPID: Layer.RAPIDS,
+    Role.PLUNGE: Layer.RAPIDS,
+    Role.TIP: Layer.PATHS,
+}
 _WIDTHS = {Role.SURFACE: 1.0, Role.PATH: 1.6, Role.LINK: 0.9, Role.RAPID: 1.0, Role.PLUNGE: 1.4, Role.TIP: 1.2}
 _DOTS = (1.0, 3.0, 1.0, 3.0)
-PATTERNS: Mapping[LineType, tuple[float, ...]] = {LineType.SOLID: (0.0,) * 4, LineType.DOTTED: (2.0, 3.0, 2.0, 3.0),
-                                                  LineType.CHAIN: (9.0, 3.0, 2.0, 3.0)}  # fmt: skip
+PATTERNS: Mapping[LineType, tuple[float, ...]] = {
+    LineType.SOLID: (0.0,) * 4,
+    LineType.DOTTED: (2.0, 3.0, 2.0, 3.0),
+    LineType.CHAIN: (9.0, 3.0, 2.0, 3.0),
+}
 """Dash and gap, twice, px."""
 _STRENGTH, _HIDDEN, _BEHIND = 0.5, 0.22, 0.35
 """How strongly surfaces are coloured; what is left of a line behind one; px that count as behind."""
@@ -58,7 +67,8 @@ class Inks:
     """Colours, (red, green, blue), 0 to 255.
 
     Attributes:
-        ground, ink, rapid, plunge: of the theme. surfaces: by number. tools: by T number. lines: line type of each surface.
+        ground, ink, rapid, plunge: of the theme. surfaces: by number. tools: by T number. lines: line type of each
+        surface.
     """
 
     ground: Rgb
@@ -119,7 +129,9 @@ def raster(picture: Picture, style: Style, size: tuple[int, int]) -> Raster:
     pieces = 0
     for each in picture.strands:
         if LAYER_OF[each.role] in style.layers:
-            pieces += kernels.draw_lines(each.points, each.joined, frame, _pen(each, style, picture.pitch), depths, pixels)
+            pieces += kernels.draw_lines(
+                each.points, each.joined, frame, _pen(each, style, picture.pitch), depths, pixels
+            )
     return Raster(pixels, depths, owners, pieces)
 
 
@@ -148,5 +160,14 @@ def _pen(each: Strand, style: Style, pitch: float) -> Floats:
         ink = tuple(round(0.55 * ground + 0.45 * value) for ground, value in zip(inks.ground, ink, strict=True))  # type: ignore[assignment]
     ratio, dense = style.ratio, min(max(pitch * style.camera.scale / _DENSE_PX, _FAINTEST), 1.0)
     strength = dense if each.role in (Role.PATH, Role.LINK) else 1.0
-    return np.array([*ink[::-1], _WIDTHS[each.role] * ratio, *(length * ratio for length in pattern), _HIDDEN,
-                     _BEHIND / style.camera.scale + 1e-4, strength, _COARSE_PX if style.coarse else _LEAST_PX])  # fmt: skip
+    return np.array(
+        [
+            *ink[::-1],
+            _WIDTHS[each.role] * ratio,
+            *(length * ratio for length in pattern),
+            _HIDDEN,
+            _BEHIND / style.camera.scale + 1e-4,
+            strength,
+            _COARSE_PX if style.coarse else _LEAST_PX,
+        ]
+    )

@@ -5,7 +5,17 @@ from __future__ import annotations
 import re
 
 from PySide6.QtCore import QRect, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPalette, QResizeEvent, QSyntaxHighlighter, QTextCharFormat, QTextCursor
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QResizeEvent,
+    QSyntaxHighlighter,
+    QTextCharFormat,
+    QTextCursor,
+)
 from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QVBoxLayout, QWidget
 
 from ...framework.section import hairline
@@ -15,8 +25,10 @@ from ..language.page import Verdict
 from .scene_document import SceneDocument
 
 WIDTH = 460
-_TOKEN = re.compile(r"(?P<remark>#.*)|(?P<table>^\s*\[.*?\]+)|(?P<text>\"[^\"]*\"?|'[^']*'?)|(?P<key>[A-Za-z_][\w.-]*(?=\s*=))"
-                    r"|(?P<number>[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?|\b(?:true|false)\b)")  # fmt: skip
+_TOKEN = re.compile(
+    r"(?P<remark>#.*)|(?P<table>^\s*\[.*?\]+)|(?P<text>\"[^\"]*\"?|'[^']*'?)|(?P<key>[A-Za-z_][\w.-]*(?=\s*=))"
+    r"|(?P<number>[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?|\b(?:true|false)\b)"
+)
 
 
 class Highlighter(QSyntaxHighlighter):
@@ -26,8 +38,13 @@ class Highlighter(QSyntaxHighlighter):
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
-        inks = {"remark": theme.muted, "table": theme.accent_text, "text": mixed(theme.rest, theme.ink, 0.5),
-                "key": theme.parameter, "number": theme.warning}  # fmt: skip
+        inks = {
+            "remark": theme.muted,
+            "table": theme.accent_text,
+            "text": mixed(theme.rest, theme.ink, 0.5),
+            "key": theme.parameter,
+            "number": theme.warning,
+        }
         self.formats = {}
         for name, colour in inks.items():
             made = QTextCharFormat()

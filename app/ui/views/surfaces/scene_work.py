@@ -133,9 +133,16 @@ class SceneWork(QObject):
             if wrong:
                 return Verdict(Level.BAD, counted(len(wrong), "finding"), wrong[0])
             tip = "Every move of the program is proven to go no deeper into a surface than 0.00009 mm"
-            return Verdict(Level.OK, f"✓ 0 gouge · {counted(len(self.proven.written.files), 'program')} · {clock(self.proven.time_s)}", tip)
-        words = {SceneState.WRONG: (Level.REMARK, "The text is wrong"), SceneState.FAILED: (Level.REMARK, "Could not be computed"),
-                 SceneState.CHANGED: (Level.NONE, "Out of date")}  # fmt: skip
+            return Verdict(
+                Level.OK,
+                f"✓ 0 gouge · {counted(len(self.proven.written.files), 'program')} · {clock(self.proven.time_s)}",
+                tip,
+            )
+        words = {
+            SceneState.WRONG: (Level.REMARK, "The text is wrong"),
+            SceneState.FAILED: (Level.REMARK, "Could not be computed"),
+            SceneState.CHANGED: (Level.NONE, "Out of date"),
+        }
         level, text = words.get(self.state, (Level.NONE, "Not computed"))
         return Verdict(level, text, self.problem)
 
@@ -169,7 +176,9 @@ class SceneWork(QObject):
         self.computed.emit(shown, self._again)
         self._again = True
         if not len(shown.computed.moves.moves):
-            self._stand(SceneState.FAILED, "No passes are switched on, so there is no path yet; add passes, or switch them on.")
+            self._stand(
+                SceneState.FAILED, "No passes are switched on, so there is no path yet; add passes, or switch them on."
+            )
             return
         self._stand(SceneState.PROVING)
         self.reading.start(partial(prove, shown), self._on_proven)

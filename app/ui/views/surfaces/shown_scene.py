@@ -31,8 +31,8 @@ class Picture:
     Attributes:
         strands: lines, painted in this order. marks: (m, 3) boundary points, mm. labels: (m,) their names.
         triangles: (n, 3, 3) of surfaces, mm. owner: (n,) whose each is.
-        lows: (k, 2) of a section the tip's places, mm along the plane and up, by the first. tool: (j, 2) outline of the tool that goes
-            there, mm from its tip, from the axis outwards; none: no tool is shown.
+        lows: (k, 2) of a section the tip's places, mm along the plane and up, by the first. tool: (j, 2) outline of the
+            tool that goes there, mm from its tip, from the axis outwards; none: no tool is shown.
         pitch: from pass to pass, about, mm; inf where there is only one.
     """
 
@@ -48,8 +48,11 @@ class Picture:
     @property
     def box(self) -> tuple[Floats, Floats]:
         """Lowest and highest x, y, z of what is seen but for moves in the air, mm."""
-        places = [each.points for each in self.strands if each.role not in (Role.RAPID, Role.PLUNGE)] or [
-            each.points for each in self.strands] or [np.zeros((1, 3))]
+        places = (
+            [each.points for each in self.strands if each.role not in (Role.RAPID, Role.PLUNGE)]
+            or [each.points for each in self.strands]
+            or [np.zeros((1, 3))]
+        )
         every = np.concatenate([*places, self.triangles.reshape(-1, 3)])
         return every.min(axis=0), every.max(axis=0)
 
@@ -84,17 +87,33 @@ class ShownScene:
             return np.column_stack([along, np.zeros(len(points)), points[:, 2]])
 
         shown = [surface.visible for surface in self.computed.scene.surfaces] + [True]
-        curves = [strand(Role.SURFACE, flat(curve.points), curve.owner) for curve in family.surface.curves
-                  if curve.plane == plane and shown[curve.owner]]  # fmt: skip
-        tops = [strand(Role.PATH, flat(points), owner) for run in family.surface.runs if run.plane == plane
-                for owner, points in _by_owner(run.owner, run.points)]  # fmt: skip
-        tips = [strand(Role.TIP, flat(run.points), -1, family.tool.number) for run in family.path.runs if run.plane == plane]
+        curves = [
+            strand(Role.SURFACE, flat(curve.points), curve.owner)
+            for curve in family.surface.curves
+            if curve.plane == plane and shown[curve.owner]
+        ]
+        tops = [
+            strand(Role.PATH, flat(points), owner)
+            for run in family.surface.runs
+            if run.plane == plane
+            for owner, points in _by_owner(run.owner, run.points)
+        ]
+        tips = [
+            strand(Role.TIP, flat(run.points), -1, family.tool.number) for run in family.path.runs if run.plane == plane
+        ]
         found = family.surface.boundaries
         rows = np.flatnonzero((found.plane == plane) & (found.before >= 0) & (found.after >= 0))
         labels = tuple(boundary_name(int(found.before[k]), int(found.after[k])) for k in rows)
         lows = np.concatenate([each.points[:, ::2] for each in tips]) if tips else np.zeros((0, 2))
-        return Picture((*curves, *tops, *tips), flat(found.place[rows]), labels, np.zeros((0, 3, 3)), np.zeros(0, np.int64),
-                       lows[np.argsort(lows[:, 0], kind="stable")], outline(family.tool))  # fmt: skip
+        return Picture(
+            (*curves, *tops, *tips),
+            flat(found.place[rows]),
+            labels,
+            np.zeros((0, 3, 3)),
+            np.zeros(0, np.int64),
+            lows[np.argsort(lows[:, 0], kind="stable")],
+            outline(family.tool),
+        )
 
 
 def is_scene(path: Path) -> bool:
@@ -124,13 +143,24 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> Sh
     from ....usecases.surface_plot import Drawn, PlotScene, by_surface
 
     progress.step(0.0, f"Computing {path.name}")
-    computed = read_and_compute(path.name, data, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9))
+    computed = read_and_compute(
+        path.name, data, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9)
+    )
     progress.step(0.9, "Preparing the picture")
     drawn = by_surface(computed, PlotScene(drawn=Drawn.SURFACE))
     colours = tuple(kind.colour or colour_of(number) for number, kind in enumerate(drawn.surfaces))
-    lines = tuple(line_of(number) if kind.line is LineType.AUTO else kind.line for number, kind in enumerate(drawn.surfaces))
-    space = Picture(tuple(move_strands(computed)), np.asarray(drawn.marks), tuple(drawn.labels), *looked_at(computed),
-                    np.zeros((0, 2)), np.zeros((0, 2)), _pitch(computed))  # fmt: skip
+    lines = tuple(
+        line_of(number) if kind.line is LineType.AUTO else kind.line for number, kind in enumerate(drawn.surfaces)
+    )
+    space = Picture(
+        tuple(move_strands(computed)),
+        np.asarray(drawn.marks),
+        tuple(drawn.labels),
+        *looked_at(computed),
+        np.zeros((0, 2)),
+        np.zeros((0, 2)),
+        _pitch(computed),
+    )
     return ShownScene(path, computed, space, colours, lines)
 
 
@@ -148,7 +178,11 @@ def read_file(path: Path) -> bytes:
 
 def _pitch(computed: Computed) -> float:
     """Return how far apart the passes are that are nearest together, in the middle of their family, mm."""
-    apart = [float(np.median(np.abs(np.diff(family.planes.offsets)))) for family in computed.families if len(family.planes.offsets) > 1]
+    apart = [
+        float(np.median(np.abs(np.diff(family.planes.offsets))))
+        for family in computed.families
+        if len(family.planes.offsets) > 1
+    ]
     return min(apart, default=np.inf)
 
 

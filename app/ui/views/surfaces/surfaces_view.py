@@ -30,8 +30,14 @@ class Look(Enum):
     SECTION = StandardView.FRONT
 
 
-_LAYERS = ((Layer.SURFACES, "Surfaces"), (Layer.PATHS, "Paths"), (Layer.LINKS, "Links"), (Layer.RAPIDS, "Rapids and plunges"),
-           (Layer.POINTS, "Boundary points"), (Layer.NAMES, "Names of boundary points"))  # fmt: skip
+_LAYERS = (
+    (Layer.SURFACES, "Surfaces"),
+    (Layer.PATHS, "Paths"),
+    (Layer.LINKS, "Links"),
+    (Layer.RAPIDS, "Rapids and plunges"),
+    (Layer.POINTS, "Boundary points"),
+    (Layer.NAMES, "Names of boundary points"),
+)
 _COLOURS = ((ColourBy.SURFACE, "By surface"), (ColourBy.TOOL, "By tool"), (ColourBy.LINE, "By line type"))
 _NAMES = ((Look.SPACE, "3D"), (Look.PLAN, "Plan"), (Look.SECTION, "Section"))
 
@@ -44,7 +50,8 @@ class SurfacesView(QWidget):
         hovered(sentence): what the mouse is over, "" = nothing. cursor_moved(x, y, axes): where that is, mm.
 
     Attributes:
-        shown: the scene, or None. points: its boundary points. look: how it is looked at. plane: slider over all passes' planes.
+        shown: the scene, or None. points: its boundary points. look: how it is looked at. plane: slider over all
+            passes' planes.
         state: where the scene stands. verdict, findings: on its program.
     """
 
@@ -77,8 +84,15 @@ class SurfacesView(QWidget):
             switch.toggled.connect(lambda _: self.canvas.set_layers(self._layers))
         head = QWidget()
         row = bar(head)
-        for widget, stretch in ((self.looks, 0), (self.name, 1), (self.plane, 1), (self.at, 0), (self.colours, 0), (self.eye, 0),
-                                (self.fit, 0)):
+        for widget, stretch in (
+            (self.looks, 0),
+            (self.name, 1),
+            (self.plane, 1),
+            (self.at, 0),
+            (self.colours, 0),
+            (self.eye, 0),
+            (self.fit, 0),
+        ):
             row.addWidget(widget, stretch)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -102,10 +116,15 @@ class SurfacesView(QWidget):
             return ""
         computed = self.shown.computed
         planes = counted(len(self.shown.planes), "plane")
-        return f"{counted(len(computed.scene.surfaces), 'surface')} · {planes} · {counted(len(computed.moves.moves), 'move')}"
+        return (
+            f"{counted(len(computed.scene.surfaces), 'surface')} · {planes} · "
+            f"{counted(len(computed.moves.moves), 'move')}"
+        )
 
     def show_scene(self, shown: ShownScene, points: tuple[BoundaryPoint, ...] = (), again: bool = False) -> None:
-        """Show a scene: all of it, or, when it is the one that was shown in another state, from where it is looked at."""
+        """Show a scene: all of it, or, when it is the one that was shown in another state, from where it is looked
+        at.
+        """
         self.shown, self.points = shown, points
         self.name.setText(shown.computed.scene.name)
         last = max(len(shown.planes) - 1, 0)
@@ -153,7 +172,9 @@ class SurfacesView(QWidget):
 
     @property
     def _marks(self) -> list[int]:
-        """The number of the boundary point that each mark of the canvas is of; the other height of a jump is that of its point."""
+        """The number of the boundary point that each mark of the canvas is of; the other height of a jump is that of
+        its point.
+        """
         if self.look is Look.SECTION:
             return [number for number, point in enumerate(self.points) if point.plane == self.plane.value()]
         return [number for number, point in enumerate(self.points) for _ in range(1 + (point.kind == "jump"))]
