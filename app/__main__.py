@@ -10,12 +10,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
-os.environ.setdefault(
-    "OPENBLAS_NUM_THREADS", "1"
-)  # bands of our own use the cores; threads of the library wait busily for small matrices
-gc.set_threshold(
-    300_000, 20, 20
-)  # imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
+# bands of our own use the cores; threads of the library wait busily for small matrices
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# imports and small jobs make many objects and hardly any rings: looking for these took a fifth of `make`
+gc.set_threshold(300_000, 20, 20)
 
 from .cli.main import BAD_INPUT  # noqa: E402 (both first: importing makes most of the objects, and reads the environment)
 from .cli.main import main as command_line  # noqa: E402

@@ -15,9 +15,8 @@ os.environ["LC_ALL"] = "C.UTF-8"  # the window speaks English, whatever the desk
 
 pytest_plugins = ("tests.parallel", "tests.exhaustive")
 
-settings.register_profile(
-    "quick", derandomize=True, max_examples=examples(100), deadline=None
-)  # a busy machine is no slow code
+# a busy machine is no slow code
+settings.register_profile("quick", derandomize=True, max_examples=examples(100), deadline=None)
 settings.register_profile("full", derandomize=True, deadline=None)
 settings.load_profile(PROFILE)
 

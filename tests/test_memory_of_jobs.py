@@ -97,9 +97,8 @@ def test_what_a_bitmap_asks_for_is_what_it_takes(
     found = re.search(r"would take (\S+ [MGT]B)", said)
     assert found is not None, said
     wanted = read_size(found[1])
-    assert (
-        wanted / 2 <= child(command(150, "a"), command(size, "b"))["grown"] <= 1.3 * wanted
-    )  # 1.3: stages hold the paths as well
+    # 1.3: stages hold the paths as well
+    assert wanted / 2 <= child(command(150, "a"), command(size, "b"))["grown"] <= 1.3 * wanted
 
 
 def test_a_program_of_many_lines_asks_before_it_is_read() -> None:

@@ -146,7 +146,6 @@ def save_settings(settings: Settings) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"Cannot make the settings folder {folder}: {error.strerror}.") from error
-    text = json.dumps(
-        asdict(settings), default=lambda choice: choice.value, indent=1
-    )  # ASCII: a file's name may be no text in UTF-8
+    # ASCII: a file's name may be no text in UTF-8
+    text = json.dumps(asdict(settings), default=lambda choice: choice.value, indent=1)
     write_atomically(folder / "settings.json", text.encode() + b"\n")

@@ -48,9 +48,8 @@ def arcs_between(places: Floats, half: Floats, plane: NDArray[np.uint8]) -> Moti
     axes, row = np.array([each.axes for each in Plane])[plane], np.arange(count)[:, None]
     a, b = places[:-1][row, axes], places[1:][row, axes]
     chord = b - a
-    up = np.where(
-        arc, 0.5 / np.tan(np.where(arc, half, 1.0)), 0.0
-    )  # from the chord's middle to the centre, in chords to the left
+    # from the chord's middle to the centre, in chords to the left
+    up = np.where(arc, 0.5 / np.tan(np.where(arc, half, 1.0)), 0.0)
     own = a.copy()
     own[:, 0] = (a[:, 0] + b[:, 0]) / 2 - up * chord[:, 1]
     own[:, 1] = (a[:, 1] + b[:, 1]) / 2 + up * chord[:, 0]

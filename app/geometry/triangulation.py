@@ -32,9 +32,8 @@ def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
     if len(points) <= FEW:
         import shapely
 
-        with suppress(
-            shapely.errors.GEOSException
-        ):  # of points that nearly lie on one another it may lose one; scipy does not
+        # of points that nearly lie on one another it may lose one; scipy does not
+        with suppress(shapely.errors.GEOSException):
             made = shapely.get_parts(shapely.delaunay_triangles(shapely.multipoints(points)))
             corners = shapely.get_coordinates(made).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
             return _number_of(points, corners).reshape(-1, 3)

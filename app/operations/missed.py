@@ -37,8 +37,7 @@ def _missed(operation: Operation, sheets: Sheets) -> Iterable[Finding]:
     if operation.DRILLS:
         return way.missed(sheets, operation, None)
     sheet, tool = sheets.of(operation), sheets.job.tool(operation.cut.tool)
-    if (
-        sheet is None or tool.kind is ToolKind.DRILL
-    ):  # of a program that tells no operations, each tool may be one that mills
+    # of a program that tells no operations, each tool may be one that mills
+    if sheet is None or tool.kind is ToolKind.DRILL:
         return ()
     return way.missed(sheets, operation, sheet)

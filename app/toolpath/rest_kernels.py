@@ -197,9 +197,8 @@ def _seen(chunks, i, cells, need, starts, grid, found):
     """
     most, side = grid[3], grid[2]
     low_x = min(chunks[i, 0], chunks[i, 2])
-    pad = most + math.hypot(
-        chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1]
-    )  # an arc below a half turn stays within this
+    # an arc below a half turn stays within this
+    pad = most + math.hypot(chunks[i, 2] - chunks[i, 0], chunks[i, 3] - chunks[i, 1])
     low_y, high_x, high_y = (
         min(chunks[i, 1], chunks[i, 3]),
         max(chunks[i, 0], chunks[i, 2]),

@@ -192,9 +192,8 @@ def _sieved(ground: Ground, reach: Reach, whole: DistanceField, centres: Floats,
     keep[alone] = whole.inside(centres[alone])
     bytes_each = CELL_BYTES * (half / reach.cell) ** 2
     if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
-        untouched = np.count_nonzero(
-            ground.depth(centres[keep & alone], 4 * q) > q
-        )  # all cells of such a square will be found
+        # all cells of such a square will be found
+        untouched = np.count_nonzero(ground.depth(centres[keep & alone], 4 * q) > q)
         reach.ask_memory(float(untouched) * bytes_each)
     return np.column_stack([centres[keep], walls[keep]])
 

@@ -43,9 +43,8 @@ def _along_walls(ring: Ring, sheet: Sheet, rank: int) -> list[Path]:
         return [Path(ring.rows, True, ring.region, rank, ring.area)]
     if bare.all():
         return []
-    first = int(
-        np.argmax(bare)
-    )  # begin beside something bare, so that no run is cut in two by the ring's own beginning
+    # begin beside something bare, so that no run is cut in two by the ring's own beginning
+    first = int(np.argmax(bare))
     rows, bare = np.roll(ring.rows, -first, axis=0), np.roll(bare, -first)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], bare, [True]]).astype(np.int8)))
     return [Path(rows[a:b], False, ring.region, rank, ring.area) for a, b in edges.reshape(-1, 2).tolist()]

@@ -308,9 +308,8 @@ class _Run:
         )
         lines = self.setup.lines()
         probe, lowest = None, self._lowest if isinstance(part, SolidPart) and self.options.judge else None
-        if (
-            isinstance(part, SolidPart) and part.block is None and self.options.judge
-        ):  # of surfaces the cells tell enough
+        # of surfaces the cells tell enough
+        if isinstance(part, SolidPart) and part.block is None and self.options.judge:
             probe = WallProbe(part, self._lowest, self.workpiece)
         return judge(Judging(part, cut, wanted, exact, lines, lowest, probe), certificate)
 

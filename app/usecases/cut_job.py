@@ -55,6 +55,7 @@ def cut_job(
         dog_bones=program.dog_bones,
         floors=measured[1].wanted,
     )
+    # where the control changes no tools, the file names none
     programs = tuple(
         replace(
             read,
@@ -63,7 +64,7 @@ def cut_job(
             ),
         )
         for file, read in zip(written.files, written.programs, strict=True)
-    )  # where the control changes no tools, the file names none
+    )
     depths, coverage = measured
     motion = np.searchsorted(written.move, depths.move)
     exact = Exact(replace(depths, move=np.minimum(motion, len(written.move) - 1)), coverage)

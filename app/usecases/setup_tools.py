@@ -135,9 +135,8 @@ def _with_name(
 ) -> Examined:
     """Return a program with a number for the tool that it does not name; the number is taken, the tool known."""
     own = dict.fromkeys(note.number for note in examined.program.tools)
-    sure = len(own) == 1 or (
-        own and examined.program.header is not None
-    )  # our own header tells first of the tool that cuts
+    # our own header tells first of the tool that cuts
+    sure = len(own) == 1 or (own and examined.program.header is not None)
     if sure and NAMELESS not in own and not own.keys() & _cutting(examined.program).keys():
         number = next(iter(own))
         known[number] = _known(examined, number, 0, told, [examined.program])

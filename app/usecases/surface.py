@@ -115,9 +115,8 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
         HitofudeError: a surface cannot be made, or passes cannot be computed. Cancelled: the job was asked to stop.
     """
     built = build(scene, sources, progress.part(0.0, 0.05))
-    order = sorted(
-        range(len(built)), key=lambda k: built[k].surface.name
-    )  # what surfaces coincide is told by names, not by order
+    # what surfaces coincide is told by names, not by order
+    order = sorted(range(len(built)), key=lambda k: built[k].surface.name)
     facets = scene_facets([built[k] for k in order], progress=progress.part(0.05, 0.15))
     numbers = np.array([*order, len(built)])
     stock = stock_of(scene, facets.facets)

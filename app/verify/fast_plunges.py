@@ -97,9 +97,8 @@ def fast_plunges(
     ]
     if not spans:
         return
-    wide = (
-        NARROW * before.grid.pitch
-    )  # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
+    # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
+    wide = NARROW * before.grid.pitch
     radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
     ways = [
         Way(

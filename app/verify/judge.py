@@ -260,9 +260,8 @@ def _measured(judging: Judging, place: Place) -> Spot:
     around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
     over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
     wanted = float(judging.wanted.target.wanted[around].min())
-    if (
-        over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch
-    ):  # narrower than the cells: as high as the stock was
+    # narrower than the cells: as high as the stock was
+    if over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch:
         over = max(float(judging.cut.before.heights[around].max()) - wanted, 0.0)
     return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
 

@@ -51,9 +51,8 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
     cells = np.flatnonzero(labels)
     label, worth = labels.ravel()[cells], value.ravel()[cells]
     order = np.lexsort((worth, label))
-    ends = np.searchsorted(
-        label[order], np.arange(1, count + 1)
-    )  # where each label begins, and where the last one ends
+    # where each label begins, and where the last one ends
+    ends = np.searchsorted(label[order], np.arange(1, count + 1))
     framed = np.pad(mask, 1).astype(np.uint8)  # what lies beyond the grid is no place
     inner = cv2.distanceTransform(framed, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1].ravel()
     worst = worth[order[ends[1:] - 1]]

@@ -135,6 +135,5 @@ def test_pocket_against_freecad(name: str, percent: int, tmp_path: Path, capsys:
         print(f"\n{name}, {diameter:g} mm: hitofude {ours}; FreeCAD {version} at {percent} %: {theirs}")
     assert ours.left == 0
     assert ours.lifts <= theirs.lifts
-    assert (
-        percent > 50 or ours.length < theirs.length or theirs.left > 1
-    )  # at its default stepover; metal that is left makes paths short
+    # at its default stepover; metal that is left makes paths short
+    assert percent > 50 or ours.length < theirs.length or theirs.left > 1

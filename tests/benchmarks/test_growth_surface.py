@@ -80,6 +80,5 @@ def test_no_stage_of_surface_grows_faster_than_n_log_n(capsys: pytest.CaptureFix
         print("\n" + f"  {'triangles':28s}" + "".join(f"{size:9d}" for size in sizes) + "  exponent")
         print("\n".join(table))
     assert not slow
-    assert all(
-        each[LEFT] <= sum(each.values()) / 2 for each in found
-    )  # that what is left is told makes nothing twice as slow
+    # that what is left is told makes nothing twice as slow
+    assert all(each[LEFT] <= sum(each.values()) / 2 for each in found)

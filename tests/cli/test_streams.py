@@ -57,9 +57,8 @@ def test_ended_while_writing_it_leaves_nothing(
 ) -> None:
     (tmp_path / "a").write_bytes(b"old")
     monkeypatch.setattr(os, "fsync", lambda _: os.kill(os.getpid(), number))
-    request.addfinalizer(
-        partial(signal.signal, number, signal.signal(number, signal.SIG_DFL))
-    )  # under nohup it is ignored
+    # under nohup it is ignored
+    request.addfinalizer(partial(signal.signal, number, signal.signal(number, signal.SIG_DFL)))
     with pytest.raises(Stopped) as stop, stoppable() as stopped:
         write_together({tmp_path / "a": b"new", tmp_path / "b": b"new"})
     assert stop.value.status == 128 + number and stopped.is_set()

@@ -141,9 +141,8 @@ def test_surfaces_then_cut_then_smooth_then_cut_is_clean_and_keeps_the_boundarie
 def test_one_report_tells_the_whole_way_from_surfaces_to_the_cut_of_the_smoothed_program(tmp_path: Path) -> None:
     scene, report = tmp_path / "scene.toml", tmp_path / "r.json"
     scene.write_text(BALLS.replace("pitch = 0.5", "scallop = 0.02"))
-    assert (
-        main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 1
-    )  # the feet of the balls
+    # the feet of the balls
+    assert main(["surface", str(scene), "--loop", "0.005", "--report", str(report), "--quiet"]) == 1
     told = json.loads(report.read_text())
     loop = told["loop"]
     assert told["gouge"]["count"] == 0

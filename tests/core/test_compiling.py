@@ -44,11 +44,12 @@ def program(tmp_path: Path) -> Path:
     """Three kernels that call one another, and what they need of the program."""
     (tmp_path / "app" / "room").mkdir(parents=True)
     (tmp_path / "app" / "core").mkdir()
+    # whole packages: one without this file gives way to the program that is installed
     for package in (
         "app",
         "app/core",
         "app/room",
-    ):  # whole packages: one without this file gives way to the program that is installed
+    ):
         (tmp_path / package / "__init__.py").touch()
     for name in ("errors.py", "progress.py"):
         shutil.copy(ROOT / "app" / "core" / name, tmp_path / "app" / "core" / name)

@@ -208,9 +208,8 @@ def test_a_fillet_of_a_line_and_a_circle_leaves_the_circle_whole(
     touch, other = (made.end, made.start) if circle_first else (made.start, made.end)
     assert kept.end == touch and abs(made.centre[1] - height) == pytest.approx(radius)
     assert math.hypot(*other) == pytest.approx(size) and made.radius == pytest.approx(radius)
-    assert (
-        abs(made.centre[0] * other[1] - made.centre[1] * other[0]) < 1e-6 * size * 60
-    )  # both centres and the place in one line
+    # both centres and the place in one line
+    assert abs(made.centre[0] * other[1] - made.centre[1] * other[0]) < 1e-6 * size * 60
     assert abs(made.sweep) < math.pi
 
 

@@ -110,7 +110,6 @@ def apart(a: Curve, b: Curve) -> float:
     first, second = trace(a), trace(b)
     if first.shape != second.shape:
         return math.inf
-    turned = (
-        [np.roll(second, 4, axis=0)] if isinstance(a, Ellipse) and len(first) == 8 else []
-    )  # the other end of the axis
+    # the other end of the axis
+    turned = [np.roll(second, 4, axis=0)] if isinstance(a, Ellipse) and len(first) == 8 else []
     return min(float(np.abs(first - other).max()) for other in (second, second[::-1], *turned))

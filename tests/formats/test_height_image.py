@@ -72,9 +72,8 @@ def test_light_comes_from_the_north_west() -> None:
     x = np.arange(256, dtype=np.float32) * np.float32(0.1)
     ridge = -np.abs(x - 12.8)[None, :].repeat(256, 0) - 1
     shown = metal(HeightImage(np.ascontiguousarray(ridge, np.float32), 0.1, 0.0, -20.0))
-    assert (
-        shown[512, 300].sum() > shown[512, 723].sum() + 150
-    )  # the western flank, and the eastern one at the same height
+    # the western flank, and the eastern one at the same height
+    assert shown[512, 300].sum() > shown[512, 723].sum() + 150
     shown = metal(HeightImage(np.ascontiguousarray(ridge.T, np.float32), 0.1, 0.0, -20.0))
     assert shown[300, 512].sum() > shown[723, 512].sum() + 150  # the northern flank
 

@@ -66,9 +66,8 @@ def test_more_than_thin_metal_is_never_finished_at_full_depth_at_once(side: Side
     (told,) = [each for each in program.findings if "finish pass" in each.text]
     assert not told.counts and told.amount == 2.9 and "at every depth" in told.text
     flat = ContourOperation(Cut(2, depth=2.0, stepdown=2.0), side, finish_width=2.9)
-    assert not about(
-        compute(contour_job([square(40)], flat)), "finish pass"
-    )  # one pass alone is as deep as was asked for
+    # one pass alone is as deep as was asked for
+    assert not about(compute(contour_job([square(40)], flat)), "finish pass")
 
 
 def test_a_finish_path_where_nothing_was_roughed_is_cut_at_every_depth() -> None:

@@ -252,9 +252,8 @@ def test_runs_keep_the_direction_that_is_asked_for(
 @settings(max_examples=examples(8), deadline=None)
 @given(st.integers(0, 10**6))
 def test_random_parts(seed: int) -> None:
-    contours, _ = random_part(
-        seed - seed % 5 + seed % 3
-    )  # none that cross: polygons are no oracle where walls touch themselves
+    # none that cross: polygons are no oracle where walls touch themselves
+    contours, _ = random_part(seed - seed % 5 + seed % 3)
     rng = np.random.default_rng(seed)
     small = float(rng.uniform(0.8, 2.5))
     kinds = ("pocket 1", "rest 2", "contour 2") if rng.random() < 0.5 else ("pocket 1", "rest 2")

@@ -60,9 +60,8 @@ def test_what_is_too_far_apart_is_joined_in_the_air_and_rapids_end_above() -> No
     steep = -way[:, 2] > math.tan(PLUNGE_ANGLE) * np.hypot(way[:, 0], way[:, 1])
     along = made.moves.purpose == Purpose.CONTOUR
     assert set(made.moves.feed[along & ~steep].tolist()) == {800.0}
-    assert (
-        {200.0} <= set(made.moves.feed[along & steep].tolist()) <= {200.0, 800.0}
-    )  # but for steps of less than a tenth
+    # but for steps of less than a tenth
+    assert {200.0} <= set(made.moves.feed[along & steep].tolist()) <= {200.0, 800.0}
 
 
 def test_links_over_a_gap_do_not_exist() -> None:

@@ -118,9 +118,8 @@ def test_a_slot_is_within_reach_from_the_width_of_the_tool_on(width: float, reac
     sure, possible = (each <= target.high + np.float32(0.01) for each in heights)
     within = reachable(left, sure, possible, over_part <= 0.01, 3)
     xs, ys = centres(grid)
-    assert np.all(
-        within[(np.abs(ys - 20) < width / 2 - 0.2) & (np.abs(xs - 30) < 25)] == reached
-    )  # a little way in it always gets
+    # a little way in it always gets
+    assert np.all(within[(np.abs(ys - 20) < width / 2 - 0.2) & (np.abs(xs - 30) < 25)] == reached)
     assert np.all(within[(ys > 38.2) & (ys < 39.9)])  # the rabbet: from beside the stock
 
 

@@ -122,11 +122,12 @@ def test_points_over_a_sphere_in_closed_form(tool: Tool) -> None:
     inside = np.hypot(followed[:, 0], followed[:, 1]) < 9.4
     assert followed[inside, 2] == pytest.approx(true(followed)[inside], abs=1e-6)
     near = points[np.hypot(points[:, 0], points[:, 1]) < 8]
+    # no chord that is kept is lower than the way that was followed, which goes under it by less than GOUGE
     for share in (
         0.0,
         0.25,
         0.5,
-    ):  # no chord that is kept is lower than the way that was followed, which goes under it by less than GOUGE
+    ):
         at = near[:-1] + share * np.diff(near, axis=0)
         assert (at[:, 2] - true(at)).min() >= -2e-4
     assert len(points) < len(followed) / 8

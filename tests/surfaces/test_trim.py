@@ -109,10 +109,11 @@ def test_cutters_over_what_is_left_of_a_bumpy_surface_against_dense_sampling(see
     found = drop(facets, BALL, where).height
     for (x, y), height in zip(where.tolist(), found.tolist(), strict=True):
         square = BALL.radius**2 - (samples[:, 0] - x) ** 2 - (samples[:, 1] - y) ** 2
+        # samples are less than 0.1 mm apart
         low, high = (
             (samples[near, 2] + np.sqrt(square[near])).max(initial=-np.inf) - BALL.radius
             for near in ((square > 0) & (out <= off) for off in (0.0, 0.1))
-        )  # samples are less than 0.1 mm apart
+        )
         assert low - 1e-6 - AT_OUTLINES <= height <= high + 0.02
 
 

@@ -130,10 +130,11 @@ def test_a_strip_with_one_side_only_has_no_inside() -> None:
     n, m = 12, 8
 
     def place(i: int, j: int) -> tuple[float, float, float]:
+        # the last ring meets the first one mirrored
         a, b = (
             2 * math.pi * i / n,
             2 * math.pi * ((m - j if i >= n else j) % m) / m,
-        )  # the last ring meets the first one mirrored
+        )
         a = 0.0 if i >= n else a
         return ((3 + math.cos(b)) * math.cos(a), (3 + math.cos(b)) * math.sin(a), math.sin(b))
 

@@ -178,9 +178,8 @@ def test_where_everything_is_cut_no_metal_is_entered() -> None:
     again = emitted(setting, [loop(square(40, 20, 20), Purpose.POCKET)]).part(count, 10_000)
     assert not np.any((again.purpose == Purpose.PLUNGE) & (np.hypot(*(again.end - again.start)[:, :2].T) > 0))
     fast = (again.purpose == Purpose.PLUNGE) & (again.start[:, 2] > -1)
-    assert again.feed[fast].tolist() == [600.0] and again.end[fast, 2].tolist() == [
-        -1.0
-    ]  # slowly only over the last 1 mm
+    # slowly only over the last 1 mm
+    assert again.feed[fast].tolist() == [600.0] and again.end[fast, 2].tolist() == [-1.0]
     low = again.kind == MoveKind.RAPID
     assert np.all((again.end[low, 2] >= 1.0) | (again.end[low, 2] > again.start[low, 2]))
 

@@ -116,9 +116,8 @@ def test_a_ring_outside_of_one_and_inside_of_one(ccw: bool) -> None:
         angle = math.acos(cosine) if second > first else math.acos(-cosine)
         seen = look(path.program(PLATE), JOB)
         inside = seen.share[(seen.first > seen.begin[8] + R) & (seen.last < seen.end[8] - 2.5 * R)]
-        curved = seen.pitches[1] / (
-            2 * second
-        )  # the rim is looked at a little inside, where it meets the round edge elsewhere
+        # the rim is looked at a little inside, where it meets the round edge elsewhere
+        curved = seen.pitches[1] / (2 * second)
         assert np.abs(inside - share_of(angle)).max() <= seen.bound(1) + curved
 
 

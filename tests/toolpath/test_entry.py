@@ -118,9 +118,8 @@ def test_a_ramp_on_an_open_path_returns_to_its_beginning() -> None:
     chosen = np.flatnonzero(ways_in(moves))
     assert len(chosen) == 2 and moves.end[chosen[-1]].tolist() == [30.0, 50.0, -2.0]
     assert np.all(moves.end[chosen, 1] == 50.0) and not told(setting)
-    assert steepness(moves) == pytest.approx(
-        [math.tan(STEEP)] * 2, rel=2e-2
-    )  # the turning point may be a crumb farther
+    # the turning point may be a crumb farther
+    assert steepness(moves) == pytest.approx([math.tan(STEEP)] * 2, rel=2e-2)
     assert moves.end[chosen[-1] + 1].tolist() == [70.0, 50.0, -2.0]  # the ramp's ground is cut again, level
 
 

@@ -114,9 +114,8 @@ def test_where_a_quarter_arc_does_not_fit_it_is_smaller_then_straight_then_left_
     assert only([circle(2.2)], Lead()).share == 0.25 and only([circle(2.2)], Lead()).bent  # in a path of 0.7 mm
     assert only([circle(1.6)], Lead()).share == 0.125 and not only([circle(1.6)], Lead()).bent
     assert only([circle(1.51)], Lead()).share == 0  # the path is a circle of 0.01 mm
-    assert (
-        only([square(40)], Lead(radius=500.0)).share * 500 == 15.625
-    )  # the largest half of a half that a square of 37 mm holds
+    # the largest half of a half that a square of 37 mm holds
+    assert only([square(40)], Lead(radius=500.0)).share * 500 == 15.625
     line = only([square(40)], Lead(LeadKind.LINE, 36.9))
     assert not line.bent and line.share == 1 and lengths(line.way_in).sum() == pytest.approx(36.9)
     assert only([square(40)], Lead(LeadKind.NONE)).share == 0

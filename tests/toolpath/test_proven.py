@@ -87,9 +87,8 @@ def test_nothing_is_in_doubt_along_the_rim_at_a_corner_of_two_arcs() -> None:
         rows[1, k : k + 2] = joint + turn @ (rows[1, k : k + 2] - joint)
     wanted = _swath(rows, RADIUS)
     squares = uncertain(wanted, [(rows, RADIUS)])
-    beyond = (
-        shapely.distance(squares, shapely.Point(joint)) < RADIUS - 0.5
-    )  # the bend inside of the corner, which two arcs cover together
+    # the bend inside of the corner, which two arcs cover together
+    beyond = shapely.distance(squares, shapely.Point(joint)) < RADIUS - 0.5
     assert shapely.area(squares[~beyond]).sum() < 0.002
 
 

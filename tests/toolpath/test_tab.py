@@ -121,9 +121,8 @@ def test_lines_that_clamps_cut_open_are_held_piece_by_piece() -> None:
     clamps = [square(10, 15, -5), square(10, 15, 35)]
     program = compute(contour_job([square(40)], operation, clamps=clamps))
     middles = np.array([(tab.x, tab.y) for tab in program.tabs])
-    assert (
-        sorted((middles[:, 0] > 20).tolist()) == [False] * 3 + [True] * 3
-    )  # three on either piece, as on a closed one
+    # three on either piece, as on a closed one
+    assert sorted((middles[:, 0] > 20).tolist()) == [False] * 3 + [True] * 3
     assert plain_distance.distance(middles, [square(40)]) == pytest.approx(np.zeros(6), abs=1e-9)
     assert plain_distance.distance(middles, clamps).min() > 4
     apart = np.hypot(*(middles[:, None] - middles[None]).transpose(2, 0, 1))

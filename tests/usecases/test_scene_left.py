@@ -73,10 +73,11 @@ def test_a_wall_between_two_planes_is_left_with_its_height_and_the_remedy(tmp_pa
         9, abs=0.2
     )
     assert "angle_deg = 90" in finding["text"]
+    # along the wall, from where metal is higher than the ridges of 4 mm to the foot of its ball
     bounds = (
         1.2 * 20,
         3.0 * 20,
-    )  # along the wall, from where metal is higher than the ridges of 4 mm to the foot of its ball
+    )
     assert bounds[0] < report["left"]["reachable_mm2"] < bounds[1]
 
 

@@ -84,9 +84,8 @@ def test_comments_tell_the_surface_and_the_boundary_point_at_its_place() -> None
     done = write_scene_nc(computed(passes=(Passes(1, pitch=4.0),)))
     (file,) = done.files
     lines = file.nc.text.splitlines()
-    row_of = dict(
-        reversed([(line, row) for row, line in enumerate(file.nc.lines.tolist())])
-    )  # the first one of each line
+    # the first one of each line
+    row_of = dict(reversed([(line, row) for row, line in enumerate(file.nc.lines.tolist())]))
     marks = 0
     for number, line in enumerate(lines, 1):
         found = re.match(r"\(Surface (\d) (table|dome), CR12 crossing at (\S+) (\S+) (\S+)\)", line)
@@ -105,9 +104,8 @@ def test_the_order_of_surfaces_changes_nothing_but_their_numbers() -> None:
     one = computed(surfaces=(*SCENE.surfaces, twice))
     other = computed(surfaces=(twice, *SCENE.surfaces[::-1]))
     assert np.array_equal(one.moves.moves.end, other.moves.moves.end)
-    names = [
-        np.array([*each.names, "none"])[each.moves.surface].tolist() for each in (one, other)
-    ]  # NO_SURFACE is the last
+    # NO_SURFACE is the last
+    names = [np.array([*each.names, "none"])[each.moves.surface].tolist() for each in (one, other)]
     assert names[0] == names[1] and "another table" in names[0]
 
 

@@ -94,9 +94,8 @@ def test_programs_of_our_own_are_clean_and_faster_ones_are_not(
 ) -> None:
     (tmp_path / "part.stl").write_bytes(stl(pocketed_block()))
     (tmp_path / "s.toml").write_text(SCENE)
-    assert (
-        main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc"), "--quiet"]) == 1
-    )  # a wall between two passes
+    # a wall between two passes
+    assert main(["surface", str(tmp_path / "s.toml"), "-o", str(tmp_path / "s.ngc"), "--quiet"]) == 1
     text = (tmp_path / "s.ngc").read_text()
     assert "(hitofude: plunge_mm_min=1,300)" in text
     (tmp_path / "fast.ngc").write_text(re.sub(r"F300\b", "F900", text))

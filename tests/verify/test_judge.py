@@ -224,9 +224,8 @@ def test_the_certificate_holds_on_a_grid_eight_times_as_fine(shift: float, kind:
     assert coarse.judgement is not None and coarse.judgement.certificate is not None
     fine = cut(replace(setup, part=None), CutOptions(800)).cut
     xs, ys = np.meshgrid(fine.before.grid.xs(), fine.before.grid.ys())
-    down = np.maximum(
-        -4.0 - fine.heights, 0
-    )  # way out of the part: up to the floor right of the step; left of it sideways or up
+    # way out of the part: up to the floor right of the step; left of it sideways or up
+    down = np.maximum(-4.0 - fine.heights, 0)
     inside = np.where(xs >= 20, np.where(down > 0, down, 0.0), np.minimum(20 - xs + 0 * ys, 0.0 - fine.heights))
     inside[xs < 20] = np.where(fine.heights[xs < 20] < -4, np.hypot(20 - xs[xs < 20], down[xs < 20]), inside[xs < 20])
     deepest = float(np.max(np.where(fine.heights < fine.before.heights, inside, 0.0)))

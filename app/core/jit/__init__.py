@@ -13,9 +13,10 @@ def _compile_missing(missing: Kernel) -> None:
         HitofudeError: it cannot be.
         Cancelled: what waits was told to stop.
     """
+    # only where something is missing: starting processes needs much that nothing else does
     from .compilers import (
         compilers,
-    )  # only where something is missing: starting processes needs much that nothing else does
+    )
 
     compilers().demand(missing)
     if why := compilers().why(missing):

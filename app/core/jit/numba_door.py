@@ -178,9 +178,8 @@ def load(made: Any, code: bytes) -> None:
     for each in reloaded:
         each()
     context = made.targetctx
-    _numba().core.runtime.nrt.rtsys.initialize(
-        context
-    )  # what counts who holds an array; without effect but for the first time
+    # what counts who holds an array; without effect but for the first time
+    _numba().core.runtime.nrt.rtsys.initialize(context)
     machine_code = _MachineCode(context.codegen(), library[2][0])
     for each in environments:
         context.codegen().set_env(each.env_name, each)

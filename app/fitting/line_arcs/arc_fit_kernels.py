@@ -99,9 +99,8 @@ def _holds(points, i, j, limit, swell, largest, height, found):  # type: ignore[
     chord = math.sqrt(dx * dx + dy * dy)
     if height == 0.0:
         return False
-    up = (0.25 * chord * chord - height * height) / (
-        2.0 * height
-    )  # from the centre to the chord, along its left normal
+    # from the centre to the chord, along its left normal
+    up = (0.25 * chord * chord - height * height) / (2.0 * height)
     radius = math.sqrt(0.25 * chord * chord + up * up)
     if radius > largest or radius < limit:
         return False

@@ -79,9 +79,8 @@ def guess(control, points, slack, feet):  # type: ignore[no-untyped-def]
     k, share = 0, 0.0
     for i in range(1, len(points) - 1):
         chord = math.sqrt(squared_off_chord(points[i], points[i - 1], points[i - 1]))
-        reach = (
-            along[k] + share * (along[min(k + 1, count)] - along[k]) + 1.2 * chord + slack
-        )  # samples may be farther apart than that
+        # samples may be farther apart than that
+        reach = along[k] + share * (along[min(k + 1, count)] - along[k]) + 1.2 * chord + slack
         best, nearest = k, squared_off_chord(points[i], samples[k], samples[min(k + 1, count)])
         j = k + 1
         while j < count and along[j] <= reach:

@@ -198,10 +198,11 @@ def arc_between(start: Point, end: Point, values: list[float]) -> Curve:
     turn = 0.0 if rx == ry else math.radians(values[2] % 360.0)
     c, s = math.cos(turn), math.sin(turn)
     dx, dy = end[0] - start[0], end[1] - start[1]
+    # half the chord where the ellipse is the unit circle
     hx, hy = (
         (c * dx + s * dy) / 2 / rx,
         (c * dy - s * dx) / 2 / ry,
-    )  # half the chord where the ellipse is the unit circle
+    )
     half = math.hypot(hx, hy)
     grown = max(half, 1.0)
     over = 1.0 - half

@@ -15,9 +15,8 @@ from .arc_kernels import centre_by_radius, radii
 _X, _Y, _Z, _I, _J, _K, _R, _F = range(8)
 _RAPID, _LINE, _CW, _CCW = range(4)
 _ABSENT, _WHOLE, _POINT = range(3)  # how a number is written; _WHOLE: without a decimal point
-_POWERS = np.array(
-    [float(f"1e{k}") for k in range(23)]
-)  # exact, so that digits / power rounds once, as float(text) does
+# exact, so that digits / power rounds once, as float(text) does
+_POWERS = np.array([float(f"1e{k}") for k in range(23)])
 _DIGITS_BOUND = 10**15  # whole numbers below it are exact as floats
 _LARGEST_NUMBER = 999_999_999
 _FARTHEST, _FASTEST = 1e6, 1e7  # mm, mm/min

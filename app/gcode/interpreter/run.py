@@ -112,9 +112,8 @@ class Run:
         ]
         told = notes(self._text.data)
         motions = control.columns.motions(control.splines, control.known_from())
-        homeward = tuple(
-            row for row in control.homeward if row < len(motions)
-        )  # a block that fails has named its way, and not gone it
+        # a block that fails has named its way, and not gone it
+        homeward = tuple(row for row in control.homeward if row < len(motions))
         return NcProgram(
             motions,
             control.states,

@@ -192,10 +192,11 @@ def write_pieces(arcs, ends, rules, first, pieces, fraction, stops):
     Returns:
         The first arc that is not written, n if there is none; -1 - its index where it has no end of halves.
     """
+    # stretches to come, the next one on top
     spans, places = (
         np.empty((DEEPEST + 1, 2)),
         np.empty((DEEPEST + 1, 4), np.int64),
-    )  # stretches to come, the next one on top
+    )
     shape, written = np.empty(4), np.empty(4)
     at, to, point = np.empty(2, np.int64), np.empty(2, np.int64), np.empty(2, np.int64)
     start, end = np.empty(2, np.int64), np.empty(2, np.int64)

@@ -24,10 +24,11 @@ def chords(control, tolerance, finest):  # type: ignore[no-untyped-def]
     """
     found, count = np.empty((256, 2)), 0
     work, at = np.empty((control.shape[1], 3)), np.empty(4)
+    # u, x, y of where stretches end that wait, the next on top
     ends, level = (
         np.empty((finest + 2, 3)),
         np.empty(finest + 2, np.int64),
-    )  # u, x, y of where stretches end that wait, the next on top
+    )
     last = control.shape[1] - 1
     for k in range(len(control)):
         u, x, y = float(k), control[k, 0, 0] / control[k, 0, 2], control[k, 0, 1] / control[k, 0, 2]

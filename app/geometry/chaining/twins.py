@@ -61,9 +61,8 @@ def _candidates(ends: NDArray[np.float64], nodes: Nodes, reach: float) -> list[t
     whole = ends.reshape(-1, 4)
     found = set()
     for turned in (whole[loose], whole[loose][:, [2, 3, 0, 1]]):
-        place, other = all_within(
-            whole[able], turned, 2 * reach
-        )  # of four numbers, none of which differs by more than reach
+        # of four numbers, none of which differs by more than reach
+        place, other = all_within(whole[able], turned, 2 * reach)
         near = np.abs(turned[place] - whole[able[other]]).max(axis=1, initial=0.0) <= reach
         couples = zip(loose[place[near]].tolist(), able[other[near]].tolist(), strict=True)
         found |= {(min(j, k), max(j, k)) for j, k in couples if j != k}

@@ -87,9 +87,8 @@ def probe_row(rows, i, probe):
         probe[4], probe[5], probe[6], probe[7], probe[8] = 0.0, 0.0, chord / 2, 0.0, chord / 2
         return True
     ax, ay, bx, by = rows[i, 0] - rows[i, 4], rows[i, 1] - rows[i, 5], rows[i, 2] - rows[i, 4], rows[i, 3] - rows[i, 5]
-    nx, ny = (
-        (turn * uy, -turn * ux) if chord > r else (ax + bx, ay + by)
-    )  # whichever is longer, so tells the direction better
+    # whichever is longer, so tells the direction better
+    nx, ny = (turn * uy, -turn * ux) if chord > r else (ax + bx, ay + by)
     size = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / size, ny / size
     sine = min(chord / (2 * r), 1.0)

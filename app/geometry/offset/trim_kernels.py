@@ -176,9 +176,8 @@ def _split_off(shape, rows, j, span, cuts, spans, top):
     k = 0
     while k < m - 2 and cuts[k + 1] <= middle:
         k += 1
-    before = (
-        cuts[k] - span[0] < span[1] - cuts[k + 1]
-    )  # the shorter one comes next, so there is never more than half left of each
+    # the shorter one comes next, so there is never more than half left of each
+    before = cuts[k] - span[0] < span[1] - cuts[k + 1]
     for c in range(2):
         a, b = (span[0], cuts[k]) if before == (c == 1) else (cuts[k + 1], span[1])
         if b > a:

@@ -193,9 +193,8 @@ def _between(rows: Rows, start: Floats, end: Floats) -> Rows:
     made[new, CX:R] = centre[new]
     made[new, R] = np.hypot(*(start - centre).T)[new]
     straight = arc & (square < 8 * rows[:, R] * _FLAT)
-    straight |= new & (
-        np.abs(sweeps(made)) > np.abs(sweeps(rows)) + 1e-3
-    )  # turned round: as small as its ends have moved
+    # turned round: as small as its ends have moved
+    straight |= new & (np.abs(sweeps(made)) > np.abs(sweeps(rows)) + 1e-3)
     made[straight, CX:] = 0.0
     return made
 

@@ -98,9 +98,8 @@ def _free_discs(found: Sequence[Gap], field: DistanceField, most: float) -> list
         fits = field.nearest(points + aside * radius[:, None])[0] >= radius - 1e-6
         low, high = np.where(fits, radius, low), np.where(fits, high, radius)
     size = low.reshape(len(found), -1) - 1e-6 * np.abs(_PARTS - 0.5)  # of as large ones the one in the middle
-    open_ended = np.array(
-        [[gap.corner is None] for gap in found]
-    )  # a neck is as wide as it is at its narrowest; corners are no part of it
+    # a neck is as wide as it is at its narrowest; corners are no part of it
+    open_ended = np.array([[gap.corner is None] for gap in found])
     size = np.where(
         open_ended & (size > _CORNER * most), -size - 2e-6 * np.abs(_PARTS - 0.5), np.where(open_ended, -np.inf, size)
     )

@@ -95,9 +95,8 @@ def _boxes(pieces: Floats, shapes: Floats) -> tuple[Floats, Floats]:
     enough.
     """
     low, high = np.minimum(pieces[:, :3], pieces[:, 3:6]), np.maximum(pieces[:, :3], pieces[:, 3:6])
-    bulge = (1.0 - math.sqrt(0.5)) * pieces[
-        :, 8:9
-    ]  # of a quarter turn beyond its chord, and more than what it is beyond the chord's box
+    # of a quarter turn beyond its chord, and more than what it is beyond the chord's box
+    bulge = (1.0 - math.sqrt(0.5)) * pieces[:, 8:9]
     wide = shapes[:, :1] * (1.0 + 1e-9) + bulge
     low[:, :2] -= wide
     high[:, :2] += wide

@@ -80,9 +80,8 @@ def reach_of(
     possible = [_lowest(wanted, cutter.shrunk(half), cutter, pitch, progress) for cutter in cutters]
     nearest = np.minimum.reduce([_lowest(wanted, cutter, cutter, pitch, progress) for cutter in cutters])
     over_part = np.zeros_like(wanted)
-    np.subtract(
-        nearest, wanted, out=over_part, where=np.isfinite(wanted)
-    )  # beside the part there is none to keep away from
+    # beside the part there is none to keep away from
+    np.subtract(nearest, wanted, out=over_part, where=np.isfinite(wanted))
     return Reach(grid, np.minimum.reduce(sure), np.minimum.reduce(possible), over_part)
 
 

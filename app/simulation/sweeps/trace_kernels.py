@@ -19,9 +19,8 @@ PENDING = 32
 """Blocks of cells after which float32 sums are gathered, so that they stay right to some millionths."""
 
 _F = np.float32
-_TRIFLE = _F(
-    1e-5
-)  # mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
+# mm; a motion that lowers a cell by no more only rounds otherwise, so the cell stays its former owner's
+_TRIFLE = _F(1e-5)
 _ZERO, _ONE, _STEP, _NEVER = _F(0.0), _F(1.0), _F(LANES), _F(math.inf)
 _CELLS = "float32[::1], int32[::1]"
 

@@ -43,11 +43,12 @@ def square_from_triangle(t, ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-
     uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
     if square > _SLIVER * max(uu, vv, uu - 2.0 * uv + vv) and square > _FLAT:
         start, end = nx * px + ny * py + nz * pz, nx * (px + dx) + ny * (py + dy) + nz * (pz + dz)
+        # both ends, and where it goes through
         for share in (
             0.0,
             1.0,
             start / (start - end) if start * end < 0.0 else math.nan,
-        ):  # both ends, and where it goes through
+        ):
             if share == share:
                 x, y, z = px + share * dx, py + share * dy, pz + share * dz
                 du, dv = x * ux + y * uy + z * uz, x * vx + y * vy + z * vz

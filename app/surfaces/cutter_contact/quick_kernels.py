@@ -198,9 +198,8 @@ def quick_one(tree, shape, whose, slack, fine, found, desk):  # type: ignore[no-
         tip, u, v = _refined(tree, n, x, y, shape, best, fine, _lean(tree[TRIANGLES][n]), desk)
         if tip > best:
             best, touched, best_u, best_v = tip, n, u, v
-    if (
-        not ball and shape[CONE] == 0.0 and refined > 0 and best_u == best_u
-    ):  # it may be touched beside a facet's own edges
+    # it may be touched beside a facet's own edges
+    if not ball and shape[CONE] == 0.0 and refined > 0 and best_u == best_u:
         tip, u, v = touch(tree[CONTROL], tree[PATCH][touched], best_u, best_v, x, y, shape)
         if tip > best:
             best, best_u, best_v = tip, u, v

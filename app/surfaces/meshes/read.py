@@ -99,9 +99,8 @@ def _by_library(name: str, data: bytes, suffix: str) -> Floats:
     log.propagate = False
     if not log.handlers:
         log.addHandler(logging.NullHandler())
-    plain = (
-        data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data
-    )  # names may be spelled in any code page
+    # names may be spelled in any code page
+    plain = data.decode("latin-1").encode("ascii", "replace") if suffix == "obj" else data
     try:
         with np.errstate(all="ignore"):  # numbers that are none are looked for by who asked
             triangles = trimesh.load_mesh(io.BytesIO(plain), file_type=suffix, process=False).triangles

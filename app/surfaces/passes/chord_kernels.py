@@ -87,9 +87,8 @@ def _along(triangle, chord, tool, shape, skin, length, times):  # type: ignore[n
             over = over_triangle(triangle, ax + new * (bx - ax), ay + new * (by - ay), shape, -math.inf) + more
             return over <= az + new * (bz - az)
         leftwards = left > right or (left == right and middle - low > high - middle)
-        if (
-            at > -math.inf and min(at_low, at_high) == -math.inf
-        ):  # nothing is known of a slope there: both sides get shorter
+        # nothing is known of a slope there: both sides get shorter
+        if at > -math.inf and min(at_low, at_high) == -math.inf:
             leftwards = middle - low > high - middle
         new = 0.5 * (low + middle) if leftwards else 0.5 * (middle + high)
         at_new = over_triangle(triangle, ax + new * (bx - ax), ay + new * (by - ay), shape, -math.inf) + skin

@@ -64,9 +64,8 @@ def _places(guide: Nurbs, at: Floats, span: tuple[float, float]) -> tuple[Floats
     """Return places (n, 3) and unit tangents (n, 3) of a guide within one span of its knots."""
     spline = spline_of(homogeneous(guide), guide.knots, guide.degree)
     low, high = span
-    inner = np.clip(
-        at, low + 1e-12 * (high - low), high - 1e-12 * (high - low)
-    )  # derivatives of this span, not of the next
+    # derivatives of this span, not of the next
+    inner = np.clip(at, low + 1e-12 * (high - low), high - 1e-12 * (high - low))
     rows, slopes = spline(at), spline.derivative()(inner)
     places = rows[:, :3] / rows[:, 3:]
     steep = slopes[:, :3] - places * slopes[:, 3:]

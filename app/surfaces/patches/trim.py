@@ -158,9 +158,8 @@ def _cut_upright(triangle: Floats, inside: shapely.Geometry) -> Floats:
     along = (flat - flat[0]) @ way / length
     seen = np.column_stack([along, triangle[:, 2]])
     ends = flat[0] + np.outer([along.min(), along.max()], way / length)
-    near = shapely.intersection(
-        shapely.buffer(inside, _HAIR), shapely.LineString(ends)
-    )  # walls on the outline are kept
+    # walls on the outline are kept
+    near = shapely.intersection(shapely.buffer(inside, _HAIR), shapely.LineString(ends))
     spans = [
         (shapely.get_coordinates(part) - flat[0]) @ way / length for part in shapely.get_parts(near) if part.length > 0
     ]

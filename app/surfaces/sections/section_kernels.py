@@ -37,9 +37,10 @@ def _crossing(control, patch, plane, work, row, a, b, off_a, off_b):  # type: ig
         u = work[row, 9 + 2 * a] + share * (work[row, 9 + 2 * b] - work[row, 9 + 2 * a])
         v = work[row, 10 + 2 * a] + share * (work[row, 10 + 2 * b] - work[row, 10 + 2 * a])
         return (x - plane[0]) * plane[2] + (y - plane[1]) * plane[3], z, u, v
+    # the same edge gives the same place, whichever facet asks
     if work[row, 9 + 2 * a] > work[row, 9 + 2 * b] or (
         work[row, 9 + 2 * a] == work[row, 9 + 2 * b] and work[row, 10 + 2 * a] > work[row, 10 + 2 * b]
-    ):  # the same edge gives the same place, whichever facet asks
+    ):
         a, b, off_a, off_b = b, a, off_b, off_a
     ua, va = work[row, 9 + 2 * a], work[row, 10 + 2 * a]
     du, dv = work[row, 9 + 2 * b] - ua, work[row, 10 + 2 * b] - va

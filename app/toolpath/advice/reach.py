@@ -134,9 +134,8 @@ def reach(region: Shape, diameter: float, centres: Shape) -> Reach:
         covered(centres, diameter / 2 - FITS),
         int(shapely.get_num_geometries(centres)),
     )
-    beyond = grown(
-        centres, diameter / 2 - FITS + _BESIDE, _CHORD
-    )  # walls that nearly coincide take the library very long
+    # walls that nearly coincide take the library very long
+    beyond = grown(centres, diameter / 2 - FITS + _BESIDE, _CHORD)
     x, y, disc = largest_left(shapely.difference(region, beyond))
     if disc < _DISC:
         return Reach(diameter, 1.0, parts, 0.0, 0.0, math.nan, math.nan)

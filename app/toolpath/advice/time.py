@@ -135,9 +135,8 @@ def _cutting(tool: Tool, length: float, strokes: tuple[int, float], plan: Plan) 
         return 0.0
     count, metal = strokes
     step = plan.depth / plan.passes
-    above = plan.retract_z + plan.depth * (plan.passes - 1) / (
-        2 * plan.passes
-    )  # down to the metal of a pass, in the mean
+    # down to the metal of a pass, in the mean
+    above = plan.retract_z + plan.depth * (plan.passes - 1) / (2 * plan.passes)
     fast = 2 * plan.safe_z - plan.retract_z + step + above
     down = above / tool.plunge_rate + metal * _entry(tool, step, plan.entry) + (1 - metal) * step / tool.feed_rate
     return plan.passes * 60 * (length / tool.feed_rate + count * (down + fast / plan.rapid))

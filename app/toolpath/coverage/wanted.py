@@ -260,9 +260,8 @@ def _line(contour: Contour) -> Shape:
 def _without_tabs(found: Wanted, tabs: Sequence[Tab], dog_bones: Sequence[DogBone]) -> Wanted:
     """Return what is wanted without the metal that stands in tabs, and with what dog-bones cut into walls."""
     deep = [tab for tab in tabs if tab.top > -found.depth + _SAME]
-    reach = [
-        tab.width / 2 + tab.diameter for tab in deep
-    ]  # half the way over it, and the cutter's radius: also where the path is bent
+    # half the way over it, and the cutter's radius: also where the path is bent
+    reach = [tab.width / 2 + tab.diameter for tab in deep]
     held = united([shapely.Point(tab.x, tab.y).buffer(radius) for tab, radius in zip(deep, reach, strict=True)])
     bones = united([bone_shape(bone) for bone in dog_bones])
     floor = without(found.floor, without(bones, found.reach)) if dog_bones else found.floor

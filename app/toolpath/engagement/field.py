@@ -104,9 +104,8 @@ class Field:
     def engaged(self, rows: Floats, progress: Progress) -> Floats:
         """Return the engaged share (n,) of the tool's diameter at places (n, 6) of its path, which is cut."""
         inner = max(self.radius - _INSIDE * self.pitch, 0.25 * self.radius)
-        lag = math.sqrt(
-            (2 * self.radius - inner) ** 2 - inner * inner
-        )  # no cell under the front half is cut from farther behind
+        # no cell under the front half is cut from farther behind
+        lag = math.sqrt((2 * self.radius - inner) ** 2 - inner * inner)
         count = max(32, math.ceil(2 * math.pi * self.radius / self.pitch))
         angle = (np.arange(count) + 0.5) / count * np.pi - np.pi / 2
         return self._led(rows, (self.radius, inner, lag), np.column_stack([np.cos(angle), np.sin(angle)]), progress)

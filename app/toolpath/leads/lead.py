@@ -104,9 +104,8 @@ def runs(
     for bent, share in _tries(around):
         if share * around.size < _LEAST:
             continue
-        for turn in range(
-            max(map(len, starts), default=0)
-        ):  # the best beginning of every path, then the next of those still without
+        # the best beginning of every path, then the next of those still without
+        for turn in range(max(map(len, starts), default=0)):
             asked = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
             for k, start, way in _fitting(joined, asked, around, (bent, share)):
                 made[k] = Run(paths[k], start, _stop(paths[k], start, around), way[:1], way[1:], share, bent)

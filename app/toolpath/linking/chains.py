@@ -165,9 +165,8 @@ def _candidates(net: Net, tied: _Ties, longest: float) -> Indices:
     label[place[goals]] = [tied.find(end // 2) for end in goals.tolist()]
     first = np.full(len(net.places), -1)
     first[place[goals]] = goals
-    here = np.stack(
-        [free, first[place[free]], np.zeros(len(free), np.int64)], 1
-    )  # ends that share a place with another one
+    # ends that share a place with another one
+    here = np.stack([free, first[place[free]], np.zeros(len(free), np.int64)], 1)
     here = here[(here[:, 1] >= 0) & (here[:, 0] != here[:, 1])]
     sources = np.ascontiguousarray(np.stack([place[free], chain], 1))
     found, costs = np.empty((_MOST * len(free), 2), np.int64), np.empty(_MOST * len(free))

@@ -177,9 +177,8 @@ def _in_order(chunks: Chunks, kept: Indices) -> tuple[Indices, Indices]:
     whole = (kept[begins] == chunks.first[ring[begins]]) & (kept[stops - 1] == chunks.first[ring[begins] + 1] - 1)
     broken = group[begins] != group[stops - 1]
     for a, b in zip(begins[whole & broken].tolist(), stops[whole & broken].tolist(), strict=True):
-        turn = int(
-            np.count_nonzero(group[a:b] == group[b - 1])
-        )  # the last group of such a ring goes on into its first one
+        # the last group of such a ring goes on into its first one
+        turn = int(np.count_nonzero(group[a:b] == group[b - 1]))
         group[b - turn : b] = group[a]
         order[a:b], group[a:b] = np.roll(order[a:b], turn), np.roll(group[a:b], turn)
     return order, group

@@ -101,9 +101,8 @@ def squares_beyond(
         top -= 1
         x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
         far = half * math.sqrt(2.0)
-        cut = beyond(
-            path, radii, path_order, path_nodes, wide, x, y, (-far, far)
-        )  # first: it decides most squares, and is soon found
+        # first: it decides most squares, and is soon found
+        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, (-far, far))
         if cut <= -far:
             continue
         inside = nearest(rows, order, nodes, x, y, math.inf)[0] - limits[0]

@@ -187,9 +187,8 @@ def test_the_example_of_the_fanuc_manual() -> None:
     assert (curve.degree, len(curve.points), curve.knots.tolist()) == (3, 6, [0, 0, 0, 0, 0.5, 0.5, 1, 1, 1, 1])
     ends = nurbs_points(curve, np.array([0.0, 1.0]))
     assert ends.tolist() == [[0, 0, 0], [2000, 0, 0]]
-    first_piece = np.array(
-        [(0.0, 0.0), (300.0, 100.0), (700.0, 100.0), (1000.0, 0.0)]
-    )  # 1000 = halfway from 700 to 1300
+    # 1000 = halfway from 700 to 1300
+    first_piece = np.array([(0.0, 0.0), (300.0, 100.0), (700.0, 100.0), (1000.0, 0.0)])
     x, z = np.array([1, 3, 3, 1]) @ first_piece / 8
     assert nurbs_points(curve, np.array([0.25])) == pytest.approx(np.array([[x, 0.0, z]]))
 

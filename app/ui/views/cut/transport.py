@@ -192,10 +192,11 @@ def _stepping(
     """Yield which keys step where."""
     key = Qt.Key
     yield from ((key.Key_Comma, plain, Step.LINE, -1), (key.Key_Period, plain, Step.LINE, 1))
+    # as layouts tell the same two keys with Shift
     for back, on in (
         (key.Key_Comma, key.Key_Period),
         (key.Key_Less, key.Key_Greater),
-    ):  # as layouts tell the same two keys with Shift
+    ):
         yield from ((back, shift, Step.MOVE, -1), (on, shift, Step.MOVE, 1))
     yield from ((key.Key_Semicolon, shift, Step.MOVE, -1), (key.Key_Colon, shift, Step.MOVE, 1))
     for back, on in ((key.Key_BracketLeft, key.Key_BracketRight), (key.Key_PageUp, key.Key_PageDown)):

@@ -163,10 +163,11 @@ class Plotting(QObject):
 
     def choose_printer(self) -> None:
         """Ask for a printer and print the sheets at true size."""
+        # asks the system for its printers, which takes a while
         from PySide6.QtPrintSupport import (
             QPrintDialog,
             QPrinter,
-        )  # asks the system for its printers, which takes a while
+        )
 
         if self.ready is None:
             return
