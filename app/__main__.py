@@ -22,8 +22,7 @@ from .core.errors import shortened  # noqa: E402
 
 _LIBRARIES = (
     "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon0 libxkbcommon-x11-0 libxcb-cursor0 "
-    "libxcb-icccm4 "
-    "libxcb-keysyms1 libxcb-shape0"
+    "libxcb-icccm4 libxcb-keysyms1 libxcb-shape0"
 )
 
 

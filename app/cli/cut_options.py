@@ -40,9 +40,8 @@ Corners = list[float]
 
 ENGINE_HELP = (
     "what computes the heights: cpu, the engine of record; gpu, within 1e-4 mm of it by the graphics system; patent, "
-    "by facets "
-    "in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on graphics "
-    "hardware, else cpu)"
+    "by facets in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on "
+    "graphics hardware, else cpu)"
 )
 _COUNT = {
     ToolKind.FLAT: (1,),

@@ -120,9 +120,8 @@ def _command(argv: list[str], stopped: Stopping) -> int:
 
         return figure11_command(rest, stopped)
     _say(
-        f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages', 'figure11' "
-        "or 'open', "
-        "see hitofude --help"
+        f"there is no command '{name}'; use 'make', 'tools', 'cut', 'check', 'smooth', 'surface', 'stages', "
+        "'figure11' or 'open', see hitofude --help"
     )
     return BAD_INPUT
 

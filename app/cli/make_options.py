@@ -49,8 +49,7 @@ def make_parser() -> OptionParser:
         "make",
         ("drawing", "the drawing and the NC program to write"),
         "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
-        "program, "
-        "read back and proven the same.",
+        "program, read back and proven the same.",
         EPILOG,
     )
     parser.add_argument(

@@ -18,14 +18,12 @@ from ..model.machine import Machine
 
 MACHINE_HELP = (
     "the machine that the program has to fit and is timed on: router, bench_mill, vmc, one of your own in the "
-    "settings' folder "
-    "machines, or a TOML file (default: timed on a router, held against none)"
+    "settings' folder machines, or a TOML file (default: timed on a router, held against none)"
 )
 
 MEMORY_HELP = (
     "memory that the job may take beside the program itself, such as 4G or 512M: what would not fit is done in parts, "
-    "or "
-    "refused before it is begun (default half of the machine's)"
+    "or refused before it is begun (default half of the machine's)"
 )
 
 PHRASES = (

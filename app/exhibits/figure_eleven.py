@@ -37,8 +37,7 @@ PORTIONS = 16
 
 PRINTED = (
     "As printed, 1024 x 1024 cells on a workstation of 195 MHz: 9,542 moves, radius 5 mm, 16.83 s by software, 0.99 s "
-    "by depth "
-    "buffer; 35,391 moves, radius 3 mm, 15.93 s and 1.65 s."
+    "by depth buffer; 35,391 moves, radius 3 mm, 15.93 s and 1.65 s."
 )
 
 
@@ -277,8 +276,7 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
     )
     yield (
         f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of "
-        f"{options.repeat}, "
-        f"{WORKERS} threads; {drawn}"
+        f"{options.repeat}, {WORKERS} threads; {drawn}"
     )
     columns = [f"{way.value:>12}" for way in Way] + [
         f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS

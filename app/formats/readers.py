@@ -63,8 +63,8 @@ def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
     missing = [layer for layer in layers if layer.casefold() not in known]
     if missing and not how.lenient:
         raise InputError(
-            f"{name}: there is no layer {missing[0]} to leave out; "
-            f"the drawing has {', '.join(layer.name for layer in part.layers)}."
+            f"{name}: there is no layer {missing[0]} to leave out; the drawing has "
+            f"{', '.join(layer.name for layer in part.layers)}."
         )
     kept = tuple(entity for entity in part.entities if entity.layer.casefold() not in gone)
     if not kept:

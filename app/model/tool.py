@@ -183,8 +183,8 @@ class Tool:
             height < MOST_LENGTH and 0 <= radius < MOST_LENGTH for height, radius in self.holder
         ):
             raise ParameterError(
-                f"T{self.number}: the holder must have two points or more, "
-                f"each a height and a radius from 0 to {MOST_LENGTH:g} mm."
+                f"T{self.number}: the holder must have two points or more, each a height and a radius from 0 to "
+                f"{MOST_LENGTH:g} mm."
             )
 
     def _check_feeds(self) -> None:

@@ -117,9 +117,8 @@ def _check_size(name: str, size: tuple[int, int]) -> None:
     cols, rows = size
     if max(size) > LARGEST_SIDE or cols * rows > LARGEST_AREA:
         raise InputError(
-            f"{name}: the picture has {cols} x {rows} px; {LARGEST_SIDE} px a side and {LARGEST_AREA // 10**6} million "
-            "in all "
-            "are the most, so make it smaller."
+            f"{name}: the picture has {cols} x {rows} px; {LARGEST_SIDE} px a side and {LARGEST_AREA // 10**6} "
+            "million in all are the most, so make it smaller."
         )
 
 

@@ -225,8 +225,7 @@ def _ensure_whole(name: str, data: bytes) -> None:
             what = kind.decode("ascii", "replace") or "unknown"
             raise InputError(
                 f"{name}: the picture is damaged and cannot be decoded: its part {what!r} at byte {at} reaches beyond "
-                "the "
-                "end of the file; save it again."
+                "the end of the file; save it again."
             )
         if kind == b"IEND":
             return

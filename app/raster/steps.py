@@ -40,8 +40,7 @@ STEPS: dict[int, tuple[str, str]] = {
     206: (
         "Mark R",
         "These pixels get the second mark, R; in the settled rule wherever the line crosses the middle of the pixel's "
-        "row an "
-        "even number of times.",
+        "row an even number of times.",
     ),
     207: (
         "Count along the rows",

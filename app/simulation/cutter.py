@@ -53,8 +53,7 @@ class Cutter:
         ):
             raise ParameterError(
                 f"A cutter of radius {self.radius:g} mm with a flat of {self.flat:g} mm, a corner of {self.fillet:g} "
-                "mm "
-                f"and a slope of {self.slope:g} is no shape; the flat and the corner must lie within the radius."
+                f"mm and a slope of {self.slope:g} is no shape; the flat and the corner must lie within the radius."
             )
         if self.rim_of_fillet > self.radius * (1 + 1e-12):
             raise ParameterError(

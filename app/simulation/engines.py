@@ -238,8 +238,7 @@ class HeightEngine:
         if not found.agrees:
             self._fall_back(
                 f"{self.told.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by "
-                "more than "
-                "its stated error"
+                "more than its stated error"
             )
             return record
         self.told = replace(self.told, apart=found.joined(self.told.apart), error=max(error, self.told.error))

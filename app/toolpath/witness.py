@@ -79,8 +79,7 @@ def _about_lost(lost: Sequence[Entity]) -> list[Finding]:
     )
     text = (
         f"{'Curve' if len(lost) == 1 else 'Curves'} {names}, the first at {at((x, y))}, came into no contour, and "
-        "nothing says why; "
-        "do not use this program, draw them again."
+        "nothing says why; do not use this program, draw them again."
     )
     return [Finding(FindingKind.AREA, text, x, y, entity_ids=tuple(each.id for each in lost), amount=float(len(lost)))]
 
@@ -185,8 +184,8 @@ def about_floors(areas: Sequence[Area], chord: float) -> list[Finding]:
             x, y = regions[0].boundary.primitives[0].start
             text = (
                 f"The floor from {at((x, y))} on is measured {abs(missing):.4f} mm2 too "
-                f"{'small' if missing > 0 else 'large'}, "
-                "so what is said to be left is not true; do not use this program."
+                f"{'small' if missing > 0 else 'large'}, so what is said to be left is not true; do not use this "
+                "program."
             )
             found.append(Finding(FindingKind.AREA, text, x, y, amount=abs(missing)))
     return found

@@ -311,8 +311,7 @@ def _findings(part: BitmapPart, paths: Sequence[OperationPaths], given_up: Given
     pitch = part.frame.pitch
     text = (
         f"On pixels of {pitch:.3g} mm the paths along the walls are up to {given_up.most_mm:.3f} mm farther from them "
-        "than asked, "
-        f"{given_up.mean_mm:.3f} mm in the mean, so that none is nearer; a larger bitmap gives up less."
+        f"than asked, {given_up.mean_mm:.3f} mm in the mean, so that none is nearer; a larger bitmap gives up less."
     )
     return [
         Finding(FindingKind.TOLERANCE, text, counts=False, amount=given_up.most_mm),
@@ -337,7 +336,6 @@ def _without_path(part: BitmapPart, paths: Sequence[OperationPaths], job: Job) -
         (x, y), tool = boundaries[number].primitives[0].start, job.tool(tool_number)
         text = (
             f"Region {number}, which begins at ({x:.3f}, {y:.3f}), has no room for T{tool.number} {tool.label} on "
-            "pixels of "
-            f"{part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool."
+            f"pixels of {part.frame.pitch:.3g} mm; use a larger bitmap or a smaller tool."
         )
         yield Finding(FindingKind.REGION_TOO_SMALL, text, x, y, counts, boundaries[number].entity_ids)

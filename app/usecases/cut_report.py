@@ -43,8 +43,7 @@ GOUGE_METHODS = {
     "drawing": "closed-form distance of every motion from every wall, less tool radius and stock to leave; floors by "
     "the cells",
     "solid": "exact distance from the solid's surface at the deepest place that was found, from the cells on and "
-    "between them; nothing is "
-    "deeper than at_most_mm, if that is known",
+    "between them; nothing is deeper than at_most_mm, if that is known",
     "cells": "the cells' heights below the part's",
 }
 _TELLING = 10.0
@@ -56,8 +55,7 @@ HEIGHTS_METHODS = {
     "to either side",
     Engine.GPU: "how far from the cpu's they may be; cells beside an upright wall may fall to either side",
     Engine.PATENT: "how far facets are at most inside the surface, square to it (d² / 8r of balls, d = two cells); "
-    "cells "
-    "beside an upright wall may fall to either side",
+    "cells beside an upright wall may fall to either side",
 }
 SPOTS = 100
 """Places that the report lists."""
@@ -421,14 +419,12 @@ def _summary(data: Json) -> Iterator[str]:
     if certificate is not None and certificate["gouge_mm"] - gouge["max_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (
             f"  between the cells, {certificate['pitch_mm']:.4g} mm wide, too: no point deeper than "
-            f"{certificate['gouge_mm']:.4f} mm "
-            "inside the part was cut"
+            f"{certificate['gouge_mm']:.4f} mm inside the part was cut"
         )
     if (apart := data["apart_from_cpu"]) is not None:
         yield (
             f"  {data['engine'].partition(';')[0]}; {_counted(apart['cells'], 'cell')} more than "
-            f"{apart['beyond_mm']:g} mm "
-            f"from the cpu's, {apart['rim_cells']} beyond the stated error, on walls"
+            f"{apart['beyond_mm']:g} mm from the cpu's, {apart['rim_cells']} beyond the stated error, on walls"
         )
     if not data["removed_mm3"]:
         yield (
@@ -438,8 +434,7 @@ def _summary(data: Json) -> Iterator[str]:
     for tool in data["tools"]:
         yield (
             f"  T{tool['number']} {tool['kind']} {tool['diameter_mm']:g} mm ({tool['from']}): "
-            f"{tool['removed_mm3']:.1f} mm3, "
-            f"{_clock(tool['time_s'])} min{_held(tool)}"
+            f"{tool['removed_mm3']:.1f} mm3, {_clock(tool['time_s'])} min{_held(tool)}"
         )
 
 

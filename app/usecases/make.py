@@ -273,8 +273,7 @@ def _clamp_findings(met: Gouge, program: Program) -> tuple[Finding, ...]:
         return ()
     text = (
         f"{met.count} moves reach into a keep-out area, the worst by {met.max_mm:.4f} mm at ({met.x:.3f}, "
-        f"{met.y:.3f}), "
-        f"NC line {program.moves.line[met.move]}; do not run this program."
+        f"{met.y:.3f}), NC line {program.moves.line[met.move]}; do not run this program."
     )
     return (Finding(FindingKind.CLAMP, text, met.x, met.y, amount=met.max_mm),)
 

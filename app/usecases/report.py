@@ -35,10 +35,8 @@ COVERAGE_METHOD = (
 GOUGE_METHOD = "closed-form distance of every move below Z 0 from every wall, less tool radius and stock to leave"
 MOVES_METHOD = (
     "motions of the control, as the NC text was read back: arcs split and flattened as they are written, cycles step "
-    "by step; "
-    "where the tool is at the start nobody knows, so the first approach is counted from the clearance position above "
-    "the "
-    "first XY, and after a tool change from where the tool before was lifted to safe Z"
+    "by step; where the tool is at the start nobody knows, so the first approach is counted from the clearance "
+    "position above the first XY, and after a tool change from where the tool before was lifted to safe Z"
 )
 CHECK_METHOD = (
     "the written bytes read back and compared with the moves: a bound both ways, all along; kinds, feeds, tools, "
@@ -46,9 +44,8 @@ CHECK_METHOD = (
 )
 
 CUT_METHOD = (
-    "the files, read back, cut out of the stock on a grid of heights, exactly at the cells' centres, and compared with "
-    "the "
-    "drawing; the bounds hold between the centres too"
+    "the files, read back, cut out of the stock on a grid of heights, exactly at the cells' centres, and compared "
+    "with the drawing; the bounds hold between the centres too"
 )
 
 Json = dict[str, Any]
@@ -99,10 +96,8 @@ class Report:
         length = sum(data["length_mm"].values())
         return (
             f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
-            "reach, "
-            f"{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
-            f"{data['retracts']} retracts, "
-            f"{length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
+            f"reach, {len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
+            f"{data['retracts']} retracts, {length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
             f"{data['check']['largest_distance_mm']:.4f} mm"
         )
 

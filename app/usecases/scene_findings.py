@@ -70,9 +70,9 @@ def moves_findings(moves: SurfaceMoves, stock: StockBox, tools: Sequence[Tool]) 
     if ends[low, 2] < stock.z0 - LEVEL:
         x, y, z = ends[low].tolist()
         text = (
-            f"The tool's tip goes {stock.z0 - z:.3f} mm below the stock's underside, Z {stock.z0:.3f}, where the table "
-            "is, at "
-            f"({x:.3f}, {y:.3f}); give the passes a floor, floor = {stock.z0:g}, or put something under the stock."
+            f"The tool's tip goes {stock.z0 - z:.3f} mm below the stock's underside, Z {stock.z0:.3f}, where the "
+            f"table is, at ({x:.3f}, {y:.3f}); give the passes a floor, floor = {stock.z0:g}, or put something under "
+            "the stock."
         )
         yield Finding(FindingKind.BELOW_TABLE, text, x, y, amount=stock.z0 - z)
 
@@ -84,8 +84,7 @@ def _size(facets: Facets, tools: Sequence[Tool]) -> Iterator[Finding]:
     if wide < SMALL * least:
         text = (
             f"The surfaces are only {wide:.3g} mm wide, and the tool has {least:g} mm; if their file is in metres or "
-            "inches, give the "
-            "mesh scale = 1000 or 25.4."
+            "inches, give the mesh scale = 1000 or 25.4."
         )
         yield Finding(FindingKind.SIZE, text, amount=wide)
     if wide > LARGE:
@@ -101,15 +100,13 @@ def _place(facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[F
     if top <= stock.z0:
         text = (
             f"The surfaces lie wholly below the stock: they reach up to Z {top:.3f} at ({x:.3f}, {y:.3f}), and its "
-            "underside is at "
-            f"Z {stock.z0:.3f}; move them up, or correct the stock's box."
+            f"underside is at Z {stock.z0:.3f}; move them up, or correct the stock's box."
         )
         yield Finding(FindingKind.BEYOND_STOCK, text, x, y, amount=stock.z0 - top)
     elif top > stock.z1 + LEVEL:
         text = (
             f"The surfaces stand {top - stock.z1:.3f} mm over the stock's top, Z {stock.z1:.3f}, at ({x:.3f}, "
-            f"{y:.3f}), where no metal "
-            "is; move them down, or correct the stock's box."
+            f"{y:.3f}), where no metal is; move them down, or correct the stock's box."
         )
         yield Finding(FindingKind.BEYOND_STOCK, text, x, y, amount=top - stock.z1)
     radius, size = max((tool.radius for tool in tools), default=0.0), high - low
@@ -123,8 +120,7 @@ def _place(facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[F
         if far > max(radius, OUTSIDE * size[axis]):
             text = (
                 f"The surfaces reach {far:.3f} mm beyond the stock towards {side}, of {size[axis]:.3f} mm; move them "
-                "into it, or "
-                "correct the stock's box."
+                "into it, or correct the stock's box."
             )
             yield Finding(FindingKind.BEYOND_STOCK, text, amount=float(far))
 
@@ -155,9 +151,8 @@ def _holes(built: Sequence[Built], facets: Facets, tools: Sequence[Tool]) -> Ite
 def _hole_words(name: str, hole: Hole) -> str:
     return (
         f"Surface {name} has a hole of {hole.wide:.3f} x {hole.long:.3f} mm at ({hole.x:.3f}, {hole.y:.3f}, "
-        f"{hole.z:.3f}), with "
-        f"{hole.edges} open edges, and the tool sinks into it; close it in the program that it comes from, or keep out "
-        "by a boundary."
+        f"{hole.z:.3f}), with {hole.edges} open edges, and the tool sinks into it; close it in the program that it "
+        "comes from, or keep out by a boundary."
     )
 
 

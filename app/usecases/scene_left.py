@@ -248,17 +248,17 @@ def left_findings(left: Left, origin: Floats, angles: Sequence[float]) -> Iterat
         count = "1 place" if left.places == 1 else f"{left.places} places"
         text = (
             f"{left.area_mm2:.3f} mm2 of metal that the same tool reaches is left in {count}, the worst "
-            f"{left.worst_mm:.3f} mm high "
-            f"and {left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); {_remedy(left, angles)}."
+            f"{left.worst_mm:.3f} mm high and {left.wide_mm:.3f} mm wide at ({x:.3f}, {y:.3f}); "
+            f"{_remedy(left, angles)}."
         )
         yield Finding(FindingKind.LEFT_REACHABLE, text, x, y, amount=left.area_mm2)
     ridge = left.ridge
     if ridge is not None and ridge.height_mm > BENT * ridge.level_mm + left.within_mm:
         text = (
             f"The ridges between passes are up to {ridge.height_mm:.3f} mm high, square to the surface, at "
-            f"({ridge.x + origin[0]:.3f}, "
-            f"{ridge.y + origin[1]:.3f}), where it slopes by {ridge.slope_deg:.0f} degrees; on a level floor they are "
-            f"{ridge.level_mm:.3f} mm; a smaller pitch, or passes across them, leaves less."
+            f"({ridge.x + origin[0]:.3f}, {ridge.y + origin[1]:.3f}), where it slopes by {ridge.slope_deg:.0f} "
+            f"degrees; on a level floor they are {ridge.level_mm:.3f} mm; a smaller pitch, or passes across them, "
+            "leaves less."
         )
         yield Finding(
             FindingKind.RIDGE,

@@ -162,9 +162,8 @@ def _told(tool: Tool, load: _Load, limit: float) -> Finding:
     what = "goes straight down through" if load.plunges else "takes as much as a slot of its full width through"
     than = f"its flutes are {limit:g} mm long" if tool.flute_length else f"it is {limit:g} mm wide"
     text = (
-        f"T{tool.number} {what} {load.depth:.1f} mm of metal at ({load.x:.3f}, {load.y:.3f}), NC line {load.line}, and "
-        f"{than}; rough "
-        "the part first, or give passes before these stock to leave or a higher floor."
+        f"T{tool.number} {what} {load.depth:.1f} mm of metal at ({load.x:.3f}, {load.y:.3f}), NC line {load.line}, "
+        f"and {than}; rough the part first, or give passes before these stock to leave or a higher floor."
     )
     return Finding(
         FindingKind.ENGAGEMENT, text, load.x, load.y, counts=bool(tool.flute_length), amount=load.depth, line=load.line

@@ -412,8 +412,7 @@ def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wis
         assert wishes.against is not None
         raise InputError(
             f"{wishes.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top "
-            "down "
-            "to the floor, or a job file with operations."
+            "down to the floor, or a job file with operations."
         )
     asked = told or tuple(PocketOperation(Cut(number)) for number in tools)
     return tuple(_with(operation, wishes) for operation in asked)

@@ -285,8 +285,7 @@ class _Work:
         if not self._options.tolerance > 2 * slack:
             raise InputError(
                 f"the tolerance of {self._options.tolerance:g} mm is too near to the last decimal of "
-                f"{self._post.title}, "
-                f"{step:g} mm; use {5 * step:g} mm or more, or a post with more decimals."
+                f"{self._post.title}, {step:g} mm; use {5 * step:g} mm or more, or a post with more decimals."
             )
         if self._options.effective is not None:
             classes = self._options.effective.classes(
@@ -298,9 +297,8 @@ class _Work:
             if not self._tube.radius > slack:
                 raise InputError(
                     f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm "
-                    "off the path by the "
-                    "effective ones, which leaves nothing of the tolerance; use a smaller epsilon, or more than "
-                    f"{slack:.4g} mm."
+                    "off the path by the effective ones, which leaves nothing of the tolerance; use a smaller "
+                    f"epsilon, or more than {slack:.4g} mm."
                 )
         tube = self._tube.narrower(slack)
         form, nurbs = self._options.form, self._post.nurbs.form

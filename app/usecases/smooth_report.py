@@ -32,8 +32,7 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
     return (
         f"{told}, {came} blocks before, {left} after",
         f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
-        "moves "
-        f"{max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
+        f"moves {max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
         f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
         f"curvature step {step[0]:.4g} per mm before, {step[1]:.4g} after",
@@ -69,9 +68,8 @@ def _other_control(done: Smoothed) -> tuple[str, ...]:
     if came == left:
         return ()
     return (
-        f"all of it is written for {left} and read back as {left}; what is not smoothed is within {done.off:.4g} mm of "
-        "the "
-        f"{came} program",
+        f"all of it is written for {left} and read back as {left}; what is not smoothed is within {done.off:.4g} mm "
+        f"of the {came} program",
     )
 
 

@@ -24,13 +24,12 @@ from .surface_nc import WrittenScene
 ENGINE = "cutters over rational Bezier patches and triangles, exact where they touch; every chord proven"
 GOUGE_METHOD = (
     "a bound, not a measurement: for each move of the written text a cutter pared by so much is proven to stay clear "
-    "of every "
-    "surface, all along the move"
+    "of every surface, all along the move"
 )
 LEFT_METHOD = (
     "the written text cut out of the stock, on cells, beside the lowest that the same tools reach: the surfaces' "
-    "heights closed "
-    "by their profiles; ridges of up to twice what the pitch leaves on a plane of that slope are none of it"
+    "heights closed by their profiles; ridges of up to twice what the pitch leaves on a plane of that slope are none "
+    "of it"
 )
 _LENGTHS = {"cut": Purpose.CONTOUR, "link": Purpose.LINK, "plunge": Purpose.PLUNGE, "rapid": Purpose.RAPID}
 _KINDS = {"G0": MotionKind.RAPID, "G1": MotionKind.LINE, "G2": MotionKind.ARC_CW, "G3": MotionKind.ARC_CCW}

@@ -117,8 +117,8 @@ class Written:
         table = "inch" if units is Units.INCH else "mm"
         text = (
             f"The post {self.post.title} writes {decimals} decimals: the path written is up to {far:.3f} mm from the "
-            "computed one, for "
-            f"which gouges and what is left are measured; set more decimals in the post (decimals.{table})."
+            "computed one, for which gouges and what is left are measured; set more decimals in the post "
+            f"(decimals.{table})."
         )
         return (Finding(FindingKind.TOLERANCE, text, amount=far),)
 

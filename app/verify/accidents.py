@@ -120,8 +120,7 @@ def _start(stage: Stage) -> Iterator[Finding]:
         x, y, z = places[first].tolist()
         text = (
             f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in {stage.where(first)}, is "
-            f"{hit.depth:.3f} mm "
-            "deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is."
+            f"{hit.depth:.3f} mm deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is."
         )
         yield stage.told(FindingKind.START_IN_STOCK, text, first, (x, y), hit.depth)
 
@@ -166,8 +165,8 @@ def _sideways_out(stage: Stage) -> Iterator[Finding]:
             x, y, z = place.tolist()
             text = (
                 f"The rapid in {stage.where(row)} sets out sideways from ({x:.3f}, {y:.3f}, {z:.3f}) for a place that "
-                "nobody knows, "
-                f"and the metal there stands {depth:.3f} mm higher than the tool; lift it first, such as by G53 G0 Z0."
+                f"nobody knows, and the metal there stands {depth:.3f} mm higher than the tool; lift it first, such "
+                "as by G53 G0 Z0."
             )
             yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, row, (x, y), depth)
 
@@ -207,8 +206,8 @@ def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
     others = "" if len(rows) == 1 else f", the first of {len(rows)} such motions"
     text = (
         f"{stage.where(row)} cuts at a place that the program has not told{others}: {axes} "
-        f"{'is' if len(axes) == 1 else 'are'} "
-        "not known there, so it is not cut here; go to a place that is told first (G0 X... Y... Z...)."
+        f"{'is' if len(axes) == 1 else 'are'} not known there, so it is not cut here; go to a place that is told "
+        "first (G0 X... Y... Z...)."
     )
     yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(rows)), line=int(motions.line[row]))
 
@@ -221,8 +220,7 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
         aside = "straight down" if each.aside <= ALMOST else f"down, sideways by only {each.aside:.3f} mm,"
         text = (
             f"T{each.tool} goes {aside} into metal at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}, and "
-            "does not cut "
-            "at its centre; ramp in, or use a cutter that does."
+            "does not cut at its centre; ramp in, or use a cutter that does."
         )
         yield stage.told(FindingKind.PLUNGE, text, each.motion, (each.x, each.y), each.depth)
     if len(found) > NAMED:
@@ -246,8 +244,7 @@ def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
         remedy = "slow it down, or ramp in" if each.rate is not None else "see that it may, or slow it down"
         text = (
             f"T{each.tool} goes straight down into metal at {each.feed:.0f} mm/min, {said}: {each.depth:.3f} mm deep "
-            "at "
-            f"({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}{others}; {remedy}."
+            f"at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}{others}; {remedy}."
         )
         found = stage.told(FindingKind.FEED, text, each.motion, (each.x, each.y), each.depth)
         yield replace(found, counts=each.rate is not None)
@@ -261,8 +258,7 @@ def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
             text = (
                 f"The {part.value} of T{contact.tool} goes into metal, {contact.depth:.3f} mm deep at "
                 f"({contact.x:.3f}, {contact.y:.3f}, {contact.z:.3f}), "
-                f"{stage.where(contact.motion)}{_through(contact)}; "
-                f"{_remedy(stage, contact, looked)}"
+                f"{stage.where(contact.motion)}{_through(contact)}; {_remedy(stage, contact, looked)}"
             )
             yield stage.told(kind, text, contact.motion, (contact.x, contact.y), contact.depth)
         if len(contacts) > NAMED:
@@ -275,8 +271,7 @@ def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
     if looked.unseen:
         text = (
             f"{looked.unseen} motions of which it is not sure whether shank or holder meets metal were not looked at "
-            "one by one; "
-            "use fewer cells (--grid), or cut less deep."
+            "one by one; use fewer cells (--grid), or cut less deep."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(looked.unseen))
 
@@ -312,7 +307,7 @@ def _below_table(stage: Stage) -> Iterator[Finding]:
     motions = "A motion goes" if len(below) == 1 else f"{len(below)} motions, the first in {stage.where(first)}, go"
     text = (
         f"{motions} below the stock's underside, Z {floor:.3f}, where the table "
-        f"is{'' if len(below) == 1 else ', the deepest'} "
-        f"{depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; put something under the stock, or cut less deep."
+        f"is{'' if len(below) == 1 else ', the deepest'} {depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; "
+        "put something under the stock, or cut less deep."
     )
     yield stage.told(FindingKind.BELOW_TABLE, text, row, (x, y), depth)

@@ -131,22 +131,20 @@ def _told(judgement: Judgement, where: Callable[[int], str]) -> Iterator[Finding
         line = f", {where(spot.motion)}" if spot.motion >= 0 else ""
         text = (
             f"The part is gouged in {_places(judgement.gouge.count)}, the worst {spot.depth_mm:.4f} mm deep at "
-            f"({spot.x:.3f}, "
-            f"{spot.y:.3f}, {spot.z:.3f}){line}; do not run this program."
+            f"({spot.x:.3f}, {spot.y:.3f}, {spot.z:.3f}){line}; do not run this program."
         )
         yield Finding(FindingKind.GOUGE, text, spot.x, spot.y, amount=spot.depth_mm, line=spot.line)
     for spot in left[:1]:
         text = (
             f"{judgement.reachable_mm2:.3f} mm2 of metal within reach is left in "
-            f"{_places(judgement.counts[SpotKind.LEFT])}, the worst "
-            f"{spot.depth_mm:.3f} mm high and {spot.disc_mm:.3f} mm wide at ({spot.x:.3f}, {spot.y:.3f})."
+            f"{_places(judgement.counts[SpotKind.LEFT])}, the worst {spot.depth_mm:.3f} mm high and "
+            f"{spot.disc_mm:.3f} mm wide at ({spot.x:.3f}, {spot.y:.3f})."
         )
         yield Finding(FindingKind.LEFT_REACHABLE, text, spot.x, spot.y, amount=judgement.reachable_mm2, line=spot.line)
     if judgement.skin_mm2:
         text = (
             f"{judgement.skin_mm2:.3f} mm2 of metal is left along the walls, the skin that paths made from pixels "
-            "leave so as not to "
-            "cut into them; a larger bitmap leaves less."
+            "leave so as not to cut into them; a larger bitmap leaves less."
         )
         yield Finding(FindingKind.SKIN, text, counts=False, amount=judgement.skin_mm2)
     for spot in beyond[:1]:

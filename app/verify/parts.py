@@ -129,7 +129,6 @@ def beyond(part: Part, stock: StockBox) -> Iterator[Finding]:
     if far > part.tolerance:
         text = (
             f"The part reaches {far:.3f} mm beyond the stock towards {side}, and there nothing can be judged; check "
-            "the stock, and "
-            "where the part's zero lies (its origin and units)."
+            "the stock, and where the part's zero lies (its origin and units)."
         )
         yield Finding(FindingKind.BEYOND_STOCK, text, amount=far)

@@ -158,8 +158,8 @@ def unseen_walls(part: SolidPart, pitch: float) -> Iterator[Finding]:
     if apart > pitch / 2:
         text = (
             f"The walls of the solid are so long that they were asked every {apart:.3f} mm only, not every "
-            f"{pitch / 2:.3f} mm; gouges "
-            "narrower than that may be unseen beside the cells; look at a part of it (--window)."
+            f"{pitch / 2:.3f} mm; gouges narrower than that may be unseen beside the cells; look at a part of it "
+            "(--window)."
         )
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=apart)
 

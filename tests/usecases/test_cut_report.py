@@ -70,8 +70,7 @@ def test_a_program_that_misses_the_stock_is_told() -> None:
     made = report("G0 Z5\nX110 Y10\nG1 Z-1 F300\nX130\n")
     assert (
         "nothing was removed: the motions at feed rate reach X 110.000 to 130.000, Y 10.000 to 10.000, Z -1.000 to "
-        "5.000 mm, "
-        "and the stock X 0.000 to 60.000, Y 0.000 to 40.000, Z -10.000 to 0.000 mm"
+        "5.000 mm, and the stock X 0.000 to 60.000, Y 0.000 to 40.000, Z -10.000 to 0.000 mm"
     ) in made.summary()
     assert "nothing was removed" not in report("G0 Z5\nX10 Y10\nG1 Z-1 F300\n").summary()
 

@@ -159,8 +159,7 @@ def _lines(examined: Examined) -> list[str]:
     lines.insert(
         0,
         f"{examined.name}: {what} as {CONTROLS[report['control']]} reads it; {sum(report['moves'].values())} motions "
-        "in "
-        f"{report['lines']} lines, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
+        f"in {report['lines']} lines, {length['cut']:.1f} mm cut, {length['rapid']:.1f} mm rapid",
     )
     for title, box in (("cuts", examined.cut_box), ("all", examined.box)):
         sides = (
@@ -171,8 +170,7 @@ def _lines(examined: Examined) -> list[str]:
         lines.append(f"  {title}: {', '.join(sides) or 'nothing'} mm")
     lines.append(
         f"  time: {_clock(report['time_s'])} min (cut {_clock(parts['cut'])}, rapid {_clock(parts['rapid'])}, dwells "
-        "and "
-        f"tool changes {_clock(parts['wait'])}), machine: {examined.machine.title}"
+        f"and tool changes {_clock(parts['wait'])}), machine: {examined.machine.title}"
     )
     lines += [f"  {_tool_words(tool)}: {_clock(tool['time_s'])} min" for tool in report["tools"]]
     return lines

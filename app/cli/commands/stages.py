@@ -176,14 +176,12 @@ def _lines(run: StagesRun, folder: Path) -> list[str]:
     wrong = run.wrong_pixels
     lines = [
         f"{folder}: {len(run.last)} steps on {frame.cols} x {frame.rows} px of {frame.pitch:.4g} mm; paths along the "
-        "walls up to "
-        f"{given_up.most_mm:.3f} mm farther from them than asked ({given_up.mean_mm:.3f} mm in the mean)"
+        f"walls up to {given_up.most_mm:.3f} mm farther from them than asked ({given_up.mean_mm:.3f} mm in the mean)"
     ]
     if not run.all_turns:
         lines.append(
             f"  - {TURNS}/ is left out: the planes of all times would be more than {MOST_TURNS_PX / 1e9:.1f} billion "
-            "pixels; "
-            "a smaller bitmap has them"
+            "pixels; a smaller bitmap has them"
         )
     if run.variant is Variant.PUBLISHED:
         lines.append(f"  - the fill as published is wrong in {wrong} pixels" + ("" if wrong else " here"))

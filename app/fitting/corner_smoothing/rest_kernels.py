@@ -160,8 +160,7 @@ def _put_biarc(points, period, between, made, count):
 
 @kernel(
     "int64(float64[:, ::1], Tuple((int64[::1], float64[:, ::1], float64[:, ::1], float64[:, :, ::1], int64[:, ::1])), "
-    "boolean[::1], "
-    "Tuple((int64[::1], float64[:, ::1], float64[:, ::1])), Tuple((int64[::1], boolean[::1])))"
+    "boolean[::1], Tuple((int64[::1], float64[:, ::1], float64[:, ::1])), Tuple((int64[::1], boolean[::1])))"
 )
 def smoothed(points, path, bent, made, told):
     """Write a closed path with biarcs round its bends; return how many rows it has, 0 where there is no biarc

@@ -179,8 +179,7 @@ def _extend(counts, directions, before, source, at, chord, least, most, bend):  
 
 @kernel(
     f"boolean({_SAMPLES}, int64[::1], {_STATES}, float64[::1], int64, int64, float64, float64, {_COUNTS}, "
-    f"{_DIRECTIONS}, {_ENTRIES}, "
-    "int64[::1])"
+    f"{_DIRECTIONS}, {_ENTRIES}, int64[::1])"
 )
 def _reach(samples, at, states, aside, i, j, longest, limit, counts, directions, before, hardest):  # type: ignore[no-untyped-def]
     """Extend all paths to state i by a piece to state j, an arc where no chord is too long; tell whether the points

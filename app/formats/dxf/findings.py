@@ -41,8 +41,7 @@ def about_negative(sheet: Sheet, size: float) -> Iterator[Finding]:
         )
         text = (
             f"{what} missing from the part{'' if count == 1 else ', the first'}: {radius:g} mm round ({x:.3f}, "
-            f"{y:.3f}) "
-            f"on layer {first.layer}; draw it again."
+            f"{y:.3f}) on layer {first.layer}; draw it again."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 

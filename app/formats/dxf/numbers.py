@@ -67,9 +67,8 @@ def with_points(data: bytes, name: str) -> Commas:
         points |= b"." in value
     if doubtful and points and all(_THOUSANDS.match(lines[k]) for k in commas):
         raise InputError(
-            f"{name}:{doubtful}: the value {_shown(lines[doubtful - 1])} has a comma and others have points, so it may "
-            "be "
-            "thousands or a fraction; save the drawing again with points as decimal signs."
+            f"{name}:{doubtful}: the value {_shown(lines[doubtful - 1])} has a comma and others have points, so it "
+            "may be thousands or a fraction; save the drawing again with points as decimal signs."
         )
     if not commas:
         return Commas(data)

@@ -253,9 +253,8 @@ def _units(given: Units | None, page: _Page, density: Density, how: ReadOptions)
             f", and --px-per-inch {CSS_PER_INCH:g} if it was saved by another editor since" if density.editor else ""
         )
         text = (
-            f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 mm "
-            "or 1 inch, "
-            f"choose --units, or on opening{other}."
+            f"The drawing has no real size; {who}{density.per_inch:g} units to the inch are assumed. If a unit is 1 "
+            f"mm or 1 inch, choose --units, or on opening{other}."
         )
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 

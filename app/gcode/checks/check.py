@@ -37,8 +37,7 @@ NOISE = 1e-9
 
 LEFT_SO = (
     "That is so on a machine that stands elsewhere, or has other modes in force, when the program begins: the program "
-    "has to say "
-    "itself what it needs."
+    "has to say itself what it needs."
 )
 
 
@@ -83,8 +82,7 @@ class Check:
             )
             raise HitofudeError(
                 f"{self.problems[0].told(name)}{more} What was written cannot be proven to be the path that was "
-                "computed, "
-                f"so it is not kept; {mend}."
+                f"computed, so it is not kept; {mend}."
             )
 
 
@@ -205,10 +203,9 @@ def _path_problems(compared: _Compared, far: np.ndarray) -> Iterator[Problem]:
         yield _problem(
             compared.file.nc.lines[move],
             "",
-            f"the written path is {far[move]:.4f} mm from the move to "
-            f"X{compared.meant.end[move, 0]:.4f} Y{compared.meant.end[move, 1]:.4f} "
-            f"Z{compared.meant.end[move, 2]:.4f}, and so "
-            f"in {len(wrong)} moves; {compared.tolerance:g} mm are allowed.",
+            f"the written path is {far[move]:.4f} mm from the move to X{compared.meant.end[move, 0]:.4f} "
+            f"Y{compared.meant.end[move, 1]:.4f} Z{compared.meant.end[move, 2]:.4f}, and so in {len(wrong)} moves; "
+            f"{compared.tolerance:g} mm are allowed.",
         )
 
 

@@ -51,7 +51,6 @@ def _warn_of_units(control: Control, block: Block, value: float) -> None:
         before, after = ("mm", "in") if said is Units.INCH else ("in", "mm")
         control.warn(
             f"F{value:g} stands in the block that changes the units, so LinuxCNC takes it as {value:g} {before}, not "
-            f"{after}, a "
-            "minute; write it in the next block.",
+            f"{after}, a minute; write it in the next block.",
             "f",
         )

@@ -219,8 +219,7 @@ class Flow:
         if found is None:
             raise Fault(
                 f"there is no subroutine O{statement.label} in this file; a file of its own beside the program is not "
-                "read, so put "
-                "it into this one."
+                "read, so put it into this one."
             )
         if found.keyword != "sub":
             raise Fault(

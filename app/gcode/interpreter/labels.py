@@ -34,8 +34,7 @@ class Labels:
         if first.at.line != statement.at.line:
             raise Fault(
                 f"O{statement.label} is the label of what begins in line {first.at.line} already; LinuxCNC takes each "
-                "once, so use "
-                "another."
+                "once, so use another."
             )
 
     def begin_do(self, statement: Statement, where: str) -> None:
@@ -52,8 +51,7 @@ class Labels:
         if first is not begin and first.at.line != begin.at.line:
             raise Fault(
                 f"O{begin.label} is the label of what begins in line {first.at.line} already, so this while in line "
-                f"{line} belongs "
-                "to that; use another."
+                f"{line} belongs to that; use another."
             )
 
     def need_if(self, statement: Statement, where: str) -> None:
@@ -86,8 +84,7 @@ class Labels:
         if statement.label in self._met:
             raise Fault(
                 f"the program comes to the subroutine O{statement.label} again; it must stand before its first call, "
-                "and in "
-                "nothing that is repeated."
+                "and in nothing that is repeated."
             )
         self._met.add(statement.label)
         if inner is not None:

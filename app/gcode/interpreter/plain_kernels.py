@@ -178,8 +178,7 @@ def _write(columns, row, start, end, centre, feed, numbers):
 
 @kernel(
     "Tuple((int64, int64, int64, int64, float64))(Array(uint8, 1, 'C', True), UniTuple(float64, 3), UniTuple(int64, "
-    "11), "
-    f"Tuple((float64[::1], float64[::1], int64[::1])), {_COLUMNS})"
+    f"11), Tuple((float64[::1], float64[::1], int64[::1])), {_COLUMNS})"
 )
 def run_plain(data, factors, modes, places, columns):
     """Do plain lines until one is not plain, the text ends or enough are done; return (offset, line, count, motion,

@@ -231,8 +231,7 @@ class OpenFanucNurbs:
         if not self.complete or count < order:
             raise Fault(
                 f"the spline of order {order} has {count} control points and {len(self._knots)} knots; expected "
-                f"{order} points "
-                f"or more, and {order} knots more than points."
+                f"{order} points or more, and {order} knots more than points."
             )
         knots = np.array(self._knots)
         if knots[0] != knots[order - 1] or knots[-1] != knots[count]:

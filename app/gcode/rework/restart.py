@@ -199,8 +199,7 @@ def _check(
     if row is not None:
         raise InputError(
             f"A restart from line {line} would not move as the program does at line {int(whole.motions.line[row])}: "
-            "that "
-            "block goes on with words of a line before the restart; start at a line that says them itself."
+            "that block goes on with words of a line before the restart; start at a line that says them itself."
         )
 
 

@@ -121,8 +121,7 @@ def _check_zeros(control: Control, other: Control, line: int) -> None:
     if here or any(_differ(place, others.work.get(name, ZERO)) for name, place in offsets.work.items()):
         raise InputError(
             f"Line {line} stands behind a zero that the program sets from where the tool was when it began (G92, G10 "
-            "L20), "
-            "and where that was it does not say; set the same zero by hand, and start at the line behind it."
+            "L20), and where that was it does not say; set the same zero by hand, and start at the line behind it."
         )
     if dict(control.parameters.values()) != dict(other.parameters.values()):
         raise InputError(
@@ -187,8 +186,7 @@ def _check_begin(control: Control, data: bytes, line: int) -> None:
     if control.stray is not None or control.compensation is not None:
         raise InputError(
             f"Line {line} is under cutter compensation or directly behind it; start before its G41 or G42, or behind "
-            "the "
-            "first move after G40."
+            "the first move after G40."
         )
     if control.modal.constant_surface:
         raise InputError(

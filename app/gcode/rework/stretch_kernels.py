@@ -108,8 +108,7 @@ def _says(text, at, stop, end, shift, unit, feed):  # type: ignore[no-untyped-de
 
 @kernel(
     f"void({_BYTES}, {_INTS}, {_INTS}, float64[:, ::1], {_INTS}, float64[:, ::1], float64[::1], {_FLAGS}, {_FLAGS}, "
-    f"{_FLAGS}, "
-    "int64[:, ::1])"
+    f"{_FLAGS}, int64[:, ::1])"
 )
 def read_moves(text, begins, lines, ends, states, shifts, units, plain, coded, numbered, feeds):  # type: ignore[no-untyped-def]
     """Read the lines of n straight moves.

@@ -166,10 +166,9 @@ class _AxisReach:
                 yield _problem(
                     int(self.line[rows[0]]),
                     self.name,
-                    f"the program goes to {self.name}{values[worst]:.3f}, "
-                    f"{beyond[worst]:.3f} mm beyond the travel of {machine.title}, which ends at {end - origin:g} from "
-                    "the work "
-                    "origin; move the work or the origin.",
+                    f"the program goes to {self.name}{values[worst]:.3f}, {beyond[worst]:.3f} mm beyond the travel of "
+                    f"{machine.title}, which ends at {end - origin:g} from the work origin; move the work or the "
+                    "origin.",
                 )
 
 
@@ -199,8 +198,8 @@ def _wrong_speeds(program: NcProgram, machine: Machine) -> Iterator[Problem]:
         yield _problem(
             int(program.motions.line[row]),
             "S",
-            f"the spindle is to turn at {state.speed:g} rpm, and that of "
-            f"{machine.title} turns at {machine.spindle.low:g} to {machine.spindle.high:g}.",
+            f"the spindle is to turn at {state.speed:g} rpm, and that of {machine.title} turns at "
+            f"{machine.spindle.low:g} to {machine.spindle.high:g}.",
         )
 
 

@@ -120,8 +120,7 @@ def _bounding_nothing(lines: Sequence[Contour], bounding: set[str]) -> Finding:
     start, end = longest.primitives[0].start, longest.primitives[-1].end
     text = (
         f"Layer {longest.layer} has {len(lines)} lines that bound nothing, the longest {size_of(longest)} at "
-        f"{at(start)}. "
-        f"Complete them, or {_leaving('them', longest.layer, bounding)}."
+        f"{at(start)}. Complete them, or {_leaving('them', longest.layer, bounding)}."
     )
     ids = tuple(dict.fromkeys(number for contour in lines for number in contour.entity_ids))
     return Finding(

@@ -131,8 +131,7 @@ def differing(drawn: Witnessed, made: float, contours: Sequence[Contour], spare:
     who = f"contour that begins at {places}" if len(contours) == 1 else f"contours that begin at {places}{more}"
     text = (
         f"The area of the {who} came out {abs(missing):.4f} mm2 too {'small' if missing > 0 else 'large'}; do not use "
-        "this program, "
-        "move one of the curves by 1 um and compute again."
+        "this program, move one of the curves by 1 um and compute again."
     )
     ids = tuple(dict.fromkeys(number for contour in contours for number in contour.entity_ids))
     return [Finding(FindingKind.AREA, text, x, y, entity_ids=ids, amount=abs(missing))]

@@ -139,8 +139,8 @@ def about_narrow(places: Sequence[Narrow], tool: Tool, distance: float, counts: 
     for place in own[:_TELL]:
         text = (
             f"Region {place.gap.region} has a {'neck' if place.gap.corner is None else 'slot'} at ({place.x:.3f}, "
-            f"{place.y:.3f}), "
-            f"about {place.width:.3f} mm wide; {need}. {place.gap.length:.2f} mm of wall are not reached."
+            f"{place.y:.3f}), about {place.width:.3f} mm wide; {need}. {place.gap.length:.2f} mm of wall are not "
+            "reached."
         )
         findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, place.x, place.y, counts, amount=place.width))
     if len(own) > _TELL:

@@ -123,8 +123,7 @@ def _about_thick(work: _Work) -> list[Finding]:
     width, tool = work.operation.finish_width, work.tool
     text = (
         f"The finish pass of T{tool.number} {tool.label} takes {width:g} mm, more than {100 * _THIN:g} % of the "
-        "cutter's diameter; "
-        "too much for the full depth at once, so it is cut at every depth."
+        "cutter's diameter; too much for the full depth at once, so it is cut at every depth."
     )
     return [Finding(FindingKind.ENGAGEMENT, text, counts=False, amount=width)]
 

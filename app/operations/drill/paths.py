@@ -153,8 +153,7 @@ def _tip(tool: Tool, job: Job, operation: DrillOperation) -> Finding:
     elif tool.kind is ToolKind.DRILL:
         text = (
             f"T{tool.number} tells no tip angle, so its point goes to {deep:.3f} mm, and its full width less deep; "
-            "give the angle, or "
-            "let it go through."
+            "give the angle, or let it go through."
         )
     else:
         text = f"T{tool.number} goes straight down to {deep:.3f} mm."

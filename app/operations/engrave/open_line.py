@@ -139,8 +139,8 @@ def _told(cut_off: list[tuple[float, float, float]], tool: Tool) -> list[Finding
         findings.append(
             Finding(
                 FindingKind.LEFT_OUT,
-                f"Keep-out areas cut {len(more)} more places of lines off, "
-                f"{sum(each[2] for each in more):.3f} mm in all.",
+                f"Keep-out areas cut {len(more)} more places of lines off, {sum(each[2] for each in more):.3f} mm in "
+                "all.",
                 *more[0][:2],
                 amount=sum(each[2] for each in more),
             )

@@ -131,9 +131,8 @@ def deepest(heights, levels, grid, shape, way, least, nodes, bounds):
 
 
 @kernel(
-    "void(float32[::1], int64[:, ::1], UniTuple(float64, 3), float64[:, ::1], float64[:, ::1], int64[::1], int64[::1], "
-    "float64[::1], "
-    "float64[::1], boolean, float64[::1], int64[::1], int64, int64)"
+    "void(float32[::1], int64[:, ::1], UniTuple(float64, 3), float64[:, ::1], float64[:, ::1], int64[::1], "
+    "int64[::1], float64[::1], float64[::1], boolean, float64[::1], int64[::1], int64, int64)"
 )
 def ask(heights, levels, grid, ways, shapes, way, shape, low, least, shared, depth, cell, first, last):
     """Write how deep bodies go into metal, items first … last - 1.

@@ -73,8 +73,7 @@ class SolidStock:
             )
         return (
             f"{name}: {self.turned} of {len(self.triangles)} triangles are wound against the others; the solid is "
-            "closed, so they are "
-            "taken the right way round."
+            "closed, so they are taken the right way round."
         )
 
 

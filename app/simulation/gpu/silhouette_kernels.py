@@ -145,8 +145,7 @@ def facets_at(quads, kinds, at, kind, row, tip, ways, ends, rings, bands, table,
 
 @kernel(
     f"int64({_ROOM}, UniTuple(int64, 2), {_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_TABLE}, {_TABLE}, {_TABLE}, "
-    f"{_TABLE}, "
-    f"boolean, {_VIEW})",
+    f"{_TABLE}, boolean, {_VIEW})",
     counts=False,
 )
 def row_facets(quads, kinds, at, place, start, end, way, joins, rings, bands, table, bearings, wedges, view):
@@ -184,8 +183,7 @@ def row_facets(quads, kinds, at, place, start, end, way, joins, rings, bands, ta
 
 @kernel(
     f"UniTuple(int64, 3)({_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, boolean, "
-    f"{_VIEW}, "
-    "UniTuple(int64, 2), float32[:, :, ::1], uint8[::1])",
+    f"{_VIEW}, UniTuple(int64, 2), float32[:, :, ::1], uint8[::1])",
     counts=False,
 )
 def cutter_facets(start, end, way, joins, rings, bands, table, bearings, wedges, view, begin, quads, kinds):

@@ -246,8 +246,7 @@ def sphere_strip(quads, kinds, at, piece, k, count, place, way, joins, shape, ta
 
 @kernel(
     f"UniTuple(int64, 3)({_TABLE}, {_TABLE}, {_TABLE}, uint8[::1], {_SHAPE}, {_TABLE}, boolean, {_VIEW}, "
-    "UniTuple(int64, 2), "
-    "float32[:, :, ::1], uint8[::1])",
+    "UniTuple(int64, 2), float32[:, :, ::1], uint8[::1])",
     counts=False,
 )
 def ball_facets(start, end, way, joins, shape, table, wedges, view, begin, quads, kinds):

@@ -273,8 +273,7 @@ def cut_lines(
 
 @kernel(
     f"void({_PLACES}, {_PLACES}, {_TABLES}, float64[:, ::1], int32[::1], int32[::1], UniTuple(float64, 3), "
-    "UniTuple(int64, 4), boolean, "
-    f"{_BEFORE}, float32[:, ::1], int32[:, ::1], float64[:, ::1], UniTuple(float64, 2))"
+    f"UniTuple(int64, 4), boolean, {_BEFORE}, float32[:, ::1], int32[:, ::1], float64[:, ::1], UniTuple(float64, 2))"
 )
 def cut_tile(
     start,

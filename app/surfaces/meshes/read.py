@@ -57,8 +57,7 @@ def stl_triangles(name: str, data: bytes) -> Floats:
         if len(data) > HEADER and np.isfinite(here).all() and (np.abs(here) < _SANE).all():
             raise InputError(
                 f"{name}: this STL file was cut off: it has {len(data):,} bytes of the {whole:,} that its {count:,} "
-                "triangles "
-                "take; copy or export it again."
+                "triangles take; copy or export it again."
             )
         raise _no_stl(name)
     if len(data) < HEADER:
@@ -85,8 +84,7 @@ def _text(name: str, data: bytes) -> Floats:
     if b"endsolid" not in rest[-1000:].lower():
         raise InputError(
             f"{name}: this STL file was cut off after {len(corners):,} triangles, as its end, endsolid, is missing; "
-            "copy or "
-            "export it again."
+            "copy or export it again."
         )
     return corners
 

@@ -236,8 +236,8 @@ def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Seq
         )
     return (
         f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the "
-        "job takes about "
-        f"{_clock(pocket.times.total)} min, with {_named(contour.tool)} alone {_clock(contour.times.total)} min."
+        f"job takes about {_clock(pocket.times.total)} min, with {_named(contour.tool)} alone "
+        f"{_clock(contour.times.total)} min."
     )
 
 

@@ -46,8 +46,7 @@ class Plan:
         if not (self.depth > 0 and self.stepdown > 0 and 0 < self.stepover <= 1 and self.rapid > 0):
             raise ParameterError(
                 f"Depth {self.depth:g} mm, stepdown {self.stepdown:g} mm, stepover {self.stepover:g} of the diameter "
-                "and "
-                f"rapids {self.rapid:g} mm/min must be greater than 0, and the stepover 1 at most."
+                f"and rapids {self.rapid:g} mm/min must be greater than 0, and the stepover 1 at most."
             )
 
     @property

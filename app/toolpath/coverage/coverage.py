@@ -432,9 +432,8 @@ def skin_findings(coverage: Coverage) -> tuple[Finding, ...]:
         return ()
     worst, area = coverage.given_up[0], coverage.given_up_mm2
     text = (
-        f"{area:.3f} mm2 of material is left along the walls, a skin up to about {coverage.given_up_mm:.3f} mm "
-        f"thick that paths made from pixels leave so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would "
-        "fit at "
+        f"{area:.3f} mm2 of material is left along the walls, a skin up to about {coverage.given_up_mm:.3f} mm thick "
+        f"that paths made from pixels leave so as not to cut into them; a disc of {worst.disc_mm:.3f} mm would fit at "
         f"({worst.x:.3f}, {worst.y:.3f}); a larger bitmap leaves less."
     )
     return (Finding(FindingKind.SKIN, text, worst.x, worst.y, counts=False, amount=area),)

@@ -334,8 +334,7 @@ def about_leads(made: Sequence[Run], around: Around) -> list[Finding]:
     ]
     text = (
         f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
-        f"{' and '.join(said)}, "
-        f"because walls and clamps leave no room for more; the first is at ({x:.3f}, {y:.3f})."
+        f"{' and '.join(said)}, because walls and clamps leave no room for more; the first is at ({x:.3f}, {y:.3f})."
     )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(none) + len(other)))]
 
@@ -349,9 +348,7 @@ def about_overlaps(made: Sequence[Run], around: Around) -> list[Finding]:
     x, y = points_at(short[0].path.rows[:1], np.zeros(1))[0]
     text = (
         f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
-        f"{len(short)} "
-        f"{'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the {wanted:g} mm "
-        "asked for; "
-        f"the first is at ({x:.3f}, {y:.3f})."
+        f"{len(short)} {'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the "
+        f"{wanted:g} mm asked for; the first is at ({x:.3f}, {y:.3f})."
     )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(short)))]

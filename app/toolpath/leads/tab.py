@@ -85,8 +85,7 @@ def by_hand(
         x, y = places[k].tolist()
         text = (
             f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} "
-            "nearest to it is "
-            f"{paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm."
+            f"nearest to it is {paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm."
         )
         told.append(Finding(FindingKind.LEFT_OUT, text, x, y, counts=paths[path].area < 0, amount=paths[path].length))
     return found, told
@@ -222,8 +221,7 @@ def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -
             px, py = points[worst].tolist()
             text = (
                 f"The tab by hand at ({px:.3f}, {py:.3f}) is {far[worst]:.1f} mm from the nearest path of "
-                f"T{shape.tool.number} "
-                f"{shape.tool.label}; it goes onto that, if it is long enough. Check its place."
+                f"T{shape.tool.number} {shape.tool.label}; it goes onto that, if it is long enough. Check its place."
             )
             findings.append(Finding(FindingKind.LEFT_OUT, text, px, py, amount=float(far[worst])))
     return findings

@@ -36,8 +36,7 @@ _WAITING, _TURNS, _WORK, _MIRRORED = 2, 3, 4, 5
 _RULES = "Tuple((int64[::1], int64[::1], int64[::1], int64[::1]))"
 _TOUR = (
     f"Tuple((float64[:, ::1], int64[::1], int64[::1], boolean[::1], int64[:, ::1], {_RULES}, int64[::1], int64[:, "
-    "::1], "
-    "int64[::1]))"
+    "::1], int64[::1]))"
 )
 
 

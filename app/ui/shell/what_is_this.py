@@ -45,8 +45,7 @@ LISTENING_MS = 60_000
 PLACES: dict[type[QWidget], tuple[str, str]] = {
     Canvas: (
         "The drawing, or the tool paths. The wheel zooms at the mouse, the middle button moves, F fits. Tools ask "
-        "below what they need; "
-        "points can be clicked or typed.",
+        "below what they need; points can be clicked or typed.",
         LANGUAGE,
     ),
     ToolStrip: (

@@ -106,8 +106,7 @@ class TimePlot(QWidget):
         waits = "waits, " if seconds < timeline.begins[row] or seconds > timeline.ends[row] else ""
         return (
             f"{exact_clock(seconds)} · {waits}line {timeline.line[row]} · T{timeline.tool[row]} · cut {section:.3f} "
-            "mm² · "
-            f"{grouped(timeline.removed_at(moment), 1)} mm³ removed"
+            f"mm² · {grouped(timeline.removed_at(moment), 1)} mm³ removed"
         )
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)

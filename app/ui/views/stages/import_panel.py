@@ -283,8 +283,8 @@ class ImportPanel(QWidget):
         if measure.apart is not None:
             self.apart.show_value(measure.apart)
         self.about.setText(
-            f"{grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px, "
-            f"{grouped(frame.cols * frame.pitch, 1)} {TIMES} {grouped(frame.rows * frame.pitch, 1)} mm"
+            f"{grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px, {grouped(frame.cols * frame.pitch, 1)} "
+            f"{TIMES} {grouped(frame.rows * frame.pitch, 1)} mm"
         )
         self.told.setText(self._words(reading))
 

@@ -104,8 +104,7 @@ def _check(part: BitmapPart, picture: bool) -> None:
     if frame.rows * frame.cols > MOST_PX:
         raise ParameterError(
             f"The bitmap has {frame.cols} x {frame.rows} px; up to {MOST_PX / 1e6:.1f} million are shown stage by "
-            "stage, "
-            "so use a larger pitch, or a smaller picture."
+            "stage, so use a larger pitch, or a smaller picture."
         )
     frame.ask_memory(STAGES_BYTES, picture)
 
