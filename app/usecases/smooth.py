@@ -150,7 +150,7 @@ class Smoothed:
         options: what was asked.
         source: the program as its own control reads it.
         before, after: the same in the words that it is written in, before and after smoothing, both as the control of
-        those reads them.
+            those reads them.
         data: the new text.
         pieces: every stretch, in the order of the text.
         found: stretches, and what is in none.

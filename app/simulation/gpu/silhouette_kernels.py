@@ -195,7 +195,8 @@ def cutter_facets(start, end, way, joins, rings, bands, table, bearings, wedges,
         rings: (rows + 1, 2) radius and height over the tip of each ring; the first has radius 0 where there is no disc.
         bands: (rows, 2) outward normals, of any length, along the radius and Z.
         table, bearings: (count, 2) cosine and sine of the corners of a ring, and of the middles between them; an even
-        number. quads, kinds: room for at least 4 times `count`.
+            number.
+        quads, kinds: room for at least 4 times `count`.
     """
     room, at = len(quads) - 4 * len(table), 0
     piece, row = begin

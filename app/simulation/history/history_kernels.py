@@ -70,7 +70,7 @@ def restore(block, blocks, slots, bounds, kept_heights, kept_owner, base_heights
     Args:
         block: its number; -1: before all.
         blocks, slots: for each kept copy, by square and then by block, behind which block it was taken, and where it
-        lies.
+            lies.
         bounds: (squares + 1,) where each square's copies begin.
         kept_heights, kept_owner: the copies. base_heights, base_owner: the field before all blocks.
         heights, owner: overwritten.

@@ -30,7 +30,7 @@ def ball_height(a, b, c, move):
     """Return the height of a ball's sweep over a cell, NaN where it does not come.
 
     Free: z = z0 + s a - sqrt((1 + s²)(r² - c²)), where a sphere's end does not come first; there r² - c² - a² is under
-        the root.
+    the root.
 
     Args:
         a, b, c: place of the cell.

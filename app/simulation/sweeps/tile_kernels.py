@@ -304,7 +304,7 @@ def cut_tile(
         box: first row and column of the tile, its rows and columns.
         turned: whether its lines run along Y.
         before, after: heights of the whole grid. owners: motion that cut each cell last, -1 = none; no rows: not
-        wanted.
+            wanted.
         told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, its cell
             as row * columns + column, and the height that is reached there.
         limits: floor, and the depth from which a piece that only asks is told of, mm.

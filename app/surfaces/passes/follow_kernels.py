@@ -56,7 +56,8 @@ _SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
 """Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's
 length at most,
 or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end there again, for
-ever."""
+ever.
+"""
 _SLOW, _FEW = 16, 4
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
 _CLOSE = 0.02

@@ -60,7 +60,7 @@ def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
 
     Args:
         heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) slope at walls, where smooth tells its
-        direction, else 0.
+            direction, else 0.
         light: (n, m) share of the light that reaches a cell, 255 = all.
         pitch: mm. gain, limit: see above. out: (n, m) x, y, light, 255, from the lowest byte up.
     """

@@ -35,8 +35,7 @@ class NcControl(QObject):
 
     Signals:
         changed(): another program, or none, is shown. failed(sentence). cut_wanted(Shown | None): the cut of another
-        program
-            than the job's shall be shown; None = the job's.
+            program than the job's shall be shown; None = the job's.
     """
 
     changed = Signal()
