@@ -39,8 +39,7 @@ def in_space(points: np.ndarray) -> np.ndarray:
 
 def in_tube(path: Smoothed, points: np.ndarray, tube: Tube) -> bool:
     """Whether the judge finds a closed path to go round with closed points (n, 2): from that at which it says that it
-    starts,
-    or from that nearest to its start of those about there; a circle may start anywhere.
+    starts, or from that nearest to its start of those about there; a circle may start anywhere.
     """
     near = np.arange(len(points)) if len(path.rows) == 1 else (path.ends[0] + np.arange(-20, 21)) % len(points)
     nearest = near[np.argmin(np.hypot(*(points[near] - path.rows[0, :2]).T))]

@@ -10,16 +10,16 @@ from ...core.jit import kernel
 
 SERVO_PERIOD = 1e-3
 """s, in which an axis may change its velocity at a corner by acceleration x period; only the part of the speed that
-goes on in the
-new direction is carried, so a right corner stops."""
+goes on in the new direction is carried, so a right corner stops.
+"""
 FINE = 0.2
 """Largest tangent of half a corner's turn, 23 degrees in all, with which short lines count as standing for a curve."""
 FAST = 6.0
 """Where the curve would allow more than so many times the speed there is, it is as good as straight."""
 BETWEEN = 0.52
 """By how much a corner of a curve is slower, in tangents of half its turn: between two corners the speed rises, and the
-whole must
-not be faster than the curve."""
+whole must not be faster than the curve.
+"""
 
 
 @kernel("float64(float64[:, :, ::1], int64, float64[::1])")
