@@ -90,6 +90,7 @@ def silhouette(quads, kinds, at, kind, row, axis, rings, bands, table, bearings,
     count = len(table)
     for k in range(count):
         mine = heads(row, k, u, bands, bearings)
+        # one of two neighbours bounds the end and the other the start: the edge between them is in the silhouette
         if heads(row + 1, k, u, bands, bearings) != mine and rings[row, 0] > 0.0:
             after = k + 1 if k + 1 < count else 0
             at = swept(
@@ -138,6 +139,7 @@ def facets_at(quads, kinds, at, kind, row, tip, ways, ends, rings, bands, table,
     for k in range(len(table)):
         behind = heads(row, k, ways[0], bands, bearings) if comes else True
         ahead = heads(row, k, ways[1], bands, bearings) if goes else False
+        # a facet that bounds at both moves or at neither is inside what the tubes sweep
         if behind != ahead:
             at = facet(quads, kinds, at, kind, (row, k), tip, rings, table, view)
     return at
