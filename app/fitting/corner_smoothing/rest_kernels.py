@@ -12,9 +12,6 @@ from ...core.jit import kernel
 from ...geometry.arcs.biarc_kernels import ARC, NONE, from_tangent, meeting
 from .moment_kernels import add_up, fit_circle
 
-LEAST_STEPS = 4
-"""An arc of fewer steps has no place for two."""
-
 WINDOW = 4
 """An arc's length in windows: so far to either side of a bend its points tell the curve's place and direction there."""
 
