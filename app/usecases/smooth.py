@@ -318,10 +318,12 @@ class _Work:
                     "off the path by the effective ones, which leaves nothing of the tolerance; use a smaller "
                     f"epsilon, or more than {slack + spent:.4g} mm."
                 )
-            near_by = self._near(self._options.effective.nearness_for(self._step), slack)
-            tube, fine = near_by.narrower(_FINE * near_by.radius), _FINE * near_by.radius
-            at = corners(points, self._options.corner, _REACH * self._tube.widest)
-            points = through_points(points, at, fine, self._tube.widest - slack - spent - tube.radius)
+            tube = self._near(self._options.effective, slack, self._tube.widest - slack - spent)
+            if self._options.effective.on_shape:
+                fine = _FINE * tube.radius
+                tube = Tube(tube.radius - fine)
+                at = corners(points, self._options.corner, _REACH * self._tube.widest)
+                points = through_points(points, at, fine, self._tube.widest - slack - spent - tube.radius)
         else:
             tube = self._tube.narrower(slack)
         nurbs = self._post.nurbs.form
@@ -346,14 +348,15 @@ class _Work:
         )
         return fit_splines(points, splines, progress)
 
-    def _near(self, nearness: float, slack: float) -> Tube:
-        """Return the region round the splines through the points that method D goes by."""
+    def _near(self, method: EffectiveMethod, slack: float, between: float) -> Tube:
+        """Return the region round the points that method D goes by: near to them, as wide as may be between them."""
+        nearness = method.nearness_for(self._step)
         if not nearness > slack:
             raise InputError(
                 f"a nearness of {nearness:g} mm is too near to the last decimal of {self._post.title}; use more than "
                 f"{slack:g} mm, or a post with more decimals."
             )
-        return Tube(nearness - slack)
+        return Tube(min(nearness - slack, between), between)
 
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
         """Return what each stretch that was written anew has become, and the judge's answer."""

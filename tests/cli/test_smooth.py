@@ -165,7 +165,7 @@ def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, caps
         (["--epsilon", "0.01"], "--method"),
         (["--method", "effective-points"], "--epsilon"),
         (["--nearness", "0.001"], "--method effective-points"),
-        (["--method", "effective-points", "--epsilon", "0.01", "--nearness", "0.0001"], "last decimal"),
+        (["--method", "effective-points", "--epsilon", "0.002", "--nearness", "0.0001"], "last decimal"),
         (["--method", "effective-points", "--epsilon", "0.01", "--before", "2"], "--embodiment 2"),
         (["--region", "cone"], "no region"),
         (["--corner", "200"], "180"),

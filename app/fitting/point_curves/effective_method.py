@@ -65,6 +65,13 @@ class EffectiveMethod:
         if self.nearness is not None and not self.nearness > 0:
             raise ParameterError(f"a nearness of {self.nearness:g} mm; use more than 0.")
 
+    @property
+    def on_shape(self) -> bool:
+        """Whether all points that the curve goes by are meant to lie on the true shape, or on one curve: then a spline
+        through them is nearer to it than chords are.
+        """
+        return self.choose.ends is Ends.OUTER or self.correct is not None
+
     def nearness_for(self, digit: float) -> float:
         """Return how far from its points the curve may be, mm.
 
