@@ -181,11 +181,40 @@ def nearest(rows, order, nodes, x, y, limit):
     return best, row
 
 
+@kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
+def nearest_of_few(rows, x, y):
+    """Return (distance, row) of the row nearest to a point, without a tree."""
+    best, row = INF, -1
+    for j in range(len(rows)):
+        d = point_distance(rows, j, x, y)
+        if d < best:
+            best, row = d, j
+    return best, row
+
+
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64[::1], int64[::1])")
 def nearest_many(rows, order, nodes, points, limit, distances, found):
     """Write the distance and the row nearest to each point (m, 2)."""
     for k in range(len(points)):
         distances[k], found[k] = nearest(rows, order, nodes, points[k, 0], points[k, 1], limit)
+
+
+@kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], float64, float64)")
+def stays_clear(rows, order, nodes, way, distance, level):
+    """Return whether the straight way x0, y0, x1, y1 stays at least `distance` - `level` / 2 from all rows, mm.
+
+    Distance changes by no more than the length gone, so a step of (measured - needed) passes no wall unseen; steps are
+    `level` at least.
+    """
+    ahead_x, ahead_y = way[2] - way[0], way[3] - way[1]
+    length, at = math.hypot(ahead_x, ahead_y), 0.0
+    while at < length:
+        x, y = way[0] + ahead_x * (at / length), way[1] + ahead_y * (at / length)
+        spare = nearest(rows, order, nodes, x, y, INF)[0] - distance
+        if spare < -level / 2:
+            return False
+        at += max(spare, level)
+    return True
 
 
 @kernel("int64(float64[:, ::1], int64, float64, float64)", counts=False)

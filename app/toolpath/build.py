@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, reversed_rows, sweeps
+from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, point_on, reversed_rows, sweeps
 from ..model.moves import MoveKind, Moves, Purpose
 
 _SAME_CENTRE = 1e-6  # mm
@@ -246,12 +246,7 @@ def merged(stroke: Stroke) -> Stroke:
 def split_row(row: Rows, fraction: float) -> tuple[Rows, Rows]:
     """Return the parts of a row (8,) before and after a fraction in (0, 1) of its length."""
     first, second = row.copy(), row.copy()
-    if row[TURN] == 0:
-        point = row[:2] + fraction * (row[2:4] - row[:2])
-    else:
-        angle = math.atan2(row[Y0] - row[CY], row[X0] - row[CX]) + fraction * float(sweeps(row[None])[0])
-        point = row[[CX, CY]] + row[R] * np.array([math.cos(angle), math.sin(angle)])
-    first[2:4] = second[:2] = point
+    first[2:4] = second[:2] = point_on(row.tolist(), fraction)
     return first, second
 
 

@@ -21,7 +21,7 @@ from ...geometry.primitives import Rows, lengths, reversed_rows
 from ...model.moves import Purpose
 from ...model.operation import Direction
 from ..build import Stroke
-from .bridge import Bridge, RingField, is_clear
+from .bridge import Bridge, is_clear, nearest_on
 from .rows import Place, joined, point_at, point_of, position, span, straight
 from .runs import Trip
 from .slant import left_out, room_beside
@@ -138,7 +138,8 @@ class Walk:
         """
         here, there, length = edge
         ring, start = self._walked.rings[entry.ring].rows, point_of(self._walked.rings[entry.ring].rows, entry)
-        away, place, end = RingField.of([self._walked.rings[there.ring]], there.ring).nearest(start)
+        away, place = nearest_on(self._walked.rings[there.ring], there.ring, start)
+        end = point_of(self._walked.rings[there.ring].rows, place)
         count = len(ring)
         gone = span(ring, *sorted((position(entry, count, True), position(here, count, True))))
         other = span(
