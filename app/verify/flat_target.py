@@ -47,6 +47,8 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
         mine = cells.within(each.floor)
         wanted[mine if each.whole or not pockets else cells.within(each.wanted)] = floor
         within = cells.within(each.reach, -slack)
+        if each.out_of_reach is not None:
+            within &= ~cells.within(each.out_of_reach, slack)
         high[within if each.wanted is each.reach else cells.within(each.wanted, -slack)] = floor
         high[cells.within(each.beyond, -slack)] = floor
         reach[mine] = False  # what a tool reaches that does not go as deep is no reach here

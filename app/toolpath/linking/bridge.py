@@ -211,8 +211,8 @@ def _crossed(
         there[at[off > tolerances.LEVEL]] = False
         found.append((level, target, at, rows, parts.tolist()))
     crossed: dict[int, list[tuple[float, Place]]] = {k: [] for k in np.flatnonzero(there).tolist()}
-    for level, target, at, rows, parts in found:
-        for one, row, part in zip(at.tolist(), rows.tolist(), parts, strict=True):
+    for level, target, asked, row_of, part_of in found:
+        for one, row, part in zip(asked.tolist(), row_of.tolist(), part_of, strict=True):
             if there[one]:
                 crossed[one].append((level, target.place(row, part)))
     return np.flatnonzero(there), list(crossed.values())
