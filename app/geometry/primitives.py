@@ -23,6 +23,10 @@ Rows = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _MAX_SWEEP = 0.75 * math.pi
+
+_FEW = 8
+"""Rows that are measured quicker one by one."""
+
 X0, Y0, X1, Y1, CX, CY, R, TURN = range(8)
 
 
@@ -184,6 +188,17 @@ def lengths(rows: Rows) -> NDArray[np.float64]:
     """Return the length of each row, mm."""
     chord = np.hypot(rows[:, X1] - rows[:, X0], rows[:, Y1] - rows[:, Y0])
     return np.where(rows[:, TURN] == 0, chord, np.abs(sweeps(rows)) * rows[:, R])
+
+
+def path_length(rows: Rows) -> float:
+    """Return the length of a path, mm."""
+    if len(rows) > _FEW:
+        return float(lengths(rows).sum())
+    each = (
+        math.hypot(row[X1] - row[X0], row[Y1] - row[Y0]) if row[TURN] == 0 else abs(sweep_of(row)) * row[R]
+        for row in rows.tolist()
+    )
+    return float(sum(each))
 
 
 def signed_area(rows: Rows) -> float:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...core.tolerances import LEVEL
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Ring
-from ...geometry.primitives import Rows, lengths, reversed_rows
+from ...geometry.primitives import Rows, path_length, reversed_rows
 from ...model.moves import Purpose
 from ...model.operation import Direction
 from ..build import Stroke
@@ -147,8 +147,8 @@ class Walk:
             max(position(entry, count, True), position(here, count, True)),
             min(position(entry, count, True), position(here, count, True)) + count,
         )
-        along = min((gone, other), key=lambda rows: float(lengths(rows).sum()))
-        again = float(lengths(along).sum())
+        along = min((gone, other), key=lambda rows: path_length(rows))
+        again = path_length(along)
         if away <= min(again + length, ahead) + LEVEL and is_clear(
             self._walked.walls[0], start, end, self._walked.walls[1]
         ):
