@@ -11,7 +11,7 @@ from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, offset_levels
-from ...geometry.primitives import lengths
+from ...geometry.primitives import path_length
 from ...model.job import Job
 from ...model.operation import Cut, PocketOperation, Side
 from ...model.tool import Tool
@@ -133,7 +133,7 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
             else NOTHING
         )
         strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
-        length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
+        length = sum(path_length(stroke.rows) for stroke in strokes)
         made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
         if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
             best = made
