@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.core.errors import HitofudeError
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from app.ui.shell.views import View
 from app.ui.views.cut import player as player_file
 from app.ui.views.cut.player import Pace
@@ -152,7 +152,7 @@ def test_the_end_of_the_window_is_the_end_of_playing(qtbot, computed, page):
     page.player.go(0)
     settle(qtbot, page)
     page.player.toggle(1)
-    computed.window_.closed.emit()
+    computed.window_.activity.ended.emit()
     assert not page.player.playing
     assert page.player.timeline is None  # what it kept is let go of
     assert page.view.picture is None
