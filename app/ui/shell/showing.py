@@ -249,7 +249,7 @@ class Showing(QObject):
         if self.view is View.SURFACES:
             return views.surfaces.shown is not None
         if self.view is View.CUT:
-            return views.cut.picture is not None or bool(views.cut.sentence.text())
+            return views.cut.model.picture is not None or bool(views.cut.sentence.text())
         return self._computation.made is not None or (
             self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0
         )

@@ -69,7 +69,8 @@ class Cutting(Controller):
         self._shown_foreign: Foreign | None = None
         self._made: object = None
         self.worker, self.foreign_worker = Worker(self), Worker(self)
-        self.zooming = Zooming(self._view, self)
+        self.zooming = Zooming(self._view.model, self._view.painting, self)
+        self.zooming.found.connect(self._view.show_detail)
         self.player = page.player
         self._connect()
 
@@ -200,8 +201,8 @@ class Cutting(Controller):
             return
         if (
             entry.colour is not EntryColour.ACCIDENT
-            and self._view.picture is not None
-            and self._view.picture.deviation is not None
+            and self._view.model.picture is not None
+            and self._view.model.picture.deviation is not None
         ):
             self._view.set_colour(CutColour.DEVIATION)
         theme = self._view.colours.theme

@@ -149,15 +149,15 @@ class Recorder(Controller):
         self._preferences.keep(replace(self._preferences.settings, last_folder=str(target.absolute().parent)))
         plan, view_size = self._sheet.plan, pixel_size(view)
         size = plan.size(view_size)
-        camera, section, paths = view.frame_parts()
-        camera = replace(camera, scale=camera.scale * size[0] / view_size[0])
-        frame = Frame(camera, size, view.painting.look, 0, section, paths)
+        seen = view.model
+        camera = replace(seen.camera, scale=seen.camera.scale * size[0] / view_size[0])
+        frame = Frame(camera, size, view.painting.look, 0, seen.section, seen.looks)
         wanted = Recording(
             shown,
             frame,
             plan,
             self._page.player.pace,
-            view.colours.told,
+            seen.told,
             inks_of(view.colours.theme),
             view.playing.wedges_on,
             target,

@@ -26,7 +26,7 @@ class CutSaving(Controller):
 
     def choose(self) -> None:
         """Ask for a file and write the picture to it."""
-        if self._view.surface is None or not self._view.isVisible():
+        if self._view.painting.surface is None or not self._view.isVisible():
             self.failed.emit(_NO_CUT)
             return
         start = str(self._preferences.last_folder / "cut.png")
