@@ -54,12 +54,13 @@ class DrawingExport(QObject):
 
     def __init__(self, window: MainWindow, log: Log) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self._log = window, log
         self._worker = Worker(window)
         self.choose_file: Callable[[Path], tuple[Path, str] | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(lambda answer: self.failed.emit(f"{answer.error} Nothing was written."))
-        window.closed.connect(lambda: self._worker.finish(10.0))
+        window.activity.ended.connect(lambda: self._worker.finish(10.0))
         window.actions_["export_drawing"].triggered.connect(lambda *_: self.start())
 
     def start(self) -> None:
@@ -68,7 +69,7 @@ class DrawingExport(QObject):
         if not document.part.entities:
             self.failed.emit("Nothing is drawn yet, so there is nothing to export.")
             return
-        folder = Path(self._window.settings.last_folder or Path.home())
+        folder = self._preferences.last_folder
         chosen = self.choose_file(folder / f"{document.path.stem if document.path else document.part.name}.dxf")
         if chosen is not None:
             self._worker.start(partial(_export, document.part, *chosen), document.revision)
