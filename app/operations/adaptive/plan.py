@@ -78,7 +78,7 @@ def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Pa
     Raises:
         Cancelled: by progress.
     """
-    least = max(_TURN * limit.coarser, limit.least_turn)
+    least = least_turn(limit)
     inner = task.leave + limit.radius
     (frame,) = offset_levels(task.walls, [inner + limit.least_turn], progress.part(0.0, 0.1))
     _, turns = sharp_corners(frame.rings, _SHARP)
@@ -107,6 +107,11 @@ class _Area:
     levels: tuple[Level, Level]
     turns: tuple[float, float]
     task: Task
+
+
+def least_turn(limit: Limit) -> float:
+    """Return the least radius of a path round a centre, mm, but for the tips of corners."""
+    return max(_TURN * limit.coarser, limit.least_turn)
 
 
 def _tip(turns: Floats, limit: Limit, least: float) -> float:
@@ -145,10 +150,14 @@ def _part(area: _Area, tree: Tree, limit: Limit, progress: Progress) -> Part:
     way.begin(spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1])))
     for number in range(1, len(discs)):
         way.slice(number)
-    for path in paths:
-        way.ring(path)
+    unproven += [_begin(path) for path in paths if not way.ring(path)]
     region = int(area.task.walls.region[area.room.distances.nearest(np.array([first.centre]))[1][0]])
     return Part(tuple(way.done()), region, tuple(walk.stops), tuple(unproven))
+
+
+def _begin(path: Rows) -> Point:
+    x, y = path[0, :2].tolist()
+    return x, y
 
 
 def _rings(area: _Area, discs: Discs, limit: Limit, progress: Progress) -> tuple[list[Rows], list[Point]]:

@@ -9,8 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.primitives import CX, CY, R, Rows
+from ...geometry.distance import DistanceField
+from ...geometry.primitives import Rows, distances, within_half_turn
 from ...toolpath.build import split_row
+from ...toolpath.linking.bridge import foot, fraction_at
 from .ground import Disc, Discs, Point
 from .limit import Limit
 from .link import Circle, Pose, Row, smooth_way
@@ -102,26 +104,15 @@ class Way:
 
     def _touching(self, path: Rows) -> tuple[int, int, float] | None:
         """Return (disc, row of a ring, fraction of it) where a disc touches the ring; the nearest one."""
-        table = self.discs.table
-        arcs = np.flatnonzero((path[:, R] > 0) & (path[:, 7] > 0))
-        if len(arcs):
-            middle = _middles(path[arcs])
-            for k, place in zip(arcs.tolist(), middle.tolist(), strict=True):
-                away = np.hypot(table[:, 0] - path[k, CX], table[:, 1] - path[k, CY])
-                same = np.abs(table[:, 2] - self.limit.radius - path[k, R]) + away
-                number = int(np.argmin(same))
-                if same[number] < self.limit.slack / 4:
-                    del place
-                    return number, k, 0.5
-        best: tuple[float, int, int, float] | None = None
-        for k, row in enumerate(path):
-            for part in (0.25, 0.5, 0.75):
-                place = split_row(row, part)[0][2:4]
-                depth = table[:, 2] - self.limit.radius - np.hypot(table[:, 0] - place[0], table[:, 1] - place[1])
-                number = int(np.argmax(depth))
-                if best is None or depth[number] > best[0]:
-                    best = float(depth[number]), number, k, part
-        return None if best is None or best[0] < -self.limit.slack else best[1:]
+        rows = within_half_turn(path)
+        away, near = DistanceField.of(rows).nearest(self.discs.table[:, :2])
+        out = np.abs(away - (self.discs.table[:, 2] - self.limit.radius))
+        number = int(np.argmin(out))
+        if out[number] > self.limit.slack / 2:
+            return None
+        place = foot(rows[near[number]][None], self.discs.table[number : number + 1, :2])[0]
+        row = int(np.argmin(distances(path, np.broadcast_to(place, (len(path), 2)))))
+        return number, row, fraction_at(path[row], place)
 
     def _stand(self, place: Point, number: int) -> None:
         disc = self.discs.each[number]
@@ -208,6 +199,3 @@ def _on(centre: Point, radius: float, angle: float) -> Point:
 def _holds(circle: Circle, place: Point) -> bool:
     return math.dist(circle[:2], place) <= circle[2]
 
-
-def _middles(rows: Rows) -> Floats:
-    return np.array([split_row(row, 0.5)[0][2:4] for row in rows])
