@@ -81,6 +81,10 @@ class Stroke:
         """Return (n,) at which height each row is cut by a pass at z, mm."""
         return np.full(len(self.rows), z) if self.least_z is None else np.maximum(self.least_z, z)
 
+    def begins_at(self, z: float) -> float:
+        """Return at which height its first row is cut by a pass at z, mm."""
+        return z if self.least_z is None else max(float(self.least_z[0]), z)
+
     def part(self, first: int, stop: int) -> Stroke:
         """Return its rows from `first` up to `stop`, which is left out."""
         least_z = None if self.least_z is None else self.least_z[first:stop]
