@@ -204,7 +204,10 @@ class DrawingStates:
 
     def windows(self, folder: Path, ending: str) -> None:
         """Save the pictures of the windows beside: keys, manual, shape language."""
-        keys, manual = KeysWindow(self._window, self._wiring.shortcuts), self._wiring.language.help
+        keys, manual = (
+            KeysWindow(self._window, self._window.actions_, self._wiring.shortcuts),
+            self._wiring.language.help,
+        )
         posts = partial(manual.show_page, "posts")
         for name, show, shown in (
             ("keys", keys.show, keys),

@@ -11,7 +11,7 @@ from app.ui.shell.shortcuts import Shortcuts
 
 @pytest.fixture
 def keys(qtbot, wiring) -> KeysWindow:
-    made = KeysWindow(wiring.window_, wiring.shortcuts)
+    made = KeysWindow(wiring.window_, wiring.window_.actions_, wiring.shortcuts)
     qtbot.addWidget(made)
     made.show()
     return made
@@ -50,7 +50,7 @@ def test_a_new_key_is_recorded_works_and_is_remembered(qtbot, keys: KeysWindow, 
     assert row_of(keys, "fit").text(2) == "Ctrl+M"
     assert wiring.window_.actions_["fit"].toolTip() == "Fit (Ctrl+M)"
     assert load_settings().shortcuts == ("fit=Ctrl+M",)
-    again = Shortcuts(wiring.window_)
+    again = Shortcuts(wiring.window_.actions_, wiring.window_.preferences)
     assert again.is_own("fit")
     assert not again.is_own("new")
 
@@ -95,5 +95,5 @@ def test_damaged_settings_change_no_key(wiring) -> None:
 
     preferences, wrong = wiring.window_.preferences, ("nonsense", "gone=Ctrl+M", "fit=Ctrl+M")
     preferences.settings = replace(preferences.settings, shortcuts=wrong)
-    Shortcuts(wiring.window_)
+    Shortcuts(wiring.window_.actions_, wiring.window_.preferences)
     assert wiring.window_.actions_.key("fit") == "Ctrl+M"
