@@ -15,9 +15,9 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.drafting.document import Document
 from app.model.part import Part
+from app.ui.framework.view import View
 from app.ui.shell.keys_window import KeysWindow
 from app.ui.shell.tour import STEPS
-from app.ui.shell.views import View
 from app.ui.shell.wiring import Wiring
 from app.ui.views.canvas.modes import CanvasTool as T
 

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.core.settings import Settings, load_settings
-from app.ui.shell.actions import MENUS
+from app.ui.shell.actions import menus
 from app.ui.shell.keys_window import FIXED, KeysWindow
 from app.ui.shell.shortcuts import Shortcuts
 
@@ -28,7 +28,7 @@ def press(
 
 
 def test_no_two_actions_have_one_key() -> None:
-    used = [spec.key for _, specs in MENUS for spec in specs if spec.key]
+    used = [spec.key for _, specs in menus() for spec in specs if spec.key]
     assert sorted(used) == sorted(set(used))
 
 

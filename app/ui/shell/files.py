@@ -18,6 +18,7 @@ from ...model.reading import AS_THE_FILE_SAYS, Reading
 from ...usecases.bitmap_options import PICTURES, is_picture
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
+from ..framework.view import View, views
 from ..views.canvas.view import View as CanvasView
 from ..views.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.nc.reading import is_program
@@ -29,7 +30,6 @@ from .opening import Asked, Opened, Opening
 from .rereading import Rereading
 from .saving import Saving
 from .showing import Showing
-from .views import View
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 OPEN_FILTER = (
@@ -230,7 +230,7 @@ class Files(QObject):
 
     def _look(self, look: Look) -> None:
         canvas = self._window.canvas
-        self._showing.show_view(next((view for view in View if view.value == look.shown), View.DRAW))
+        self._showing.show_view(next((view for view in views() if view.value == look.shown), View.DRAW))
         self._window.lay_out_now()
         if look.centre is None:
             canvas.fit()

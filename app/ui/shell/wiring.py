@@ -15,6 +15,7 @@ from ..framework.controller import Controller
 from ..framework.figures import counted
 from ..framework.section import theme_children
 from ..framework.verdict import Level, verdict
+from ..framework.view import View, views
 from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind
 from ..views.canvas.modes import CanvasTool
@@ -58,7 +59,7 @@ from .tour import Landmarks, Tour
 from .translation import Translating
 from .underlaying import Underlaying
 from .unit_choice import UnitChoice
-from .views import View, Views
+from .views import Views
 from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
@@ -181,6 +182,9 @@ class Wiring(QObject):
         self._connect_controller(self.scenes, View.SURFACES)
         self._connect_controller(self.scene_export, View.SURFACES)
         self._connect_controller(self.nc, View.NC)
+        for view, page in self.showing.pages.items():
+            if page.controller is not None:
+                self._connect_controller(page.controller, view)
 
     def _connect_controller(self, controller: Controller, view: View) -> None:
         controller.failed.connect(self._say_error)
@@ -329,7 +333,7 @@ class Wiring(QObject):
         canvas, actions = self.window_.canvas, self.window_.actions_
         self._on("cut_picture", self.cut_saving.choose)
         self._on("record", self.recorder.ask)
-        for view in View:
+        for view in views():
             self._on(view.value, partial(self.showing.show_view, view))
         self._on("fit", lambda: self.window_.views.viewport.fit())
         self._on("zoom_in", lambda: self.window_.views.viewport.zoom_by(1.5))

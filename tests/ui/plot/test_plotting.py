@@ -14,7 +14,7 @@ from PySide6.QtGui import QImage
 
 from app.core.errors import HitofudeError
 from app.formats.plot.page import Paper
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.plot.panel import read_scale
 
 

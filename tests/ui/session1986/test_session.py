@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 
 from app.model.operation import ContourOperation, PocketOperation
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.session1986.questions import Ask
 from tests.ui.conftest import WAIT_MS
 
