@@ -1,8 +1,7 @@
 """Runs commands in a process of its own and tells how much memory the last one took.
 
 Usage: python -m tests.memory_child FIRST.json: a list of commands, each a list of arguments; all but the last are run
-    before, so that what
-libraries take once is not counted.
+before, so that what libraries take once is not counted.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Random parts as bad drawings have them: tiny primitives, tangent and nearly tangent joins, slivers, touching and
-crossing outlines,
-fine polylines, many islands. Closed contours that do not cross, as `nest` wants them."""
+crossing outlines, fine polylines, many islands. Closed contours that do not cross, as `nest` wants them.
+"""
 
 from __future__ import annotations
 

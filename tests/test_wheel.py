@@ -18,7 +18,7 @@ OPEN_AND_CLOSE = """
 import sys
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-import app.ui.shell.start as start
+import hitofude.ui.shell.start as start
 began = start.begin
 def begin(wiring, path):
     began(wiring, path)
@@ -56,6 +56,12 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
         [str(python), "-m", "pip", "--disable-pip-version-check", "-q", "install", str(wheel)], check=True, timeout=600
     )
     return folder / "venv" / "bin"
+
+
+def test_the_wheel_brings_one_package_of_its_own_name(installed: Path) -> None:
+    (site,) = installed.parent.glob("lib/python3*/site-packages")
+    names = {line.partition("/")[0] for line in next(site.glob("hitofude-*.dist-info/RECORD")).read_text().splitlines()}
+    assert {name for name in names if ".dist-info" not in name and name != ".."} == {"hitofude"}
 
 
 def run(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:

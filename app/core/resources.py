@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-_PACKAGE = Path(__file__).resolve().parents[1]
+PACKAGE = __name__.partition(".")[0]
+"""What the whole program is called as a package: `app` in the tree, `hitofude` where it is installed."""
+
+_FOLDER = Path(__file__).resolve().parents[1]
 
 
 def resource(*parts: str) -> Path:
@@ -13,7 +16,7 @@ def resource(*parts: str) -> Path:
     Raises:
         FileNotFoundError: there is no such resource in this installation.
     """
-    for root in (_PACKAGE / "resources", _PACKAGE.parent / "resources"):
+    for root in (_FOLDER / "resources", _FOLDER.parent / "resources"):
         path = root.joinpath(*parts)
         if path.exists():
             return path

@@ -14,8 +14,9 @@ FIT = 4e-7
 
 NOMINAL = LEVEL / 2
 """A tool passes where its radius is greater than half the gap by less than this: as wide as the gap by its name, which
-was drawn with
-the digits that drawings have. Its path is the middle line of the gap, and still measures right to 1 um."""
+was drawn with the digits that drawings have. Its path is the middle line of the gap, and still measures right to 1
+um.
+"""
 
 WELD = 1e-6
 """Ends closer than this are one point; curves shorter than this are no curves (0.01 of an NC digit)."""

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.primitives import CX, TURN, X0, X1, R, Rows
 from ..model.motion import Floats, MotionKind, Motions, Nurbs, Plane
 
 Ints = NDArray[np.int64]
@@ -62,18 +61,6 @@ def arcs_between(places: Floats, half: Floats, plane: NDArray[np.uint8]) -> Moti
     centre[row, axes] = own
     centre[~arc] = np.nan
     return replace(motions, centre=centre, plane=plane, turns=arc.astype(np.int32))
-
-
-def motions_of_rows(rows: Rows) -> Motions:
-    """Return lines and arcs (n, 8), n >= 1, of `app.geometry.primitives` as motions at Z 0; an arc without a chord is a
-    circle.
-    """
-    flat = np.zeros((len(rows), 1))
-    arc = rows[:, TURN] != 0
-    kind = np.where(arc, np.where(rows[:, TURN] > 0, MotionKind.ARC_CCW, MotionKind.ARC_CW), MotionKind.LINE)
-    motions = _motions(np.hstack([rows[:, X0:X1], flat]), np.hstack([rows[:, X1:CX], flat]), kind)
-    centre = np.where(arc[:, None], np.hstack([rows[:, CX:R], flat]), np.nan)
-    return replace(motions, centre=centre, turns=arc.astype(np.int32))
 
 
 def spline_motion(curve: Nurbs) -> Motions:

@@ -15,8 +15,8 @@ MOST_LENGTH = 1e6
 
 Turn = Point2
 """From and to, degrees, counter-clockwise about the axis; up to a full turn. 0 is the upper side of an axis that is not
-upright,
-else the side towards +X."""
+upright, else the side towards +X.
+"""
 
 
 class Keep(Enum):

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 from ..core.errors import ParameterError
 from .curves import Point
@@ -51,21 +49,3 @@ class Underlay:
         dx, dy = self.origin[0] - about[0], self.origin[1] - about[1]
         c, s = math.cos(angle), math.sin(angle)
         return replace(self, origin=(about[0] + c * dx - s * dy, about[1] + s * dx + c * dy), angle=self.angle + angle)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain values by name."""
-        return asdict(self) | {"origin": list(self.origin)}
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> Underlay:
-        """Return the picture that `to_dict` gave.
-
-        Raises:
-            ParameterError: a value is missing, unknown or of another kind.
-        """
-        try:
-            x, y = values["origin"]
-            numbers = {name: float(values[name]) for name in ("mm_per_px", "angle", "opacity")}
-            return cls(path=str(values["path"]), origin=(float(x), float(y)), **numbers)
-        except (KeyError, TypeError, ValueError) as error:
-            raise ParameterError(f"The place of a picture to trace is not understood: {error}.") from error

@@ -69,6 +69,7 @@ def _trace_one(index, seen, start, chain):
         j, i = j + _dv(d), i + _du(d)
         if d == RIGHT_DOWN:
             _note(index, seen, j, i, level)
+        # two directions before the one that led here: the empty side stays on the right (step 202)
         d = _next(index, seen, j, i, 8 * level + (d + 6) % 8)
         if j == r and i == c and d == first:
             break
@@ -95,6 +96,7 @@ def borders(index, seen, starts, chain):
         before, c = 0, end_of_run(index[r], 0, 0)
         while c < index.shape[1]:
             here = int(index[r, c])
+            # between these two pixels the borders of all levels in between pass; each is traced once
             for level in range(before + 1, here + 1):
                 if seen[r, c] >> (level - before - 1) & 1:
                     continue

@@ -24,6 +24,7 @@ def _cross(plane, left, row, u):
         left[row] ^= 1
     elif u < plane.shape[1]:
         c = int(u)
+        # two crossings in one pixel are none for what lies to the right of it
         plane[row, c] = 3 if plane[row, c] == 2 else 2
 
 
@@ -84,6 +85,7 @@ def _quadrant_ends(row, ends):
     cu, cv, r, turn = row[4], row[5], row[6], row[7]
     quarter = math.pi / 2
     start = turn * math.atan2(row[1] - cv, row[0] - cu)
+    # counted along the arc's own sense, so that it lies in [0, 2 pi) for both
     sweep = (turn * math.atan2(row[3] - cv, row[2] - cu) - start) % math.tau
     ends[0, 0], ends[0, 1] = row[0], row[1]
     count = 1
@@ -137,6 +139,7 @@ def scan(plane, words, left):
         for k in range(words.shape[1]):
             if words[j, k] == 0:
                 if inside == 1:
+                    # eight empty pixels inside a contour at a time
                     words[j, k] = 0x0404040404040404
                 continue
             for i in range(8 * k, 8 * k + 8):

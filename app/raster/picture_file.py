@@ -37,7 +37,7 @@ class Density:
 
     Attributes:
         across, down: pixels in a unit along rows and along columns. unit: mm; 0 = only how long a pixel is for its
-        width.
+            width.
     """
 
     across: float

@@ -16,6 +16,7 @@ def end_of_run(row, c, here):
     while c + AT_ONCE <= len(row):
         block, other = row[c : c + AT_ONCE], np.uint16(0)
         for k in range(AT_ONCE):
+            # no early end within a block: without a branch its columns are compared together
             other |= block[k] ^ np.uint16(here)
         if other != 0:
             break

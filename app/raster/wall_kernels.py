@@ -68,6 +68,7 @@ def _cover_piece(touched, flips, circle, a, b):
         return
     first, stop = _grid_lines(a[1], b[1], touched.shape[0])
     crossings = stop - first
+    # through a corner the piece goes from one pixel to the one across, by the sense in which it rises
     lean = math.copysign(CORNER, (b[0] - a[0]) * (b[1] - a[1]))
     for j in range(first, stop):
         u = _u_at(circle, a, b, float(j))
@@ -78,6 +79,7 @@ def _cover_piece(touched, flips, circle, a, b):
         v = _v_at(circle, a, b, float(i))
         _mark(touched, i - 0.5, v - lean)
         _mark(touched, i + 0.5, v + lean)
+    # a piece that crosses no grid line lies within one pixel
     if crossings + stop - first == 0:
         _mark(touched, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
 

@@ -144,7 +144,7 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
 
     Args:
         bound, bound_order, bound_nodes, rule: rows and (base, sign): only points with base + sign * distance from them
-        > 0 count.
+            > 0 count.
         squares: centres (n, 2) of the squares that are looked through.
         sizes: half sides of squares and of cells, mm, and `least`, mm.
         out: room for all cells of all squares.
@@ -193,7 +193,7 @@ def _seen(chunks, i, cells, need, starts, grid, found):
     Args:
         need: how near the row must come to each cell, mm.
         starts, grid: cells are sorted by buckets: first of each bucket (rows, columns + 1), and (x0, y0, bucket's side,
-        largest need).
+            largest need).
     """
     most, side = grid[3], grid[2]
     low_x = min(chunks[i, 0], chunks[i, 2])

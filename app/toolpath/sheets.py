@@ -35,8 +35,8 @@ much.
 
 _ROOM = 4.0
 """Tool diameters round the drawing in which the paths outside of it lie, unless their leads ask for more; beyond is
-nothing that
-concerns them."""
+nothing that concerns them.
+"""
 
 _SPARE = 1.0
 """mm that the frame is farther off than the leads need."""

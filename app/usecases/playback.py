@@ -39,7 +39,7 @@ class PlayFrame:
     Attributes:
         moment: which. row, col: the first cells that differ.
         heights, owner: (h, w) of the cells from there on; (0, 0) where none differs. Owners count through the motions
-        of all programs.
+            of all programs.
         tip: (3,) where the tool's tip is, mm; None: nobody knows.
     """
 

@@ -23,8 +23,8 @@ from ..verify.course import course_of
 
 CELLS, MOST_CELLS = 256, 512
 """Along the longer side of the stock: a slot is many cells wide, or the tool is so fine that its load cannot be told;
-more where passes lie
-close, so that what stays between two of them is some cells wide."""
+more where passes lie close, so that what stays between two of them is some cells wide.
+"""
 
 CELLS_A_PASS = 4
 

@@ -35,7 +35,7 @@ class Sampled:
 
     Attributes:
         mean, most: (columns,) cross-section of the cut, mm²: metal taken by length gone, in the mean and of the motion
-        with the most.
+            with the most.
         removed: (columns + 1,) metal taken so far at the columns' borders, mm³.
     """
 

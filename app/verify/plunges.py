@@ -49,7 +49,7 @@ class Plunge:
     Attributes:
         motion: row of the first one that goes into metal. tool: T number.
         x, y: where they end, mm. depth: of the metal over that, mm. aside: radius that the axis keeps within in the
-        metal, mm.
+            metal, mm.
     """
 
     motion: int

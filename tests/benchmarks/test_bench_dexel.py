@@ -1,6 +1,6 @@
 """Cutting three finishing programs into 1024 x 1024 cells, side by side with a plain trim: one thread, all cells of
-each
-move's box, branches, float64. The programs are zigzags over a curved die, 100 mm square, by ball cutters."""
+each move's box, branches, float64. The programs are zigzags over a curved die, 100 mm square, by ball cutters.
+"""
 
 import numpy as np
 import pytest

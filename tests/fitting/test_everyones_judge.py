@@ -12,12 +12,13 @@ import shapely
 
 from app.fitting.corner_smoothing.smooth import SmoothOptions, smooth
 from app.fitting.corner_smoothing.smoothed import Smoothed
-from app.fitting.fitted import motions_of_rows
+from app.fitting.fitted import lines_between
 from app.fitting.point_curves.space_curve import SpaceCurve, curve_of_motions
 from app.fitting.point_curves.tube import Answer, Tube, judge
 from app.geometry.offset.offset import offset_levels
-from app.geometry.primitives import Rows, contour_rows, lengths, pack
+from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, contour_rows, lengths, pack
 from app.geometry.region import nest
+from app.model.motion import MotionKind, Plane
 from app.model.part import Contour
 from app.raster.frame import Frame
 from tests.fitting.paths import sampled, traces
@@ -30,7 +31,19 @@ CHORD = 1e-4
 
 
 def curve_of_rows(rows: Rows) -> SpaceCurve:
-    return curve_of_motions(motions_of_rows(rows))
+    """Lines and arcs at Z 0 as a curve; an arc without a chord is a circle."""
+    count, flat, arc = len(rows), np.zeros((len(rows), 1)), rows[:, TURN] != 0
+    turning = np.where(rows[:, TURN] > 0, MotionKind.ARC_CCW, MotionKind.ARC_CW)
+    path = lines_between(np.vstack([np.zeros(3), np.hstack([rows[:, X1:CX], flat])]))
+    motions = replace(
+        path,
+        start=np.hstack([rows[:, X0:X1], flat]),
+        kind=np.where(arc, turning, MotionKind.LINE).astype(np.uint8),
+        centre=np.where(arc[:, None], np.hstack([rows[:, CX:R], flat]), np.nan),
+        plane=np.full(count, Plane.XY, np.uint8),
+        turns=arc.astype(np.int32),
+    )
+    return curve_of_motions(motions)
 
 
 def in_space(points: np.ndarray) -> np.ndarray:
@@ -39,8 +52,7 @@ def in_space(points: np.ndarray) -> np.ndarray:
 
 def in_tube(path: Smoothed, points: np.ndarray, tube: Tube) -> bool:
     """Whether the judge finds a closed path to go round with closed points (n, 2): from that at which it says that it
-    starts,
-    or from that nearest to its start of those about there; a circle may start anywhere.
+    starts, or from that nearest to its start of those about there; a circle may start anywhere.
     """
     near = np.arange(len(points)) if len(path.rows) == 1 else (path.ends[0] + np.arange(-20, 21)) % len(points)
     nearest = near[np.argmin(np.hypot(*(points[near] - path.rows[0, :2]).T))]

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
-from app.formats.scene.edit import line_of, table_of, with_table, with_table_moved, with_value, without_table
+from app.formats.scene.edit import line_of, with_table, with_table_moved, with_value, without_table
 from app.formats.scene.toml import read_scene
 from tests.conftest import ROOT
 
@@ -61,7 +61,7 @@ def test_inches_stay_inches() -> None:
     text = with_value(INCHES, ("surface", 0, "shape", "radius"), 50.8)
     assert "radius = 2 }  # round" in text
     assert scene(text).surfaces[0].shape.radius == pytest.approx(50.8)
-    assert table_of(INCHES, "surface", 0)["shape"]["radius"] == pytest.approx(25.4)
+    assert scene(INCHES).surfaces[0].shape.radius == pytest.approx(25.4)
     turned = with_value(INCHES, ("surface", 0, "rotate_deg"), (0, 0, 30))
     assert scene(turned).surfaces[0].rotate_deg == (0.0, 0.0, 30.0)
 

@@ -68,8 +68,8 @@ def drawn(
 
 def allowed(cutter: Cutter, pitch: float, facet: float) -> tuple[Cutter, Cutter]:
     """The cutters between which the method lies; the facet of a wall seen on edge, which may give any of its heights,
-    is as wide as
-    twice the error."""
+    is as wide as twice the error.
+    """
     error = facet_error(cutter, facet)
     more, less = (
         error * (1 + CHORD_SHARE) + pitch**2 / (2 * cutter.radius) + pitch * SUBPIXEL,

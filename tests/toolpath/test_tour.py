@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import threading
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,7 @@ from app.operations.contour.paths import contour_strokes
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.linking.link import Manner, link
-from app.toolpath.ordering.tour import in_short_order, travel_mm
+from app.toolpath.ordering.tour import in_short_order
 from tests.examples import examples
 
 Before = list[tuple[int, int]]
@@ -41,6 +42,13 @@ def random_strokes(seed: int, count: int, closed: bool) -> list[Stroke]:
     begins = rng.integers(0, 100, (count, 2)).astype(float)  # whole numbers: ties and equal places too
     ends = begins if closed else rng.integers(0, 100, (count, 2)).astype(float)
     return [line(*a, *b, region=k) for k, (a, b) in enumerate(zip(begins, ends, strict=True))]
+
+
+def travel_mm(strokes: Sequence[Stroke], start: tuple[float, float] = (0.0, 0.0)) -> float:
+    """How far the tool travels from `start` through all strokes as they are, the way back not counted."""
+    begins = np.array([stroke.rows[0, :2] for stroke in strokes]).reshape(-1, 2)
+    ends = np.array([np.array(start), *(stroke.rows[-1, 2:4] for stroke in strokes)]).reshape(-1, 2)
+    return float(np.hypot(*(begins - ends[:-1]).T).sum())
 
 
 def greedy(strokes: list[Stroke], start: tuple[float, float], before: Before) -> float:

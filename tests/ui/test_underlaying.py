@@ -4,7 +4,6 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
@@ -128,20 +127,6 @@ def test_what_is_no_picture_is_refused(tmp_path: Path, picture: Path, monkeypatc
         read_picture(picture)
 
 
-@given(NUMBERS, NUMBERS, st.floats(1e-6, 1e3), st.floats(-7, 7), st.floats(0, 1))
-def test_values_by_name_come_back(x: float, y: float, size: float, angle: float, opacity: float) -> None:
-    place = Underlay("a b.png", (x, y), size, angle, opacity)
-    assert Underlay.from_dict(place.to_dict()) == place
-
-
-@pytest.mark.parametrize(
-    "values",
-    [
-        {},
-        {"path": "a.png", "origin": [1], "mm_per_px": 1, "angle": 0, "opacity": 1},
-        {"path": "a.png", "origin": [0, 0], "mm_per_px": -1, "angle": 0, "opacity": 1},
-    ],
-)
-def test_damaged_values_are_told(values: dict[str, object]) -> None:
+def test_a_picture_without_size_is_refused() -> None:
     with pytest.raises(ParameterError):
-        Underlay.from_dict(values)
+        Underlay("a.png", (0.0, 0.0), -1.0, 0.0, 1.0)

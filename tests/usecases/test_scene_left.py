@@ -216,7 +216,7 @@ def test_what_is_left_agrees_with_an_independent_closing(tmp_path: Path, name: s
     all.
 
     Clearly: by more than twice those ridges, or a tenth of the radius, and half as much again. Both count cells; 4 mm2
-        of rims are free.
+    of rims are free.
     """
     of = measured(tmp_path, name, pitch)
     square = of.over / of.upright

@@ -42,8 +42,8 @@ SHAPES = {"closed": closed, "eight": eight, "helix": helix, "noisy": noisy, "qua
 
 FEW = {"cubic": 1.4, "quintic": 1.4, "arcs": 1.15, "lines": 1.15}
 """One of two forms of a path may take so many times the blocks of the other: spans of splines are halved where the
-proof
-fails, so that few decisions make many of them."""
+proof fails, so that few decisions make many of them.
+"""
 
 
 @dataclass(frozen=True)

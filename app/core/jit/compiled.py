@@ -68,7 +68,7 @@ class Kernel:
     @cached_property
     def entry(self) -> str:
         """The name of its entry in the store."""
-        return f"{self.name.removeprefix('app.').replace(':', '.')}-{self.digest[:20]}"
+        return f"{self.name.partition('.')[2].replace(':', '.')}-{self.digest[:20]}"
 
     @cached_property
     def callees(self) -> tuple[Kernel, ...]:

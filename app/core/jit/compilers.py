@@ -26,7 +26,8 @@ from .store import FOLDER_VARIABLE, Store, store
 
 _LOOK_EVERY_S = 0.1
 _ROOT = Path(__file__).resolve().parents[3]
-_PROGRAM = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from app.core.jit.compiler_process import main; main()"
+_MAIN = f"{__package__}.compiler_process"
+_PROGRAM = f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from {_MAIN} import main; main()"
 
 
 @dataclass

@@ -7,13 +7,14 @@ from importlib import import_module
 from pathlib import Path
 
 from ..progress import NO_PROGRESS, Progress, told_waits
+from ..resources import PACKAGE
 
 
 def kernel_modules() -> tuple[str, ...]:
     """Return the dotted names of all modules that hold kernels: files in the rooms with "kernels" in their name."""
     root = Path(__file__).resolve().parents[2]
     files = (path.relative_to(root).with_suffix("") for path in root.glob("*/**/*kernels*.py"))
-    return tuple(sorted(".".join(("app", *file.parts)) for file in files))
+    return tuple(sorted(".".join((PACKAGE, *file.parts)) for file in files))
 
 
 def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:

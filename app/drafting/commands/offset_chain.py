@@ -28,8 +28,9 @@ from .split import split
 
 _NEAR = WELD / 100
 """By so much, mm, a piece may come nearer than the distance: more than a foot is off by rounding a kilometre from zero.
-Less than WELD,
-as what goes on beyond the place where two parallels cross comes nearer by no more than its length times their bend."""
+Less than WELD, as what goes on beyond the place where two parallels cross comes nearer by no more than its length times
+their bend.
+"""
 
 _SLIGHT = 2e-3
 """A turn, rad, so slight that what two parallels overlap there could not be told from what stays."""

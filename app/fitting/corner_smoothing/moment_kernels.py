@@ -55,6 +55,7 @@ def fit_line(sums, first, stop):
     Coordinates are relative to the sums' origin; the vector's sense is arbitrary.
     """
     mx, my, xx, xy, yy = _spread(sums, first, stop)
+    # the principal axis of the scatter: the direction in which it is largest
     angle = math.atan2(2 * xy, xx - yy) / 2
     return mx, my, math.cos(angle), math.sin(angle)
 
@@ -103,10 +104,12 @@ def fit_circle(sums, first, stop):
         + 8 * mx * my * sxy
         - 4 * q * q
     )
+    # coefficients of Taubin's characteristic polynomial in eta, about the mean
     spread, area = zz - z * z, xx * yy - xy * xy
     a1 = spread * z + 4 * area * z - xz * xz - yz * yz
     a0 = xz * (xz * yy - yz * xy) + yz * (yz * xx - xz * xy) - spread * area
     a2, a3 = -3 * z * z - zz, 4 * z
+    # Newton's method from 0 climbs to the smallest root, which no other root lies before
     eta, before = 0.0, math.inf
     for _ in range(12):
         value = a0 + eta * (a1 + eta * (a2 + eta * a3))

@@ -12,9 +12,6 @@ from ...core.jit import kernel
 from ...geometry.arcs.biarc_kernels import ARC, NONE, from_tangent, meeting
 from .moment_kernels import add_up, fit_circle
 
-LEAST_STEPS = 4
-"""An arc of fewer steps has no place for two."""
-
 WINDOW = 4
 """An arc's length in windows: so far to either side of a bend its points tell the curve's place and direction there."""
 
@@ -61,6 +58,7 @@ def _look(points, at, reach, sums, node):
     dx, dy = node[0] - points[a, 0] - cx, node[1] - points[a, 1] - cy
     length = math.hypot(dx, dy)
     if length > 0.0 and r < 1e12:
+        # to the left or the right of the circle's centre, as the node went before
         way = math.copysign(1.0, node[3] * dx - node[2] * dy)
         node[0], node[1] = points[a, 0] + cx + dx / length * r, points[a, 1] + cy + dy / length * r
         node[2], node[3] = -way * dy / length, way * dx / length
@@ -110,6 +108,7 @@ def anchor(points, path, bent, anchors):
             at[k, 0] = at[k, 1] = middle
         else:
             next_to = min(ends[after + 1] - ends[after], ends[k] - ends[k - 1] if k > 0 else ends[n] - ends[n - 1])
+            # half the line at most, so that the bends at both its ends leave each other room
             share = min(0.5, next_to / WINDOW / max(steps, 1))
             _along_line(
                 rows[k], share * math.hypot(rows[k, 2] - rows[k, 0], rows[k, 3] - rows[k, 1]), nodes[k, 0], nodes[k, 1]

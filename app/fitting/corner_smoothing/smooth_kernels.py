@@ -167,6 +167,7 @@ def _settled(points, ends, kinds, sums):
     first, last = kinds
     low, high = a + (LEAST_ARC if first == ARC else 1), c - (LEAST_ARC if last == ARC else 1)
     best = _cost(sums, 0, m - a + 1, first) + _cost(sums, m - a, c - a + 1, last)
+    # a search in steps of 8, 4, 2, 1: the sum of squares has one valley wherever both kinds fit
     step = 8
     while step > 0:
         moved = False
@@ -222,6 +223,7 @@ def merge(points, breaks, kinds, count, tolerance):
     kept = 0
     for k in range(1, count):
         last = breaks[k + 1]
+        # the outermost points stand at corners that the pixels round; they tell neither neighbour's shape
         spare = 1 if last - breaks[kept] > 12 else 0
         a, c = breaks[kept] + spare, last - spare
         if c - a + 2 > len(sums):
@@ -280,6 +282,7 @@ def carriers(points, breaks, kinds, count, found):
     sums = np.empty((longest + 2, 8))
     for k in range(count):
         a, b = breaks[k], breaks[k + 1]
+        # as in `merge`: the ends of long runs lie in rounded corners
         trim = 2 if b - a > 12 else 1 if b - a > 6 else 0
         a, b = a + trim, b - trim
         add_up(points, a, 0, b - a + 1, sums)

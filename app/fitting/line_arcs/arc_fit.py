@@ -23,8 +23,7 @@ BEND = math.radians(0.5)
 """A joint may turn by so much, or as much as the points do there, where nothing else is asked for."""
 _MANY = 150
 """Joints of more pieces than the search has found are not moved: that takes longer than the search, and with so many it
-has saved none
-yet.
+has saved none yet.
 """
 
 

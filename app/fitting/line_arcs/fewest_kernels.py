@@ -52,8 +52,8 @@ PIECES, USED = 0, 1
 """Columns of a place's counts."""
 X, Y, LEFT_X, LEFT_Y, BEND, CHORD = 0, 1, 2, 3, 4, 5
 """Columns of a state: its place, the left normal times the farthest distance of a joint, by how much pieces may turn
-there, the longest
-chord since the state before."""
+there, the longest chord since the state before.
+"""
 
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64, float64, float64)", counts=False)

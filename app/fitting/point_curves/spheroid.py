@@ -52,7 +52,8 @@ def lies_within(curve: SpaceCurve, points: Floats, outline: Outline, feet: Float
 
     References:
         JP 2014-242013, figures 6 to 8: an interval P ... Q shorter than the shortest path P, X, Q by way of any point X
-        of the region's surface.
+            of
+        the region's surface.
     """
     for i in range(len(points) - 1):
         chord = _Chord(points[i], points[i + 1], outline, curve.slack)

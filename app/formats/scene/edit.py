@@ -16,8 +16,6 @@ from .toml import in_own_units
 
 Place = tuple[str | int, ...]
 """Keys and, in lists, numbers from 0: ("surface", 1, "shape", "radius")."""
-LISTS = ("surface", "passes", "tool")
-"""Tables that come several times."""
 
 
 def with_value(text: str, place: Place, value: object) -> str:
@@ -95,19 +93,6 @@ def with_table_moved(text: str, name: str, number: int, way: int) -> str:
         for n, table in enumerate(tables):
             listed[n] = table
     return tomlkit.dumps(tree)
-
-
-def table_of(text: str, name: str, number: int) -> dict[str, Any]:
-    """Return what one table of a list holds, mm.
-
-    Raises:
-        InputError: the text is no TOML, or has no such table.
-    """
-    tree = _tree(text)
-    return cast(
-        dict[str, Any],
-        in_own_units({"table": _list(tree, name, number)[number].unwrap()}, _units(tree), back=False)["table"],
-    )
 
 
 def line_of(text: str, name: str, number: int) -> int:

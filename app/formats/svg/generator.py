@@ -38,7 +38,7 @@ def density_of(root: Node) -> Density:
 
     References:
         Inkscape 0.92 release notes (2017): 90 dpi became 96, as CSS has it. Adobe Illustrator writes points, 72 an
-        inch.
+            inch.
     """
     if "Adobe Illustrator" in root.comments:
         return Density(_ILLUSTRATOR, "Adobe Illustrator")

@@ -41,8 +41,10 @@ def in_step(written, ends, meant, span, distance):
             x, y = x - meant[i, 0] - radius * math.cos(angle), y - meant[i, 1] - radius * math.sin(angle)
             largest = max(largest, math.sqrt(x * x + y * y))
         radius, spiral = max(meant[i, 2], meant[i, 3]), 2.0 * abs(sweep * size * (meant[i, 3] - meant[i, 2]))
+        # second derivative of a spiral: sweep² radius, and 2 sweep times how fast the radius grows
         bend = sweep * sweep * radius + spiral
         if own != 0.0:
+            # both turn alike but for the difference of centres and sweeps, which is all that bends their difference
             shift = math.hypot(written[i, 0] - meant[i, 0], written[i, 1] - meant[i, 1])
             spiral += 2.0 * abs(own * (written[i, 3] - written[i, 2]))
             bend = own * own * shift + abs(own * own - sweep * sweep) * radius + spiral

@@ -42,6 +42,7 @@ def _after_code(data, i, codes, spans):
         length = spans[code, 1] - spans[code, 0]
         alike = length <= end - i
         for k in range(i, end):
+            # aligned at the right: what is longer than the code may only be zeros before it (G01 is G1)
             own = k - (end - length)
             alike = alike and data[k] == (codes[spans[code, 0] + own] if own >= 0 else _ZERO)
         if alike:
@@ -78,6 +79,7 @@ def lines_with_more(data, codes, spans, lines):
                 if c == letter:
                     after = _after_number(data, i + 1)
         if after < 0:
+            # anything that is not surely harmless makes the line one to look at; nothing is decided here
             lines[found] = line
             found += 1
             while i < len(data) and data[i] != _LINE_FEED:

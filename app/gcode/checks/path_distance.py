@@ -18,8 +18,8 @@ MOST_SAMPLES = 4000
 SPLINE_CHORDS = 1024
 STRAY = 1e-3
 """How much nearer, in parts of the way to it, a place must be to be taken before one at about the same length: where a
-path
-runs over itself both are as near."""
+path runs over itself both are as near.
+"""
 PORTION = 50_000
 """Points whose nearest places are looked for at once, so that memory stays small."""
 WINDOW = 6

@@ -22,6 +22,7 @@ def centre_by_radius(x0, y0, x1, y1, radius, turn, slack):
     size = abs(radius)
     if not half > 0.0 or not size > 0.0 or half - size > slack:
         return math.nan, math.nan
+    # (size - half) (size + half) loses no digits where both are nearly alike, as size² - half² would
     rise = math.sqrt((size - half) * (size + half)) if size > half else 0.0
     side = math.copysign(rise / (2.0 * half), radius) * turn
     return (x0 + x1) / 2.0 - side * dy, (y0 + y1) / 2.0 + side * dx

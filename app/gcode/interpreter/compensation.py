@@ -199,8 +199,8 @@ class Compensation:
 
     def _between(self, before: Side, side: Side) -> bool:
         """Tell whether a turn straight back is an inner corner: between a line and the outside of an arc, where the
-        tool would have
-        to go round the arc to get to the line's other side."""
+        tool would have to go round the arc to get to the line's other side.
+        """
         arc = before if side.centre is None else side
         return arc.centre is not None and self._outside(arc)
 

@@ -12,9 +12,9 @@ _LARGEST_CODE = 200.0
 
 _LINE = "Tuple((float64[::1], int64[::1], int64[::1], float64[:, ::1], int64[::1], int64[::1], float64[:, ::1]))"
 """A line: values by letter (26,), how each is written (26,), codes (12,) as G 100 times their number, M less 100,000 of
-that,
-settings (8, 2) of number and value, how many codes and settings there are (2,); and room for its motion (8,), (3,
-8)."""
+that, settings (8, 2) of number and value, how many codes and settings there are (2,); and room for its motion (8,), (3,
+8).
+"""
 M_CODES = 100_000
 _TAKEN = "XYZIJKRFSTPLQ"
 """Letters of words that are known here beside G, M and N."""

@@ -56,7 +56,7 @@ class Span:
     Attributes:
         first, stop: motions, `stop` excluded; alike where the program has none there.
         first_line, last_line: 1-based lines of its text; of a stretch without motions, the line of the motion before
-        it.
+            it.
     """
 
     first: int

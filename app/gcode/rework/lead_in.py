@@ -19,8 +19,9 @@ ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
 """They know G91.1 and G92.1."""
 HOMEWARD = {Dialect.FANUC: ("G91 G28 Z0.", "G90"), Dialect.HAAS: ("G53 G0 Z0.",)}
 """Up to the machine's home along Z, wherever the tool stands, as the posts of these controls write it. Where nothing is
-named here,
-no such words are safe on every machine: a LinuxCNC machine may have no home at its top, a router none at all."""
+named here, no such words are safe on every machine: a LinuxCNC machine may have no home at its top, a router none at
+all.
+"""
 LEAST = 1e-6
 """mm; shorter ways are none."""
 

@@ -10,16 +10,16 @@ from ...core.jit import kernel
 
 SERVO_PERIOD = 1e-3
 """s, in which an axis may change its velocity at a corner by acceleration x period; only the part of the speed that
-goes on in the
-new direction is carried, so a right corner stops."""
+goes on in the new direction is carried, so a right corner stops.
+"""
 FINE = 0.2
 """Largest tangent of half a corner's turn, 23 degrees in all, with which short lines count as standing for a curve."""
 FAST = 6.0
 """Where the curve would allow more than so many times the speed there is, it is as good as straight."""
 BETWEEN = 0.52
 """By how much a corner of a curve is slower, in tangents of half its turn: between two corners the speed rises, and the
-whole must
-not be faster than the curve."""
+whole must not be faster than the curve.
+"""
 
 
 @kernel("float64(float64[:, :, ::1], int64, float64[::1])")
@@ -71,6 +71,8 @@ def corners(ways, motions, tolerance, limits, entry):
             entry[i + 1] = math.inf
         else:
             change = min(limits[1, 0] / abs(x), limits[1, 1] / abs(y), limits[1, 2] / abs(z))
+            # the arc that touches both ways and passes the corner at the tolerance, at the acceleration of the weakest
+            # axis
             blend = math.sqrt(change * math.sqrt(squared) * tolerance[i] * half / (1.0 - half))
             entry[i + 1] = max(blend, change * SERVO_PERIOD * max(0.0, 1.0 - 0.5 * squared))
 
@@ -107,6 +109,7 @@ def curves(ways, motions, limits, entry):
             turn = math.sqrt(squared) / max(half, 1e-9)
         if corner and entry[corner] > 0.0:
             a = every_way(ways, corner - 1, limits[1])
+            # v² = a r, with r = half the mean of both straights over the tangent of half the turn
             bound = math.sqrt(0.25 * (before + straight) / tangent * a) / (1.0 + BETWEEN * tangent)
             entry[corner] = min(entry[corner], bound)
             if tangent < FINE and bound < FAST * max(motions[corner - 1, 1], motions[corner, 1]):
@@ -126,12 +129,14 @@ def run(motions, entry, seconds):
         seconds: (n,) the answer.
     """
     n = len(motions)
+    # backward: from no motion can more be braked than its length allows
     for i in range(n - 1, -1, -1):
         entry[i] = min(entry[i], motions[i, 1], math.sqrt(entry[i + 1] ** 2 + 2.0 * motions[i, 2] * motions[i, 0]))
     for i in range(n):
         length, most, a = motions[i]
         entry[i + 1] = min(entry[i + 1], most, math.sqrt(entry[i] ** 2 + 2.0 * a * length))
         first, last = entry[i], entry[i + 1]
+        # the speed at which speeding up and braking meet, v² = a l + (first² + last²) / 2
         top = min(most, math.sqrt(a * length + 0.5 * (first * first + last * last)))
         top = max(top, first, last)
         ramps = (top * top - first * first + top * top - last * last) / (2.0 * a)

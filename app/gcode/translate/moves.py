@@ -1,6 +1,6 @@
 """The motions of a block in another control's words: each place rounded once, arcs as that control takes them, cycles
-written out
-where it has none that is known to do the same."""
+written out where it has none that is known to do the same.
+"""
 
 from __future__ import annotations
 

@@ -3,8 +3,7 @@ parameter.
 
 It takes four steps a control point, evenly over the knots' range, and joins the points there by two arcs that leave and
 arrive along the spline's own tangents and meet half way; where there is no such pair it goes straight. No tolerance is
-asked.
-Behaviour: LinuxCNC 2.9, as its interpreter's canonical commands show.
+asked. Behaviour: LinuxCNC 2.9, as its interpreter's canonical commands show.
 """
 
 from __future__ import annotations

@@ -159,8 +159,7 @@ def _finer(pieces: Pieces, spans: Floats, bounds: Floats, tolerance: float) -> F
 
 def _span_of(pieces: Pieces, first: float, last: float, target: float) -> Floats:
     """Return the spans (k, COLUMNS) between two corners: one line, where all control points lie on it, within a tenth
-    of WELD, and
-    none turns back; else what covers them.
+    of WELD, and none turns back; else what covers them.
     """
     polygon = pieces.polygon[round(first) : round(last)].reshape(-1, 2)
     chord = polygon[-1] - polygon[0]

@@ -38,8 +38,7 @@ def flattened_all(curves: Sequence[Nurbs], tolerance: float) -> list[Floats]:
     """Return for each curve points on it, its ends included, whose chords are nowhere farther from it than a tolerance.
 
     Proof: between two points the curve lies in the hull of its Bézier control points, and the distance from the chord
-        is
-    convex, so that no point of the curve is farther from it than the farthest control point.
+    is convex, so that no point of the curve is farther from it than the farthest control point.
 
     Args:
         tolerance: mm, > 0; counts as at least a thousand-millionth of the curve's extent.

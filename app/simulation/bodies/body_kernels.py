@@ -55,6 +55,7 @@ def lowest_over(shape, way, x, y):
     rim = math.sqrt(max(shape[1] * shape[1] - q2, 0.0))
     best = math.inf
     for k in range(6):
+        # the places where the least can be: abreast, in, out, both rims of the flat, and the cone's own
         u = 0.0 if k == 0 else -half if k == 1 else half if k == 2 else -rim if k == 3 else rim
         if k == 5:
             if abs(s) >= shape[2]:
@@ -79,6 +80,7 @@ def bound_over(shape, way, x, y, half):
         t = min(max(along, 0.0), size)
         ex, ey = px - t * dx / size, py - t * dy / size
         aside = math.sqrt(ex * ex + ey * ey)
+        # the way's lowest place while any of the disc is under the body
         at = min(max(along - near if dz > 0.0 else along + near, 0.0), size)
         low = dz * at / size
     return math.inf if aside > near + SLACK else way[2] + low + shape[3] + rise(shape, max(aside - half, 0.0)) - SLACK
@@ -117,9 +119,11 @@ def deepest(heights, levels, grid, shape, way, least, nodes, bounds):
                 if depth > best:
                     best, cell = depth, r * cols + c
                 continue
+            # a node's cells lie at centres: half the diagonal of what they span
             depth = height - bound_over(shape, way, x, y, 0.70711 * (side - 1) * grid[2])
             if depth > best + SLACK:
                 at = waiting
+                # kept sorted: the most promising node is opened first, and closes most others
                 while at > first and bounds[at - 1] > depth:
                     bounds[at] = bounds[at - 1]
                     for j in range(3):

@@ -36,6 +36,7 @@ def dilate(heights, profile, out, first, last):
                 begin, end = max(0, -dx), min(cols, cols - dx)
                 if begin >= end:
                     continue
+                # one shift of the whole row at a time: contiguous, so that it is done many cells at once
                 into, source = line[begin:end], row[begin + dx : end + dx]
                 for k in range(len(into)):
                     value = source[k] - off
@@ -59,9 +60,11 @@ def apart(wanted, row, col, height, where, sign):
     row, col = row + MOST_RINGS, col + MOST_RINGS
     best = math.inf
     for ring in range(MOST_RINGS):
+        # cells of a ring are no nearer than that, so what is left to look at makes the bound no smaller
         if ring * pitch + half >= best:
             break
         for y in range(max(row - ring, 0), min(row + ring, rows - 1) + 1):
+            # the rim alone: the inner cells were the rings before
             step = 1 if abs(y - row) == ring or ring == 0 else 2 * ring
             for x in range(col - ring, col + ring + 1, step):
                 if 0 <= x < cols:
@@ -89,6 +92,7 @@ def farthest(heights, wanted, before, where, sign, first, last):
                 continue
             if sign < 0 and not before[y, x] < np.float32(math.inf):
                 continue
+            # straight up or down is one of the ways: a cell near enough by that needs no search
             if math.sqrt(max(gap, 0.0) ** 2 + where[1] ** 2) > worst:
                 worst = max(worst, apart(wanted, y, x, height, where, sign))
     return worst

@@ -37,6 +37,7 @@ def _from_triangle(t, x, y, z):
     if square > 0.0:
         uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
         du, dv = px * ux + py * uy + pz * uz, px * vx + py * vy + pz * vz
+        # barycentric coordinates times the squared normal: over the face where both are >= 0 and their sum <= it
         s, r = vv * du - uv * dv, uu * dv - uv * du
         if s >= 0.0 and r >= 0.0 and s + r <= square:
             off = nx * px + ny * py + nz * pz
@@ -121,12 +122,14 @@ def deepest(boxes, triangles, segments, known, fine, out):
             depth -= 1
             a, b, at_a, at_b = low[depth], high[depth], at_low[depth], at_high[depth]
             most = max(best, known[k]) + fine
+            # distance is 1-Lipschitz along the segment: its graph lies under both slopes from the ends
             if 0.5 * (at_a + at_b + b - a) <= most:
                 continue
             middle = 0.5 * (a + b)
             square, guess = _nearest(boxes, triangles, x, y, middle, guess, stack)
             at_middle = math.sqrt(square)
             best = max(best, at_middle)
+            # convex: nowhere between is it farther from this one triangle than at one of the ends
             from_one = max(_from_triangle(triangles[guess], x, y, a), _from_triangle(triangles[guess], x, y, b))
             if math.sqrt(from_one) <= max(best, known[k]) + fine or depth + 2 > _HALVINGS:
                 continue

@@ -25,6 +25,7 @@ def meeting(t, x, y):
     if area == 0.0:
         return 0.0, 0.0
     turn = 1.0 if area > 0.0 else -1.0
+    # the same bits as `drop` has, so that grid and probe agree on which triangle owns an edge
     u, v, w = side(t[3], t[4], t[6], t[7], x, y), side(t[6], t[7], t[0], t[1], x, y), side(t[0], t[1], t[3], t[4], x, y)
     if not (
         holds(u * turn, (t[6] - t[3]) * turn, (t[7] - t[4]) * turn)
@@ -63,6 +64,7 @@ def tops(boxes, triangles, points, out):
                         best = max(best, z)
                 continue
             high, low = 2 * k + 1, 2 * k + 2
+            # the higher child is opened first: it closes the lower one
             if boxes[high, 5] < boxes[low, 5]:
                 high, low = low, high
             stack[depth], stack[depth + 1] = low, high

@@ -20,6 +20,7 @@ def holds(area, dx, dy):
     """Return whether a point is on the inner side of a counter-clockwise edge; on the edge itself one of both sides has
     it.
     """
+    # the top-left rule: of two triangles with one edge, exactly one has the places on it, so crossings stay even
     return area > 0.0 or (area == 0.0 and (dy < 0.0 or (dy == 0.0 and dx > 0.0)))
 
 
@@ -50,6 +51,7 @@ def drop(triangles, grid, first, last, heights, crossings):
             math.ceil((min(ay, by, cy) - y0) / pitch - 0.501),
             math.floor((max(ay, by, cy) - y0) / pitch - 0.499),
         )
+        # cells whose centres may lie in it: half a cell, and a thousandth for rounding
         left, right = (
             math.ceil((min(ax, bx, cx) - x0) / pitch - 0.501),
             math.floor((max(ax, bx, cx) - x0) / pitch - 0.499),
@@ -58,6 +60,8 @@ def drop(triangles, grid, first, last, heights, crossings):
             y = y0 + (row + 0.5) * pitch
             for col in range(max(int(left), 0), min(int(right), cols - 1) + 1):
                 x = x0 + (col + 0.5) * pitch
+                # barycentric coordinates times twice the area; the shared edge of two triangles gives both the same
+                # bits
                 u, v, w = side(bx, by, cx, cy, x, y), side(cx, cy, ax, ay, x, y), side(ax, ay, bx, by, x, y)
                 if holds(u, cx - bx, cy - by) and holds(v, ax - cx, ay - cy) and holds(w, bx - ax, by - ay):
                     z = (u * az + v * bz + w * cz) / (u + v + w)

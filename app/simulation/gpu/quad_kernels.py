@@ -96,6 +96,7 @@ def straight_quads(start, end, spans, chosen, shape, grid, quads):
             a, c = ux * (x - px) + uy * (y - py), ux * (y - py) - uy * (x - px)
             quad = quads[count]
             quad[0], quad[1], quad[2], quad[3] = _F(col), _F(row), _F(a), _F(c)
+            # every number is rounded once, relative to the anchor; see the head of this file
             quad[4], quad[5], quad[6], quad[7] = _F(a - length), _F(ux * grid[2]), _F(uy * grid[2]), _F(s)
             quad[8], quad[9], quad[10], quad[11] = _F(here - a), _F(there - a), _F(pz + lift), _F(qz + lift)
             count, cells = count + 1, cells + min((there - here) * 2.0 * radius / (grid[2] * grid[2]), most)
@@ -138,6 +139,7 @@ def round_quads(start, end, arc, arcs, chosen, shape, grid, quads):
         for part in range(int(parts)):
             angle = first + (2.0 * part + 1.0) * half
             nx, ny = math.cos(angle), math.sin(angle)
+            # the outermost parts reach a cutter's radius beyond the ends, the others as far as the outer rim's chord
             back = size * math.sin(half) + radius if part == 0 else outer * math.sin(half)
             ahead = size * math.sin(half) + radius if part == parts - 1.0 else outer * math.sin(half)
             along, wide, deep = 0.5 * (ahead - back), 0.5 * (ahead + back), 0.5 * (outer - inner)

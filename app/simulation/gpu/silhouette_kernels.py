@@ -90,6 +90,7 @@ def silhouette(quads, kinds, at, kind, row, axis, rings, bands, table, bearings,
     count = len(table)
     for k in range(count):
         mine = heads(row, k, u, bands, bearings)
+        # one of two neighbours bounds the end and the other the start: the edge between them is in the silhouette
         if heads(row + 1, k, u, bands, bearings) != mine and rings[row, 0] > 0.0:
             after = k + 1 if k + 1 < count else 0
             at = swept(
@@ -138,6 +139,7 @@ def facets_at(quads, kinds, at, kind, row, tip, ways, ends, rings, bands, table,
     for k in range(len(table)):
         behind = heads(row, k, ways[0], bands, bearings) if comes else True
         ahead = heads(row, k, ways[1], bands, bearings) if goes else False
+        # a facet that bounds at both moves or at neither is inside what the tubes sweep
         if behind != ahead:
             at = facet(quads, kinds, at, kind, (row, k), tip, rings, table, view)
     return at
@@ -195,7 +197,8 @@ def cutter_facets(start, end, way, joins, rings, bands, table, bearings, wedges,
         rings: (rows + 1, 2) radius and height over the tip of each ring; the first has radius 0 where there is no disc.
         bands: (rows, 2) outward normals, of any length, along the radius and Z.
         table, bearings: (count, 2) cosine and sine of the corners of a ring, and of the middles between them; an even
-        number. quads, kinds: room for at least 4 times `count`.
+            number.
+        quads, kinds: room for at least 4 times `count`.
     """
     room, at = len(quads) - 4 * len(table), 0
     piece, row = begin

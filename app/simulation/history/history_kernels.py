@@ -13,6 +13,7 @@ def _differ(heights, old_heights, owner, old_owner):
     """Return whether a run of cells differs from an older one."""
     found = 0
     for j in range(len(heights)):
+        # no early end: without a branch the compiler compares many cells at once
         found += (1 if heights[j] != old_heights[j] else 0) + (1 if owner[j] != old_owner[j] else 0)
     return found > 0
 
@@ -70,7 +71,7 @@ def restore(block, blocks, slots, bounds, kept_heights, kept_owner, base_heights
     Args:
         block: its number; -1: before all.
         blocks, slots: for each kept copy, by square and then by block, behind which block it was taken, and where it
-        lies.
+            lies.
         bounds: (squares + 1,) where each square's copies begin.
         kept_heights, kept_owner: the copies. base_heights, base_owner: the field before all blocks.
         heights, owner: overwritten.
@@ -81,6 +82,7 @@ def restore(block, blocks, slots, bounds, kept_heights, kept_owner, base_heights
     for square in range(len(bounds) - 1):
         low, high = bounds[square], bounds[square + 1]
         while low < high:
+            # the last copy that was taken behind a block up to this one holds what the square was then
             middle = (low + high) // 2
             if blocks[middle] <= block:
                 low = middle + 1

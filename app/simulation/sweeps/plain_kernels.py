@@ -42,7 +42,9 @@ def plain_trim(heights, start, end, radius, pitch):
                 square = x * x + y * y - along * along
                 if square >= radius * radius:
                     continue
+                # the circle in which the vertical through the cell cuts the swept sphere's plane
                 reach = math.sqrt(radius * radius - square)
+                # r s / sqrt(1 + s²) before the foot the sphere touches; clamped to the move's ends
                 at = along - reach * lean
                 if at < 0:
                     at = 0.0

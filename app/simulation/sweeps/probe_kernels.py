@@ -44,8 +44,10 @@ def lowest_part(shape, span, rise, where):
     """
     low, high = span
     foot, aside = where
+    # a flat end: linear along the way, so the least is at an end
     if shape[2] == 0.0 and shape[4] == 0.0:
         return min(rise * low, rise * high) + shape[5]
+    # a ball: the sphere touches where its slope is the path's, in closed form
     if shape[1] == 0.0 and shape[4] == 0.0:
         t = foot - rise * math.sqrt(max(shape[2] * shape[2] - aside * aside, 0.0) / (1.0 + rise * rise))
         t = min(max(t, low), high)
@@ -53,6 +55,7 @@ def lowest_part(shape, span, rise, where):
     if rise == 0.0:
         t = min(max(foot, low), high)
         return profile(shape, math.sqrt((t - foot) * (t - foot) + aside * aside))
+    # everything else by golden section: convex (see `over_straight`), so no other valley is missed
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_left = rise * left + profile(shape, math.sqrt((left - foot) * (left - foot) + aside * aside))
     at_right = rise * right + profile(shape, math.sqrt((right - foot) * (right - foot) + aside * aside))
@@ -89,6 +92,7 @@ def over_straight(shape, p, x, y, best):
     if low > high + _RIM * radius:
         return math.inf
     low, high, rise = min(low, length), max(high, 0.0), dz / length
+    # no height over the place is below path plus profile at the nearest approach
     if p[2] + min(rise * low, rise * high) + profile(shape, aside) > best:
         return math.inf
     return p[2] + lowest_part(shape, (low, max(low, high)), rise, (foot, aside))
@@ -102,6 +106,7 @@ def over_arc(shape, p, x, y):
     cx, cy, size = p[6], p[7], p[8]
     ox, oy = x - cx, y - cy
     off = abs(math.sqrt(ox * ox + oy * oy) - size)
+    # signs of cross products: before the start, or behind the end, of at most a quarter turn
     ahead, behind = (p[0] - cx) * oy - (p[1] - cy) * ox, ox * (p[4] - cy) - oy * (p[3] - cx)
     if ahead < 0.0 or behind < 0.0:
         off = min(math.sqrt((x - p[0]) ** 2 + (y - p[1]) ** 2), math.sqrt((x - p[3]) ** 2 + (y - p[4]) ** 2))
@@ -130,6 +135,7 @@ def lowest(boxes, pieces, owners, shapes, points, heights, motions):
                 continue
             if k < leaves - 1:
                 deep, shallow = 2 * k + 1, 2 * k + 2
+                # the deeper child first: what it finds lets the other be skipped
                 if boxes[deep, 2] > boxes[shallow, 2]:
                     deep, shallow = shallow, deep
                 stack[depth], stack[depth + 1] = shallow, deep

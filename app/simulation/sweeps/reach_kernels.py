@@ -61,6 +61,7 @@ def lead(shape, course):
     size = abs(course[3])
     if size == 0.0:
         return 0.0
+    # flat + fillet sin(pitch): where the fillet's slope is the move's
     ahead = shape[1] + shape[2] * size * course[4]
     if shape[4] > 0.0:
         ahead = max(ahead, shape[0] * min(size / shape[4], 1.0))
@@ -72,6 +73,7 @@ def normal_bound(course, onward, cos_turn):
     """Return the most that a normal of a corner's wedge leans along the first move's horizontal direction."""
     s, cos_a = course[3], course[4]
     sin_a = s * cos_a
+    # the turn in space from the turn on the plane and both pitches: d_i·d_j
     cos_th = (cos_turn + s * onward[3]) * cos_a * onward[4]
     sin_th = math.sqrt(max(0.0, 1.0 - cos_th * cos_th)) + SLACK
     if s < 0.0:
@@ -96,6 +98,7 @@ def corner(shape, course, onward):
     if shape[4] > 0.0:
         sin_x = min(s_next / shape[4], 1.0)
         cos_x = math.sqrt(1.0 - sin_x * sin_x)
+        # the sine of a sum that has passed 90 degrees is no bound any more; 1 is
         within = cos_x * cos_turn - sin_x * sin_turn > 0.0
         beyond = max(beyond, shape[0] * (sin_x * cos_turn + cos_x * sin_turn if within else 1.0))
     return min(beyond, shape[0])
@@ -114,6 +117,7 @@ def reach(shape, course, onward, joins, goes_on):
     length, s, radius = course[0], course[3], shape[0]
     ahead = lead(shape, course)
     low, high = -radius, length + radius
+    # cells before the start belong to the move before, whose corner with this one reaches over them
     if joins:
         low = max(low, (-ahead if s < 0.0 else 0.0) - SLACK * radius)
     if goes_on:

@@ -30,7 +30,7 @@ def ball_height(a, b, c, move):
     """Return the height of a ball's sweep over a cell, NaN where it does not come.
 
     Free: z = z0 + s a - sqrt((1 + s²)(r² - c²)), where a sphere's end does not come first; there r² - c² - a² is under
-        the root.
+    the root.
 
     Args:
         a, b, c: place of the cell.
@@ -39,6 +39,7 @@ def ball_height(a, b, c, move):
     r2, lean2, stretch, s, low, high = move
     q2 = r2 - c * c
     ahead = q2 * lean2
+    # touching place v = s sqrt((r² - c²) / (1 + s²)); compared by squares with their signs, so that no root is taken
     before, after = a * abs(a) < ahead, b * abs(b) > ahead
     root = q2 - a * a if before else (q2 - b * b if after else q2 * stretch)
     return (low if before else (high if after else low + s * a)) - np.sqrt(root)
@@ -76,6 +77,7 @@ def flat_run(line, first, blocks, where, move):
             x = _F(k)
             a, b, c = a0 + da * x, b0 + da * x, c0 + dc * x
             q = np.sqrt(r2 - c * c)
+            # the flat is over the cell while a - q <= tau <= a + q; on a rise the first moment is the lowest
             late = a - q
             z = low + s * (late if late > _ZERO else _ZERO)
             z = z if min(a + q, q - b) >= _ZERO else _NEVER
@@ -97,6 +99,7 @@ def profile(rho2, shape):
     beyond = beyond if beyond > _ZERO else _ZERO
     rounded = beyond if beyond < span else span
     under = fillet2 - rounded * rounded
+    # flat, then the fillet's quarter circle up to its span, then the straight cone
     h = fillet - np.sqrt(under if under > _ZERO else _ZERO) + slope * (beyond - rounded)
     return h if rho2 <= rim2 else _NEVER
 
@@ -111,6 +114,7 @@ def level_run(line, first, blocks, where, move):
         for k in range(LANES):
             x = _F(k)
             a, b, c = a0 + da * x, b0 + da * x, c0 + dc * x
+            # level: the profile alone decides, so tau = a, clamped to the move's ends
             v = a if a < _ZERO else (b if b > _ZERO else _ZERO)
             z = (low if a < _ZERO else (high if b > _ZERO else low + s * a)) + profile(c * c + v * v, shape)
             part[k] = z if z < part[k] else part[k]
@@ -141,6 +145,7 @@ def cone_run(line, first, blocks, where, move):
             c2 = c * c
             under, inner = r2 - c2, flat2 - c2
             q = np.sqrt(under if under > _ZERO else _ZERO)
+            # from T cos(phi) = s with T = m all over the cone; inside the flat it touches nowhere but at the flat's rim
             v = max(max(np.sqrt(inner if inner > _ZERO else _ZERO), lead * abs(c)), steep * q)
             v = v if v < q else q
             before, after = a < v, b > v
@@ -174,6 +179,7 @@ def taper_run(line, first, blocks, where, move):
             ball = lean * np.sqrt(inner if inner > _ZERO else _ZERO)
             v = max(lead * abs(c), steep * q)
             v = v if v < q else q
+            # the ball's own touching place counts where it lies on the ball's part; else the cone's does
             v = ball if c2 + ball * ball <= ball_rim2 else v
             before, after = a < v, b > v
             reach = a if before else (b if after else v)
@@ -230,6 +236,7 @@ def bull_contact(c, wide, deep, lines):
         deep: fillet * s, s > 0 being the rise of the move.
         lines: `bull_guesses`, all of them below the curve; the highest one is the first guess.
     """
+    # c(y) is concave: its tangents, read as y of c, lie below the inverse, and the highest is the nearest guess
     y = max(max(lines[0] * c, lines[2] * c + lines[3]), max(lines[4] * c + lines[5], lines[6] * c + lines[7]))
     y = max(y, max(lines[8] * c + lines[9], lines[10] * c + lines[11]))
     y = _nearer(_nearer(y, c, wide, deep), c, wide, deep)
@@ -290,6 +297,7 @@ def arc_run(line, first, blocks, where, shape, bend):
             d, p, e = d0 + pitch * x, p0 + pitch * x, e0 + pitch * x
             w = n0 + dn * x + (d2 + d * d) * bend
             inner = _ONE + w * bend
+            # |d + A n| - A without the difference of two large numbers
             gap = w / (_ONE + np.sqrt(inner if inner > _ZERO else _ZERO))
             inside = min(a0 + da * x, -(b0 + db * x)) >= _ZERO
             z = low + profile(gap * gap if inside else min(p2 + p * p, e2 + e * e), form)

@@ -39,6 +39,7 @@ def tiles_met(box, grid, extent):
     x0, y0, pitch = grid
     rows, cols = extent
     cell = 1.0 / pitch
+    # a cell more at the low side: cells are met at their centres, and rounding may move one over an edge
     first_col, last_col = max((box[0] - x0) * cell - 1.0, 0.0), min((box[2] - x0) * cell, cols - 1.0)
     first_row, last_row = max((box[1] - y0) * cell - 1.0, 0.0), min((box[3] - y0) * cell, rows - 1.0)
     if first_col > last_col or first_row > last_row:
@@ -55,6 +56,7 @@ def misses(way, centre, radius, half, curved):
         centre: of the tile. radius: of the cutter. half: of the tile's side.
     """
     x, y = centre
+    # half the tile's diagonal, rounded up: no cell of the tile is farther from its centre
     near = radius + half * 1.4143
     if curved:
         return abs(math.sqrt((x - way[0]) * (x - way[0]) + (y - way[1]) * (y - way[1])) - way[2]) > near
@@ -117,6 +119,7 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
         if over or box[0] > window[2] or box[1] > window[3] or box[2] < window[0] or box[3] < window[1]:
             known, met[i, 0], met[i, 1], met[i, 4] = False, 0, -1, 0
             continue
+        # a portion may begin in the middle of a chain: then the piece before it is looked at once
         me, before = (int(does[i]), int(c), int(a)), known
         if not known and i > 0:
             k = i - 1
@@ -132,6 +135,7 @@ def survey(start, end, does, cutter, arc, shapes, arcs, grid, extent, first, las
             she, place = (int(does[k]), int(cutter[k]), int(arc[k])), (start[k, 0], start[k, 1], start[k, 2])
             if goes_on(me, she, there, place):
                 onward = course_of((end[k, 0] - place[0], end[k, 1] - place[1], end[k, 2] - place[2]))
+                # a way straight up or down has no direction; the corner's bound needs both
                 known = course[0] > 0.0 and onward[0] > 0.0
         if a < 0 and course[0] > 0.0:
             shape = (radius, shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
@@ -255,6 +259,7 @@ def cut_lines(
         noted = traced or does[i] == ASKS
         shape = (shapes[c, 0], shapes[c, 1], shapes[c, 2], shapes[c, 3], shapes[c, 4], shapes[c, 5], shapes[c, 6])
         ends = (start[i, 0], start[i, 1], start[i, 2], end[i, 0], end[i, 1], end[i, 2])
+        # lines run along Y where boxes are taller than wide: longer runs, fewer of them
         if turned:
             ends = (ends[1], ends[0], ends[2], ends[4], ends[3], ends[5])
         owner = -1 if does[i] == ASKS else motions[i]
@@ -304,7 +309,7 @@ def cut_tile(
         box: first row and column of the tile, its rows and columns.
         turned: whether its lines run along Y.
         before, after: heights of the whole grid. owners: motion that cut each cell last, -1 = none; no rows: not
-        wanted.
+            wanted.
         told: a row for each ref, or nothing: volume in mm of height, engaged cells, greatest depth, its cell
             as row * columns + column, and the height that is reached there.
         limits: floor, and the depth from which a piece that only asks is told of, mm.

@@ -18,8 +18,8 @@ themselves.
 DESK = f"Tuple(({_MANY}, {_MANY}, {_INTS}, {_R}, {_INTS}, {_R}, {_MANY}, {_MANY}))"
 WORK, SHAPES, NODES, BOUNDS, WHICH, HEIGHTS, PLACES, GROUPS = range(8)
 """Of what `new_desk` makes to work on: rows of facets; two cutters' shapes; nodes that wait and their bounds; facets
-that may be
-touched and their heights; the tip's places along a way, and its chords in groups (see `way_kernels`)."""
+that may be touched and their heights; the tip's places along a way, and its chords in groups (see `way_kernels`).
+"""
 DEEPEST = 64
 ROOM = 96
 """Rows of WORK: facets that wait, four for the quarters that are being sorted, one for what is quartered."""
@@ -27,8 +27,8 @@ QUARTERS, LAST = ROOM - 4, ROOM - 5
 LIKELY = 64
 OFF, HIGHEST, GROUP = 15, 16, 16
 """Columns of WORK behind corners (9) and parameters (6): how far the facet is off at most, and what the tip comes down
-to, or
-the group of chords that it is held against."""
+to, or the group of chords that it is held against.
+"""
 WIDENED, RISE, COLUMNS = 17, 26, 27
 """Columns of WORK: a triangle that nothing of the part is farther from than what stands in RISE; how many columns there
 are.

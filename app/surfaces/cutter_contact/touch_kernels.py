@@ -3,8 +3,7 @@
 Where a ball, or another cutter without a cone, touches a smooth surface that rises by the tangent of some angle, it
 does so at a distance from its axis that its shape gives, uphill. So the place of the patch is known by its slope: two
 equations for two parameters. Along a patch's side the one parameter is that at which the tip is highest. What comes out
-is the tip over a true place of the
-surface: never too high.
+is the tip over a true place of the surface: never too high.
 """
 
 from __future__ import annotations

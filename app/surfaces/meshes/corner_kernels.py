@@ -26,6 +26,7 @@ def number_rows(rows, table, out):
         for column in range(rows.shape[1]):
             word = (word ^ rows[k, column]) * _SECOND
             word ^= word >> _SHIFT
+        # open addressing: the table is longer than there are rows, so that an empty slot ends every search
         slot = np.int64((word * _FIRST) >> _SHIFT & last)
         while True:
             other = table[slot]

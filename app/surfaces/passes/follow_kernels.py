@@ -54,17 +54,17 @@ _STACK = 256
 _TIE = 1e-9
 _SAG, _RISE, _MORE, _SHORTER = 0.85, 0.9, 1.5, 0.7
 """Chords are made so long that they are off by about so much of what is allowed, and tolerated; times the last one's
-length at most,
-or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end there again, for
-ever."""
+length at most, or, if a line's last chord (4 LEAST or more) was too long, times it: so that the next one does not end
+there again, for ever.
+"""
 _SLOW, _FEW = 16, 4
 """Most chords that are made with care before the quick way is tried again; it begins with a group of _FEW."""
 _CLOSE = 0.02
 """mm; a chord as short as this that is not proven suggests that something was missed at its ends."""
 _BESIDE = 20.0
 """Times LEAST that a boundary point may lie beside two places between which the surface changes: where surfaces meet at
-a small
-angle, their heights are written as the same beside it."""
+a small angle, their heights are written as the same beside it.
+"""
 _TAKEN, _JUMPS, _SPLIT, _AGAIN = 0, 1, 2, 3
 """What becomes of a chord: it is taken, by way of a corner, or it is split, or looked at again."""
 NO_PROOF, NO_ROOM = -2, -1

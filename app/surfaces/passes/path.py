@@ -116,8 +116,8 @@ class Follower:
 
     def between(self, start: tuple[float, float], end: tuple[float, float]) -> Floats | None:
         """Return points (n, 3) of the way straight from one place to another, as low as the surfaces let the tip; None:
-        it has a gap,
-        or cannot be proven."""
+        it has a gap, or cannot be proven.
+        """
         from . import point_kernels as k
 
         far = math.dist(start, end)

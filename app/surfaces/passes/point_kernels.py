@@ -11,9 +11,9 @@ from ..cutter_contact.quick_kernels import quick_one
 _R = "float64[::1]"
 S, X, Y, Z, FACET, U, V, LEFT, LEFT_U, LEFT_V, NEW, TRUE_Z, MET = range(13)
 """Columns of points: place along the line, x, y, tip, what is touched there and where; what is touched on the side that
-the line
-comes from, which differs at boundary points; what it is (see BEGINS); the tip before it was rounded; of a boundary
-point where along the line both surfaces are touched."""
+the line comes from, which differs at boundary points; what it is (see BEGINS); the tip before it was rounded; of a
+boundary point where along the line both surfaces are touched.
+"""
 COLUMNS = 13
 BEGINS, CORNER, BOUNDARY = 1.0, 2.0, 3.0
 """NEW of a point where a run begins, of a jump's corner, of a boundary point; 0 of others."""

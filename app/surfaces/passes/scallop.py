@@ -70,8 +70,7 @@ def scallop_planes(
     them.
 
     On a slope the distance along it counts. Where surfaces curve the ridge is a little higher or lower than on their
-    tangent
-    planes: `hitofude cut` measures it.
+    tangent planes: `hitofude cut` measures it.
 
     Args:
         scallop_height: mm. origin: x, y of a place on one of the planes, mm. angle: of the planes to the X axis,

@@ -10,7 +10,7 @@ low.
 
 References:
     Cones of slopes through intervals: Reumann and Witkam (1974), Tomek (1974); polygons within a tube: Imai and Iri
-    (1988).
+        (1988).
 """
 
 from __future__ import annotations

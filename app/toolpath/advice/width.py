@@ -54,8 +54,7 @@ class Widths:
         passage, passage_at: diameter of the largest disc that passes everywhere, and the middle of the narrowest place.
         disc, disc_at: diameter and centre of the largest disc.
         clearing, clearing_at: diameter of the largest cutter that leaves nothing but sharp corners, and where its
-        centre would be
-            in the place that keeps it from being larger.
+            centre would be in the place that keeps it from being larger.
     """
 
     passage: Floats

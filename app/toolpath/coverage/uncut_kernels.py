@@ -68,7 +68,7 @@ def _beyond_reach(rows, order, nodes, frame, frame_order, frame_nodes, limits, s
     it.
 
     limits: distance of the frame from the walls, radius. square: x, y, half side, side of the walls (written when
-        found).
+    found).
     """
     x, y = square[0], square[1]
     far = square[2] * math.sqrt(2.0)

@@ -66,7 +66,8 @@ class Run:
 
     Attributes:
         start, stop: where it begins and ends, mm along the path; a closed one goes on past its beginning by the
-        overlap. way_in, way_out: (0 or 1, 8) rows to the wall and away from it.
+            overlap.
+        way_in, way_out: (0 or 1, 8) rows to the wall and away from it.
         share: how large the leads are against what was wanted; 0 = there are none.
         bent: True for arcs.
     """

@@ -90,7 +90,7 @@ def squares_beyond(
 
     Args:
         rows...: the walls. gaps...: parts of the level. path...: what is cut. radii, wide: of its cutters, by row and
-        by node.
+            by node.
         limits: distance of the level from the walls, half side of the smallest squares.
         squares: (m, 3) to begin with.
     """

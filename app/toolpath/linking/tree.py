@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from .bridge import Bridge
@@ -73,9 +72,3 @@ class Tree:
             if previous is None:
                 return way[::-1]
             at, step = previous
-
-
-def round_position(place: Place, entry: Place, count: int) -> float:
-    """Return how far a place is round a ring of `count` rows from an entry, either way, in rows."""
-    away = math.fabs(place.row + place.fraction - entry.row - entry.fraction)
-    return min(away, count - away)

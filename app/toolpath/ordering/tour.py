@@ -83,13 +83,6 @@ def in_short_order(
     return tuple(_other_way(strokes[k - 1]) if tour.turned[k] else strokes[k - 1] for k in tour.order[1:])
 
 
-def travel_mm(strokes: Sequence[Stroke], start: Point = (0.0, 0.0)) -> float:
-    """Return how far the tool travels from `start` through all strokes as they are, mm, the way back not counted."""
-    begins = np.array([stroke.rows[0, :2] for stroke in strokes]).reshape(-1, 2)
-    ends = np.array([np.array(start), *(stroke.rows[-1, 2:4] for stroke in strokes)]).reshape(-1, 2)
-    return float(np.hypot(*(begins - ends[:-1]).T).sum())
-
-
 def _other_way(stroke: Stroke) -> Stroke:
     """Return an open stroke cut from its end; a closed one as it is."""
     if stroke.closed:

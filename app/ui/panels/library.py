@@ -50,8 +50,7 @@ class LibrarySection(Section):
 
     Signals:
         added(tool), put(tool): the user wants this tool, with the feeds of the chosen material, in the job as another
-        one, or
-            in the place of the job's chosen tool.
+            one, or in the place of the job's chosen tool.
         imported(), exported(): wants to read tools from a file, or the job's written to one. closed().
     """
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import Change
 from ...formats.project.project import Look, Project
-from ...formats.readers import SUFFIXES
+from ...formats.readers import suffixes
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, Reading
 from ...usecases.bitmap_options import PICTURES, is_picture
@@ -32,11 +32,12 @@ from .saving import Saving
 from .showing import Showing
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
-OPEN_FILTER = (
-    "Drawings, scenes, pictures and NC programs "
-    f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', '.toml', *PICTURES, *PROGRAM_SUFFIXES))});;All files "
-    "(*)"
-)
+
+
+def open_filter() -> str:
+    """Return what the dialog of Open shows: every kind of file that can be opened."""
+    patterns = (*suffixes(), ".DXF", ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+    return f"Drawings, scenes, pictures and NC programs ({' '.join(f'*{each}' for each in patterns)});;All files (*)"
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,9 @@ class Files(QObject):
 
     def choose_file(self) -> None:
         """Ask for a drawing or a program and open it."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Open", self._preferences.settings.last_folder, OPEN_FILTER)
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, "Open", self._preferences.settings.last_folder, open_filter()
+        )
         if name:
             self.open_file(Path(name))
 

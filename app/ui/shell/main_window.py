@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainW
 
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
-from ...formats.readers import SUFFIXES
+from ...formats.readers import suffixes
 from ...usecases.bitmap_options import PICTURES
 from ..framework import style
 from ..framework.activity import Activity
@@ -198,7 +198,7 @@ class MainWindow(QMainWindow):
         """Welcome one drawing, scene, picture or NC program."""
         urls = event.mimeData().urls()
         if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*SUFFIXES, ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+            (*suffixes(), ".toml", *PICTURES, *PROGRAM_SUFFIXES)
         ):
             event.acceptProposedAction()
 

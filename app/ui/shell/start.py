@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QApplication
 
 from ...core.atomic import sweep
 from ...core.progress import Progress
+from ...core.resources import PACKAGE
 from ...core.settings import Settings, config_folder, load_settings, state_folder
 from ...drafting.document import Document
 from ..framework.icons import pixmap
@@ -31,9 +32,9 @@ _ENGINES = (
     "scipy.sparse.csgraph",
     "scipy.spatial",
     "cv2",
-    "app.formats.dxf.dxf",
-    "app.operations.compute",
-    "app.usecases.make",
+    f"{PACKAGE}.formats.dxf.dxf",
+    f"{PACKAGE}.operations.compute",
+    f"{PACKAGE}.usecases.make",
 )
 
 

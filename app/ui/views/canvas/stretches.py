@@ -23,8 +23,8 @@ Ints = NDArray[np.int64]
 
 SWAY = 0.02
 """Share of the diameter by which a measured one may be too large: a step begins above its limit and twice this, and
-ends below its
-limit and this, so that a stepover of just half is at most half, and does not flicker."""
+ends below its limit and this, so that a stepover of just half is at most half, and does not flicker.
+"""
 
 _HAIR = 1e-6  # parts of a move: less is no stretch
 

@@ -104,7 +104,7 @@ class Cutting(Controller):
 
         Args:
             source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it
-            is no scene's.
+                is no scene's.
         """
         before = self._foreign
         given = before.given if before is not None and before.source.bytes() == source.bytes() else Given()

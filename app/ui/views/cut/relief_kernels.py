@@ -29,6 +29,7 @@ def _relief_row(slopes, smooth, steep, light, gain, limit, out):
         k = k / sqrt(ONE + k * k * square)
         x, y = k * gx, k * gy
         rx, ry = SPREAD * sqrt(abs(x)), SPREAD * sqrt(abs(y))
+        # 128 + 127 sign sqrt: most of the 256 steps for the small slopes of cusps
         a = np.uint32(np.int32(MIDDLE - rx if x > 0 else MIDDLE + rx))
         b = np.uint32(np.int32(MIDDLE - ry if y > 0 else MIDDLE + ry))
         out[j] = a | (b << np.uint32(8)) | (np.uint32(light[j]) << np.uint32(16)) | np.uint32(0xFF000000)
@@ -60,7 +61,7 @@ def relief_map(heights, smooth, steep, light, pitch, gain, limit, out):
 
     Args:
         heights, smooth: (n, m) mm, as they are and smoothed. steep: (n, m) slope at walls, where smooth tells its
-        direction, else 0.
+            direction, else 0.
         light: (n, m) share of the light that reaches a cell, 255 = all.
         pitch: mm. gain, limit: see above. out: (n, m) x, y, light, 255, from the lowest byte up.
     """

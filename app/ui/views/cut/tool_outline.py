@@ -25,8 +25,8 @@ USUAL_ANGLE = {ToolKind.DRILL: math.radians(118.0), ToolKind.V: math.radians(90.
 
 _FLUTES, _MOST_OF_LENGTH, _CONES = 3.0, 0.6, (ToolKind.V, ToolKind.TAPER)
 """Flutes that nobody tells the length of: so many diameters, and not more than this share of a length that is known; a
-cone's are
-as long as it is."""
+cone's are as long as it is.
+"""
 
 _SHANK = 3.0
 """A shank that nobody tells the length of: so many of its diameters."""

@@ -71,8 +71,7 @@ class Shown:
     Attributes:
         source: where it came from, with its bytes. dialect: in which it was read.
         text, looks, shapes: lines, their looks, the motions; where the tool stands before them nobody knows, so the
-        first
-            ones begin where the program sends each axis. times: when each motion ends.
+            first ones begin where the program sends each axis. times: when each motion ends.
         pictures: of the sides that were asked for.
     """
 

@@ -16,9 +16,9 @@ TARGET, SCALE, WIDE, HIGH = 9, 12, 13, 14
 """Of a frame (15,): behind nine numbers of the axes."""
 WIDTH, PATTERN, HIDDEN, BIAS, STRENGTH, LEAST = 3, 4, 8, 9, 10, 11
 """Of a pen (12,): behind its blue, green and red: px wide; dash and gap twice, px; how much is left of it where it is
-hidden, how far
-behind a surface it is before that, mm, how strong it is where it is not, up to 1; and px: shorter steps are joined with
-the next."""
+hidden, how far behind a surface it is before that, mm, how strong it is where it is not, up to 1; and px: shorter steps
+are joined with the next.
+"""
 _DARKEST = 0.45
 
 

@@ -68,7 +68,7 @@ class Inks:
 
     Attributes:
         ground, ink, rapid, plunge: of the theme. surfaces: by number. tools: by T number. lines: line type of each
-        surface.
+            surface.
     """
 
     ground: Rgb
