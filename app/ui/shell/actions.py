@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
+from ...model.operation import OPERATION_KINDS
 from ..framework.icons import icon
 from ..framework.theme import Theme
 from ..framework.view import views
@@ -279,10 +280,14 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
 
 
 def menus() -> Iterator[tuple[str, tuple[Spec, ...]]]:
-    """Yield the menus, with every view that is registered."""
+    """Yield the menus, with every view and every kind of operation that is registered."""
     for title, specs in MENUS:
         if title == "&View":
             specs = (*(Spec(view.value, view.text, view.key, group="view", checkable=True) for view in views()), *specs)
+        if title == "&Job":
+            listed = {spec.name for spec in specs}
+            others = (Spec(f"add_{word}", f"Add {word}") for word in OPERATION_KINDS)
+            specs = (*specs, *(spec for spec in others if spec.name not in listed))
         yield title, specs
 
 
