@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.model.tool import Tool, ToolKind
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.cut.setup_form import as_kind
 from tests.ui.conftest import WAIT_MS
 

@@ -12,7 +12,7 @@ from app.core.settings import ThemeChoice
 from app.raster.codes import PixelCode
 from app.raster.steps import STEPS
 from app.ui.framework.theme import LIGHT
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.stages.inks import step_inks
 from app.ui.views.stages.pixel_paint import LETTER_PX, RASTER_PX
 from app.ui.views.stages.stages_panel import Rules
