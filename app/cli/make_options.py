@@ -103,11 +103,18 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
+    diameter = number("diameter", least=LEAST_DIAMETER)
     group.add_argument(
-        "--contour-tool", metavar="D", type=number("diameter", least=LEAST_DIAMETER), help="diameter of the tool that follows the walls"
+        "--contour-tool",
+        metavar="D",
+        type=number("diameter", least=LEAST_DIAMETER),
+        help="diameter of the tool that follows the walls",
     )
     group.add_argument(
-        "--pocket-tool", metavar="D", type=number("diameter", least=LEAST_DIAMETER), help="diameter of the tool that clears the area"
+        "--pocket-tool",
+        metavar="D",
+        type=number("diameter", least=LEAST_DIAMETER),
+        help="diameter of the tool that clears the area",
     )
     group.add_argument(
         "--stepover",
