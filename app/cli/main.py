@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import time
 import traceback
 from collections.abc import Sequence
+from functools import partial
 
 from .. import __version__
 from ..core.atomic import sweep
@@ -49,7 +51,7 @@ def main(argv: Sequence[str]) -> int:
             budgeted(argv),
             stoppable() as stopped,
             WaitLine("--quiet" in argv) as line,
-            told_waits(line.show, everywhere=True),
+            told_waits(partial(_wait, stopped, line), everywhere=True),
         ):
             try:
                 return _command(list(argv), stopped)
@@ -77,6 +79,11 @@ def main(argv: Sequence[str]) -> int:
             "please report it with the drawing; HITOFUDE_DEBUG=1 shows where"
         )
         return BAD_INPUT
+
+
+def _wait(stopped: Stopping, line: WaitLine, text: str) -> None:
+    stopped.waited = time.monotonic()
+    line.show(text)
 
 
 def _command(argv: list[str], stopped: Stopping) -> int:

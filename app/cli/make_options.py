@@ -104,16 +104,17 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
+    diameter = number("diameter", least=LEAST_DIAMETER)
     group.add_argument(
         "--contour-tool",
         metavar="D",
-        type=number("diameter", least=LEAST_DIAMETER),
+        type=diameter,
         help="diameter of the tool that follows the walls",
     )
     group.add_argument(
         "--pocket-tool",
         metavar="D",
-        type=number("diameter", least=LEAST_DIAMETER),
+        type=diameter,
         help="diameter of the tool that clears the area",
     )
     group.add_argument(
