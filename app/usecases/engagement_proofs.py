@@ -1,4 +1,4 @@
-"""What is proven of the engaged angle of operations that have a limit of it: on the written text, as it was read back."""
+"""What is proven of the engaged angle, of operations that have a limit of it: on the written text, as read back."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ class OperationProof:
         for each in self.proof.above[:_TOLD]:
             x, y, line = each.x + self.origin[0], each.y + self.origin[1], int(self.lines[each.motion])
             text = (
-                f"The engaged angle is proven to be at most {math.degrees(each.angle):.2f} degrees at ({x:.3f}, {y:.3f}), "
-                f"NC line {line}, and may be {math.degrees(self.limit):g} degrees at most "
+                f"The engaged angle is proven to be at most {math.degrees(each.angle):.2f} degrees at "
+                f"({x:.3f}, {y:.3f}), NC line {line}, and may be {math.degrees(self.limit):g} degrees at most "
                 f"({len(self.proof.above)} motions in all)."
             )
             found.append(Finding(FindingKind.ENGAGEMENT, text, x, y, amount=math.degrees(each.angle), line=line))

@@ -1,11 +1,11 @@
 """A bound of a cutter's engaged angle, all along a written program: what a limit of it is proven by.
 
-Only the motions that were read back count, and what these motions themselves have cleared; all else is metal. Nothing is
-known here of how the path was made. Cleared ground is kept as discs and sectors: an arc round c clears the ring between
-rho - r and rho + r in its sector, so where the ground within rho - r of c is clear already the whole sector is, and where
-sectors and discs that hold c cover a circle round it there is nothing left inside. Along an arc no more of the rim can be
-engaged than lies farther from c than the ground is clear all round; lines, and arcs for which that is too much, are
-bounded piece by piece (`rim_kernels`).
+Only the motions that were read back count, and what these motions themselves have cleared; all else is metal. Nothing
+is known here of how the path was made. Cleared ground is kept as discs and sectors: an arc round c clears the ring
+between rho - r and rho + r in its sector, so where the ground within rho - r of c is clear already the whole sector is,
+and where sectors and discs that hold c cover a circle round it there is nothing left inside. Along an arc no more of
+the rim can be engaged than lies farther from c than the ground is clear all round; lines, and arcs for which that is
+too much, are bounded piece by piece (`rim_kernels`).
 
 Ways down into metal engage the whole rim, and at their foot the hole is as wide as the cutter: the first turn that
 widens it, of at most WIDENING mm, belongs to the entry. Entries are measured, not limited.
@@ -195,7 +195,7 @@ class _Prover:
             self._clear_by_arc(row, low, shapes, clear)
 
     def _down(self, end: Floats, size: float) -> None:
-        """Take a way straight down or along a slope: at its end the cutter stands in a hole of its own size, at least."""
+        """Take a way down, straight or along a slope: at its end the cutter stands in a hole of its own size."""
         x, y, z = end.tolist()
         shapes = self._shapes(z)
         held = shapes[np.hypot(shapes[:, 0] - x, shapes[:, 1] - y) + self._radius <= shapes[:, 2]]
@@ -295,8 +295,8 @@ def _sectors(row: Floats, radius: float, core: float) -> Floats:
     made = []
     for k in range(count):
         a, b = first + sweep * k / count, first + sweep * (k + 1) / count
-        # beside the arc's ends the cutter is round: a strip as narrow as a crack is swept too, but for a hair at its end
-        crack = _CRACK if _CRACK <= core * math.sin((b - a) / 2) else 0.0
+        # beside the arc's ends the cutter is round: a narrow strip there is swept too, but for a hair at its end
+        crack = _CRACK if core * math.sin((b - a) / 2) >= _CRACK else 0.0
         reach = turn + radius - crack * crack / radius
         n, m = (math.sin(a), -math.cos(a)), (-math.sin(b), math.cos(b))
         made.append([x, y, reach, *n, n[0] * x + n[1] * y + crack, *m, m[0] * x + m[1] * y + crack])

@@ -1,8 +1,8 @@
 """The medial axis of an area, roughly: what lies as far from two places of the walls.
 
-Edges are those of the Voronoi diagram of points along the walls; distances are exact. Paths along it are proven by these
-distances alone, so that the axis is rough costs nothing but a little length. Where it ends in a corner, its last point is
-exact: the corner of the offset ring there.
+Edges are those of the Voronoi diagram of points along the walls; distances are exact. Paths along it are proven by
+these distances alone, so that the axis is rough costs nothing but a little length. Where it ends in a corner, its last
+point is exact: the corner of the offset ring there.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.progress import Progress
-from ...geometry.primitives import Primitives, Rows, lengths, points_at
+from ...geometry.primitives import Primitives, lengths, points_at
 from .ground import Room
 
 Floats = NDArray[np.float64]

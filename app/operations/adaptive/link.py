@@ -116,7 +116,7 @@ def _swept(a: Point, b: Point, circle: Circle) -> float:
 
 
 def _inside(circle: Circle, end: Point, into: Circle) -> float:
-    """Return the angle over which a circle, up to a place on it, lies within another one; a full turn if it all does."""
+    """Return the angle over which a circle, up to a place on it, lies within another one; a full turn if all does."""
     x, y, radius = circle
     away = math.hypot(x - into[0], y - into[1])
     if away + radius <= into[2] + 1e-12 or radius == 0.0:

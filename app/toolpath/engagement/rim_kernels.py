@@ -2,10 +2,10 @@
 
 What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,
 ny, h, mx, my, k), points p with |p - c| <= radius, n.p <= h and m.p <= k, mm; a half plane that is none has n = 0, h =
-inf. Every circle meets such a shape in at most three intervals, in closed form, so at one place of a cutter the rim that
-no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than half the piece's length
-from where it is in the middle, so what shapes that are so much smaller cover there is covered all along: the rest is a
-bound. A piece of which the bound is too large is halved.
+inf. Every circle crosses the border of such a shape at no more than six places, in closed form, so at one place of a
+cutter the rim that no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than
+half the piece's length from where it is in the middle, so what shapes that are so much smaller cover there is covered
+all along: the rest is a bound. A piece of which the bound is too large is halved.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ def bound_along(shapes, row, radius, sweep, limits):
 
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3))")
 def clear_radius(shapes, place):
-    """Return the radius of a disc round a place that is clear for certain, mm, at most `place[2]`; 0 where there is none.
+    """Return the radius of a disc round a place that is surely clear, mm, at most `place[2]`; 0 where there is none.
 
     Only shapes that hold the place count: seen from it each reaches from there to its border without a gap, so a circle
     that is covered all round has nothing but clear ground within.
