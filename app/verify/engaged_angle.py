@@ -242,10 +242,10 @@ class _Prover:
         enough = max(self._greatest.angle - _TIGHT, _TIGHT)
         if bound > self._limit or (row[7] == 0 and bound > enough):
             turn = float(sweeps(row[None])[0])
-            limits = (min(enough, self._limit), _COARSE * self._radius, _FINEST)
+            limits = (min(enough, self._limit), _COARSE * self._radius, _FINEST, math.inf)
             closer, at = bound_along(shapes, row, self._radius, (turn, size), limits)
             if closer > self._limit >= enough:
-                limits = (self._limit, _COARSE * self._radius, _FINEST)
+                limits = (self._limit, _COARSE * self._radius, _FINEST, math.inf)
                 closer, at = bound_along(shapes, row, self._radius, (turn, size), limits)
             if closer < bound:
                 bound, share = closer, at

@@ -108,7 +108,7 @@ class Proof:
                     row,
                     self.limit.radius,
                     (float(turn[k]), float(size[k])),
-                    (self.limit.planned, _COARSE * self.limit.radius, _FINEST),
+                    (self.limit.planned, _COARSE * self.limit.radius, _FINEST, self.limit.planned),
                 )
                 if bound <= self.limit.planned:
                     break

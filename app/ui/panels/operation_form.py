@@ -37,7 +37,6 @@ def _too_wide(stepover: float, diameter: float) -> str:
     return f"Stepover is {stepover:g} mm; use more than 0 and not more than the tool's diameter, {diameter:g} mm."
 
 
-
 def _has_rings(operation: Operation) -> bool:
     """Tell whether there is a distance between the paths of an operation."""
     return "stepover" in parameters_of(type(operation))
