@@ -39,6 +39,7 @@ from ..verify.verdict import (
 from .bitmap_options import is_picture
 from .cut import CutProgram
 from .cut_job import cut_job, news
+from .engagement_proofs import engagement_proofs
 from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
@@ -213,7 +214,8 @@ def finish(
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
+    proofs = engagement_proofs(program, job, written, progress.part(0.2, 0.22))
+    depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
     coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
@@ -223,6 +225,7 @@ def finish(
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
+        *(finding for proof in proofs.values() for finding in proof.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if machine else ()),
@@ -232,7 +235,7 @@ def finish(
     )
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
-    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal))
+    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal, proofs))
     return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..toolpath.coverage.wanted import CHORD
 from ..verify.judgement import SpotKind
 from ..verify.verdict import Gouge, RapidInMaterial
 from .cut import CutProgram
+from .engagement_proofs import OperationProof
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
 from .written import Written
 
@@ -59,6 +60,7 @@ class Measured:
         written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
         cut: the files, cut out of the stock; None without files.
+        proofs: of the engaged angle, by index of the operation.
     """
 
     program: Program
@@ -69,6 +71,7 @@ class Measured:
     coverage: Coverage
     findings: tuple[Finding, ...]
     cut: CutProgram | None
+    proofs: Mapping[int, OperationProof] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -153,12 +156,19 @@ def make_report(measured: Measured) -> Report:
                 "pitch_mm": program.pitch_mm,
             },
             "tools": [_tool(tool, measured) for tool in job.tools],
-            "operations": [operation_values(job, index, program, written, top) for index in range(len(job.operations))],
+            "operations": [
+                operation_values(job, index, program, written, top) | _proven(measured, index)
+                for index in range(len(job.operations))
+            ],
             **_setup(measured),
             "post": job.post,
             "out_units": "in" if job.out_units.value == 25.4 else "mm",
         }
     )
+
+
+def _proven(measured: Measured, index: int) -> Json:
+    return {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
 
 
 def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:

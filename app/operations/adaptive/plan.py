@@ -33,7 +33,7 @@ _TURN = 0.05
 _SHARP = 0.1
 """Radians; a corner of the way along the walls that turns by less needs no arc of its own."""
 
-_SLIVER = 0.008
+_SLIVER = 0.005
 """mm; as much may stand in a corner: less than counts as left."""
 
 _CHORD = 1e-3
@@ -115,7 +115,7 @@ def least_turn(limit: Limit) -> float:
 
 
 def _tip(turns: Floats, limit: Limit, least: float) -> float:
-    """Return the radius of the arcs in corners, mm: small enough that next to nothing stands in the sharpest of them."""
+    """Return the radius of the arcs in corners, mm: small enough that next to nothing stands in the sharpest."""
     if not len(turns):
         return least
     sine = math.sin((math.pi - float(turns.max())) / 2)
