@@ -21,6 +21,7 @@ from ..toolpath.coverage.flat import region_shapes
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.drawn import Drawn, drawn
 from ..toolpath.drill_holes import across_holes
+from ..toolpath.selected import about_selected, selected
 from ..toolpath.setting import Setting
 from ..toolpath.sheets import Sheets
 from ..toolpath.witness import about_regions
@@ -100,7 +101,8 @@ def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
 def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
     """Return the open lines that some operation follows."""
     cuts = [each.cut for each in job.operations if each.wall_side is Side.ON and each.cut.enabled]
-    return tuple(line for line in parts.open if any(not cut.layers or line.layer in cut.layers for cut in cuts))
+    followed = {id(line) for cut in cuts for line in selected(parts, cut.curves).open}
+    return tuple(line for line in parts.open if id(line) in followed)
 
 
 def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
@@ -113,9 +115,9 @@ def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Find
         for each in across_holes(parts.findings, job, parts)
         if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))
     ]
-    if any(operation.cut.enabled and not operation.follows_lines for operation in job.operations):
-        return kept
-    return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
+    if not any(operation.cut.enabled and not operation.follows_lines for operation in job.operations):
+        kept = [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
+    return [*kept, *about_selected(job, parts)]
 
 
 def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Finding]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -16,9 +17,11 @@ from ..core import tolerances
 from ..core.errors import ParameterError
 from ..geometry.chaining.chain import chain
 from ..geometry.even_odd import even_odd
+from ..geometry.nesting import lying_in
 from ..geometry.overlay.overlay import without_crossings
 from ..geometry.primitives import contour_rows, sample, signed_area
 from ..geometry.region import reversed_contour
+from ..model.curve_selectors import layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
@@ -50,6 +53,12 @@ class Drawn:
     clamps: tuple[Region, ...] = ()
     findings: tuple[Finding, ...] = ()
 
+    @cached_property
+    def inner(self) -> frozenset[int]:
+        """The identities of the closed contours that lie in another closed one."""
+        within = lying_in([contour_rows(each) for each in self.closed])[0]
+        return frozenset(id(self.closed[k]) for k in within.tolist())
+
 
 def layers_of(job: Job) -> frozenset[str]:
     """Return the names of the layers that a job machines.
@@ -59,7 +68,7 @@ def layers_of(job: Job) -> frozenset[str]:
     """
     known = {layer.name for layer in job.part.layers}
     visible = {layer.name for layer in job.part.layers if layer.visible}
-    asked = {name for operation in job.operations if operation.cut.enabled for name in operation.cut.layers}
+    asked = {name for each in job.operations if each.cut.enabled for name in layer_names(each.cut.curves)}
     for name in (*job.keep_out_layers, *sorted(asked)):
         if name not in known:
             raise ParameterError(f"The drawing has no layer '{name}'; it has {', '.join(sorted(known)) or 'none'}.")

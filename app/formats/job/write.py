@@ -109,7 +109,14 @@ def _operation(operation: Operation) -> Iterator[tuple[str, Any]]:
     for key, placed in declared_of(type(operation)).items():
         value = placed.of(operation)
         if value is not None and (key in effective or value != placed.default):
-            yield key, angle_said(value) if placed.parameter.unit is Unit.ANGLE else value
+            yield key, _said(placed.parameter.unit, value)
+
+
+def _said(unit: Unit, value: Any) -> Any:
+    """Return a value as a job file has it: angles in degrees, selectors of curves as texts."""
+    if unit is Unit.CURVES:
+        return tuple(each.text for each in value)
+    return angle_said(value) if unit is Unit.ANGLE else value
 
 
 def angle_said(angle: float) -> float | str:
