@@ -102,7 +102,7 @@ class CirclesOf:
         return f"circles {self.text.partition(':')[2]} mm"
 
 
-class Nesting(Enum):
+class ContourKind(Enum):
     """Contours by where they lie."""
 
     OUTER = "outer"
@@ -120,7 +120,7 @@ class Nesting(Enum):
         return self.value
 
 
-Selector = CurveNumber | OnLayer | CirclesOf | Nesting
+Selector = CurveNumber | OnLayer | CirclesOf | ContourKind
 
 
 def read_selector(text: str) -> Selector:
@@ -137,8 +137,8 @@ def read_selector(text: str) -> Selector:
         return OnLayer(text[len("layer:") :])
     if match := re.fullmatch(rf"circles:\s*{_NUMBER}(?:\s*-\s*{_NUMBER})?", word):
         return CirclesOf(float(match[1]), float(match[2] or match[1]))
-    if word in {each.value for each in Nesting}:
-        return Nesting(word)
+    if word in {each.value for each in ContourKind}:
+        return ContourKind(word)
     shown = plain if len(plain) <= _QUOTED else f"{plain[:_QUOTED]}…"
     raise ParameterError(f"'{shown}' selects no curves; write {HELP}.")
 

@@ -17,10 +17,9 @@ from ..core import tolerances
 from ..core.errors import ParameterError
 from ..geometry.chaining.chain import chain
 from ..geometry.even_odd import even_odd
-from ..geometry.nesting import lying_in
 from ..geometry.overlay.overlay import without_crossings
 from ..geometry.primitives import contour_rows, sample, signed_area
-from ..geometry.region import reversed_contour
+from ..geometry.region import holders, reversed_contour
 from ..model.curve_selectors import layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.finding import Finding, FindingKind
@@ -54,10 +53,14 @@ class Drawn:
     findings: tuple[Finding, ...] = ()
 
     @cached_property
+    def holders(self) -> list[list[int]]:
+        """Which closed contours lie round each closed one, by their indices."""
+        return holders(self.closed)
+
+    @cached_property
     def inner(self) -> frozenset[int]:
         """The identities of the closed contours that lie in another closed one."""
-        within = lying_in([contour_rows(each) for each in self.closed])[0]
-        return frozenset(id(self.closed[k]) for k in within.tolist())
+        return frozenset(id(each) for each, held in zip(self.closed, self.holders, strict=True) if held)
 
 
 def layers_of(job: Job) -> frozenset[str]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ..geometry.as_circle import as_circle
-from ..model.curve_selectors import CirclesOf, CurveNumber, Nesting, OnLayer, Selector
+from ..model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer, Selector
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation, Side
@@ -36,7 +36,7 @@ def selected(drawn: Drawn, curves: Sequence[Selector]) -> Selected:
     """Return the contours that any of some selectors selects; without one all that the job machines."""
     if not curves:
         return Selected(drawn.closed, drawn.open)
-    placed = any(each in (Nesting.OUTER, Nesting.INNER) for each in curves)
+    placed = any(each in (ContourKind.OUTER, ContourKind.INNER) for each in curves)
     inner = drawn.inner if placed else frozenset()
     return Selected(
         tuple(c for c in drawn.closed if any(_selects(each, c, id(c) in inner) for each in curves)),
@@ -53,10 +53,10 @@ def _selects(selector: Selector, contour: Contour, is_inner: bool) -> bool:
         case CirclesOf(least, most):
             circle = as_circle(contour)
             return circle is not None and least - SAME_DIAMETER <= 2 * circle.radius <= most + SAME_DIAMETER
-        case Nesting.OPEN:
+        case ContourKind.OPEN:
             return not contour.closed
         case _:
-            return contour.closed and is_inner is (selector is Nesting.INNER)
+            return contour.closed and is_inner is (selector is ContourKind.INNER)
 
 
 def about_selected(job: Job, drawn: Drawn) -> list[Finding]:

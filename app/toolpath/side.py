@@ -4,14 +4,20 @@ last.
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Sequence
 
-from ..geometry.nesting import ranks
+import numpy as np
+import shapely
+
 from ..geometry.offset.offset import Level, Ring
+from ..geometry.outlines import Outlines, polygons
 from ..geometry.primitives import reversed_rows
 from ..model.operation import Direction
 from .leads.contour_path import Path
 from .sheets import Sheet
+
+_CHORD = 0.01
+"""mm; only which ring lies in which depends on it."""
 
 
 def wall_paths(level: Level, sheet: Sheet, direction: Direction) -> tuple[Path, ...]:
@@ -42,3 +48,18 @@ def _along_walls(ring: Ring, sheet: Sheet, rank: int) -> list[Path]:
     rows, bare = np.roll(ring.rows, -first, axis=0), np.roll(bare, -first)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], bare, [True]]).astype(np.int8)))
     return [Path(rows[a:b], False, ring.region, rank, ring.area) for a, b in edges.reshape(-1, 2).tolist()]
+
+
+def ranks(loops: Sequence[np.ndarray]) -> list[int]:
+    """Return how many of some closed loops of rows lie round each of them."""
+    if len(loops) < 2:
+        return [0] * len(loops)
+    outlines = Outlines.joined(loops)
+    shapes = np.asarray(shapely.points(outlines.rows[outlines.first[:-1], :2]), dtype=object)
+    places = shapes.copy()
+    number, wide = polygons(outlines, np.arange(len(outlines)), _CHORD)
+    shapes[number] = wide
+    held = shapely.STRtree(shapes).query(places, predicate="within")
+    size = shapely.area(shapes)
+    inside = held[:, (held[0] != held[1]) & (size[held[0]] < size[held[1]])]
+    return [int(count) for count in np.bincount(inside[0], minlength=len(loops))]

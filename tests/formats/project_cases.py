@@ -10,7 +10,7 @@ from app.drafting.expressions.values import Curves
 from app.drafting.history import State
 from app.formats.project.beside import Beside
 from app.formats.project.project import Look, Project
-from app.model.curve_selectors import CirclesOf, CurveNumber, Nesting, Selector, on_layers
+from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, Selector, on_layers
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
@@ -130,7 +130,7 @@ def selectors() -> st.SearchStrategy[tuple[Selector, ...]]:
     circles = st.tuples(floats(0.01, 99), floats(0.01, 99)).map(
         lambda ends: CirclesOf(*(round(e, 9) for e in sorted(ends)))
     )
-    others = st.one_of(st.integers(1, 10**9 - 1).map(CurveNumber), circles, st.sampled_from(Nesting))
+    others = st.one_of(st.integers(1, 10**9 - 1).map(CurveNumber), circles, st.sampled_from(ContourKind))
     return st.tuples(NAMES.map(on_layers), st.lists(others, unique=True, max_size=3)).map(
         lambda two: (*two[0], *two[1])
     )

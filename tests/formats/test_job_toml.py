@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.formats.job.toml import TOOL_KEYS, parse_origin, read_job
-from app.model.curve_selectors import CirclesOf, CurveNumber, Nesting, OnLayer
+from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
@@ -250,7 +250,7 @@ def test_bytes_that_are_no_text() -> None:
 
 LENGTH = st.floats(0.01, 50).map(lambda value: round(value, 6))
 SELECTORS = st.one_of(
-    st.sampled_from((OnLayer("a"), OnLayer("Außen"), OnLayer("x y"), OnLayer("layer:#1"), *Nesting)),
+    st.sampled_from((OnLayer("a"), OnLayer("Außen"), OnLayer("x y"), OnLayer("layer:#1"), *ContourKind)),
     st.integers(1, 10**9 - 1).map(CurveNumber),
     st.tuples(LENGTH, LENGTH).map(lambda ends: CirclesOf(*sorted(ends))),
 )

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...core.progress import Progress
 from ...geometry.distance import DistanceField
-from ...geometry.nesting import ranks
 from ...geometry.primitives import Rows, contour_rows, lengths, points_at, reversed_rows, signed_area
 from ...model.finding import Finding, FindingKind
 from ...model.operation import Direction
 from ...model.tool import Tool
 from ...toolpath.leads.contour_path import Floats, Path
 from ...toolpath.sheets import Sheet
+from ...toolpath.side import ranks
 
 _FINEST = tolerances.LEVEL
 """mm; how exactly the place is found where a clamp cuts a line off, on the safe side."""

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from PySide6.QtCore import SignalInstance
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from ...model.curve_selectors import Nesting, OnLayer
+from ...model.curve_selectors import ContourKind, OnLayer
 from ...model.entry import EntryKind, LeadKind
 from ...model.fields import Placed, Unit, parameters_of
 from ...model.job import Job
@@ -189,7 +189,7 @@ def _tabs(form: GroupHost) -> Show:
     return show
 
 
-_PLACES = {Nesting.OUTER: "Outer contours", Nesting.INNER: "Inner contours", Nesting.OPEN: "Open lines"}
+_PLACES = {ContourKind.OUTER: "Outer contours", ContourKind.INNER: "Inner contours", ContourKind.OPEN: "Open lines"}
 
 
 def _curves(form: GroupHost) -> Show:
@@ -201,7 +201,7 @@ def _curves(form: GroupHost) -> Show:
         choices: list[tuple[object, str]] = [
             ((), "All of the job"),
             *(((OnLayer(layer.name),), layer.name) for layer in shown.job.part.layers),
-            *(((each,), _PLACES[each]) for each in Nesting),
+            *(((each,), _PLACES[each]) for each in ContourKind),
         ]
         if own not in [value for value, _ in choices]:
             choices.append((own, ", ".join(each.text for each in own)))
