@@ -25,7 +25,8 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
         job: what they say.
         units: of a drawing that names none, or None.
     """
-    yield from _table("stock", {"margin": job.stock.margin, "thickness": job.stock.thickness})
+    stock = job.stock
+    yield from _table("stock", {"margin": stock.margin, "thickness": stock.thickness, "under": stock.under})
     yield from _table("origin", {"xy": word_of(ORIGIN_XY, job.origin_xy), "z": word_of(ORIGIN_Z, job.origin_z)})
     yield from _table("heights", {"safe_z": job.safe_z, "retract_z": job.retract_z})
     drawing = {"units": word_of(UNITS, units)} if units else {}

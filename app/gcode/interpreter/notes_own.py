@@ -68,6 +68,7 @@ def own_notes(comments: Comments) -> Notes:
             for _, values in told.get("plunge_mm_min", [])
             if len(numbers := _floats(values)) == 2
         ),
+        max(_first(told.get("under_mm", [])) or 0.0, 0.0),
     )
     return Notes(
         tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header

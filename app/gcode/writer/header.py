@@ -117,6 +117,8 @@ def heading_lines(heading: Heading) -> Iterator[str]:
         )
         yield "Set Z zero with this tool in the spindle"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
+    if job.stock.under:
+        yield f"It lies on {_length(job.stock.under, units)} of waste, which the tool cuts into"
     origin = ", ".join(
         f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True)
     )
