@@ -109,15 +109,33 @@ def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Find
     """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but
     followed.
     """
-    followed = {number for line in lines for number in line.entity_ids}
+    followed = {number for line in lines for number in line.entity_ids} | _only_followed(job, parts)
     kept = [
         each
         for each in across_holes(parts.findings, job, parts)
         if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))
     ]
-    if not any(operation.cut.enabled and not operation.follows_lines for operation in job.operations):
-        kept = [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
+    only_followed = not any(operation.cut.enabled and not operation.follows_lines for operation in job.operations)
+    kept = [
+        replace(each, counts=False)
+        if each.kind is FindingKind.SELF_INTERSECTION
+        and (only_followed or (each.entity_ids and followed.issuperset(each.entity_ids)))
+        else each
+        for each in kept
+    ]
     return [*kept, *about_selected(job, parts)]
+
+
+def _only_followed(job: Job, parts: Drawn) -> set[int]:
+    """Return the numbers of the curves that bound no area of any operation, since all that select them follow them."""
+    at_work = [each for each in job.operations if each.cut.enabled]
+    numbers: dict[bool, set[int]] = {True: set(), False: set()}
+    for operation in at_work:
+        found = selected(parts, operation.cut.curves)
+        contours = (*found.closed, *found.open) if operation.wall_side is Side.ON else found.closed
+        if not operation.DRILLS:
+            numbers[operation.wall_side is Side.ON].update(n for each in contours for n in each.entity_ids)
+    return numbers[True] - numbers[False]
 
 
 def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Finding]:

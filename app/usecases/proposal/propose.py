@@ -43,12 +43,9 @@ SPARE = 2.0
 WIDEST = 6.0
 """mm; no wider mill is proposed to cut a part out, for its slot is waste."""
 
-_TABS = 4
+_TABS, _FEWER = 4, 3
 _SMALL = 100.0
 """mm; an outline shorter than this has fewer and narrower tabs."""
-
-_HELD = 0.75
-"""Of a hole's diameter; a mill up to this wide has room to go down in it on a helix."""
 
 Json = dict[str, Any]
 
@@ -233,9 +230,7 @@ class _Work:
 
     def _named(self, tool: Tool) -> str:
         """Return a tool, and whether one has to be had that the library lacks."""
-        long = (
-            f", {self.thickness:g} mm long or more: those of the library are shorter" if self.rack.is_long(tool) else ""
-        )
+        long = " (a longer one than the library has)" if self.rack.is_long(tool) else ""
         return f"T{tool.number} {tool.kind.value} {tool.diameter:g} mm{long}"
 
     def drills(self) -> list[Proposed]:
@@ -257,9 +252,9 @@ class _Work:
         for size, circles in self.found.holes:
             if self.rack.drill(size) is not None:
                 continue
-            tool = self.rack.fitting(_HELD * size, _HELD * size, self.thickness)
+            tool = self.rack.boring(size, self.thickness)
             loose = size > 2 * tool.diameter
-            tabs = _tabs(circles) if loose else Tabs()
+            tabs = _tabs(circles, math.pi * tool.diameter) if loose else Tabs()
             why = (
                 f"{_counted(len(circles), 'hole')} of {size:g} mm, through: the library has no drill of that size, so "
                 f"{self._named(tool)} mills {'them' if len(circles) > 1 else 'it'}"
@@ -355,12 +350,14 @@ def _outside(outlines: Sequence[Contour]) -> tuple[Region, ...]:
     return _regions((frame, *outlines))
 
 
-def _tabs(contours: Sequence[Contour]) -> Tabs:
-    """Return tabs that the shortest of some contours has room for."""
-    shortest = min(float(lengths(contour_rows(each)).sum()) for each in contours)
-    return Tabs(_TABS) if shortest >= _SMALL else Tabs(3, width=max(0.5, min(Tabs().width, shortest / 20)))
+def _tabs(contours: Sequence[Contour], shorter: float = 0.0) -> Tabs:
+    """Return tabs that the shortest of some contours has room for, whose path is so much shorter than it, mm."""
+    shortest = min(float(lengths(contour_rows(each)).sum()) for each in contours) - shorter
+    return Tabs(_TABS) if shortest >= _SMALL else Tabs(_FEWER, width=max(0.5, min(Tabs().width, shortest / 20)))
 
 
 def _counted(count: int, what: str) -> str:
-    plural = what.replace("stroke ", "strokes ", 1) if what.startswith("stroke ") else f"{what}s"
-    return f"1 {what}" if count == 1 else f"{count} {plural}"
+    """Return how many things there are, of which the first word of "stroke of letters" or "slot or bore" is one."""
+    one, or_, other = what.partition(" or ")
+    many = f"{one}s or {other}s" if or_ else what.replace("stroke", "strokes") if " of " in what else f"{what}s"
+    return f"1 {what}" if count == 1 else f"{count} {many}"

@@ -19,6 +19,9 @@ _EXACT = 0.01
 _LONGEST = 6.0
 """Times its diameter that a mill's flutes can be long, as they are sold."""
 
+_HELIX = 0.75
+"""Of a hole's diameter; a mill up to this wide has room to go down in it on a helix."""
+
 _FINE_ANGLE = 1.1
 """Radians; V tools up to this full angle, 63 degrees, engrave."""
 
@@ -86,6 +89,16 @@ class Rack:
         """Return the tool for lines: the most pointed V tool, else the thinnest flat mill."""
         pointed = [tool for tool in self.tools if tool.kind is ToolKind.V and 0 < tool.tip_angle <= _FINE_ANGLE]
         return max(pointed, key=lambda tool: tool.tip_angle) if pointed else self.mills(0.0)[0]
+
+    def boring(self, diameter: float, depth: float) -> Tool:
+        """Return the mill for a round hole, mm: with room to go down on a helix, and so wide that nothing falls out of
+        the middle if there is one, else the widest.
+        """
+        mills = self.mills(depth)
+        fit = [tool for tool in mills if tool.diameter <= _HELIX * diameter] or mills[:1]
+        wide = [tool for tool in fit if 2 * tool.diameter >= diameter]
+        used = [tool for tool in wide if tool in self.taken]
+        return used[-1] if used else wide[0] if wide else fit[-1]
 
     def fitting(self, least: float, most: float, depth: float) -> Tool:
         """Return the mill for places that have room for a diameter: the widest that fits, one that is used already

@@ -8,6 +8,7 @@ holds nothing is a hole; so is a slot or a bore with a keyway or a flat: whateve
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -51,7 +52,8 @@ class Sorted:
         holes: circles that hold nothing, by their diameters, mm, rising.
         bores: slots, and other holes that are round over half a turn.
         pockets: other contours that lie in an odd number of others; islands: those that stand in them.
-        lines: open lines; strokes: of letters.
+        lines: open lines, and all curves of a layer that has more of these than closed contours and no outline.
+        strokes: of letters.
         gaps: findings about outlines that are not closed, which no operation is proposed for.
     """
 
@@ -73,17 +75,21 @@ def sorted_contours(part: Part, drawn: Drawn) -> Sorted:
     """
     letters = {entity.id for entity in part.entities if entity.lettering}
     strokes = [each for each in drawn.open if letters.issuperset(each.entity_ids)]
+    engraved = _engraved(drawn)
+    closed = [each for each in drawn.closed if each.layer not in engraved]
     lines = [each for each in drawn.open if not letters.issuperset(each.entity_ids)]
-    broken = [each for each in lines if _gap(each) <= _GAP * float(lengths(contour_rows(each)).sum())]
+    broken = [
+        each
+        for each in lines
+        if each.layer not in engraved and _gap(each) <= _GAP * float(lengths(contour_rows(each)).sum())
+    ]
     # an outline with a gap holds what is drawn in it all the same, or its holes would be taken for parts
-    every = [*drawn.closed, *(_closed(each) for each in broken)]
-    around = holders(every)
+    around = holders([*closed, *(_closed(each) for each in broken)])
     holding = {k for held in around for k in held}
-    count = len(drawn.closed)
-    sorts = [_sort(drawn.closed[k], len(around[k]), k in holding) for k in range(count)]
+    sorts = [_sort(each, len(around[k]), k in holding) for k, each in enumerate(closed)]
 
     def of(sort: Sort) -> tuple[Contour, ...]:
-        return tuple(each for each, own in zip(drawn.closed, sorts, strict=True) if own is sort)
+        return tuple(each for each, own in zip(closed, sorts, strict=True) if own is sort)
 
     return Sorted(
         of(Sort.OUTLINE),
@@ -91,10 +97,20 @@ def sorted_contours(part: Part, drawn: Drawn) -> Sorted:
         of(Sort.BORE),
         of(Sort.POCKET),
         of(Sort.ISLAND),
-        tuple(each for each in lines if not any(each is other for other in broken)),
+        (
+            *(each for each in lines if not any(each is other for other in broken)),
+            *(each for each in drawn.closed if each.layer in engraved),
+        ),
         tuple(strokes),
         tuple(_about_gap(each) for each in broken),
     )
+
+
+def _engraved(drawn: Drawn) -> frozenset[str]:
+    """Return the layers of which all is engraved: words that are drawn as curves, whose O bounds no area."""
+    open_, closed = (Counter(each.layer for each in some) for some in (drawn.open, drawn.closed))
+    parts = {each.layer for each in drawn.closed if id(each) not in drawn.inner}
+    return frozenset(name for name, count in open_.items() if count >= max(closed[name], 1) and name not in parts)
 
 
 def _sort(contour: Contour, depth: int, holds: bool) -> Sort:
