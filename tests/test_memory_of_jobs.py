@@ -170,6 +170,18 @@ pitch = 0.001
     assert said.count("\n") == 1 and not (tmp_path / "a.ngc").exists()
 
 
+def test_a_pocket_of_more_rings_than_memory_holds_is_refused_before_they_are_made(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drawing = tmp_path / "a.draw"
+    drawing.write_text("rect 0,0 20000,20000\n")
+    command = ["make", str(drawing), "--pocket-tool=0.05", "-o", str(tmp_path / "a.ngc"), "--quiet", "--memory=60M"]
+    assert main(command) == 2
+    said = capsys.readouterr().err
+    assert re.search(r"A pocket of [\d,]+ rings, 0\.04 mm from one to the next, would take \S+ [MG]B of memory", said)
+    assert said.count("\n") == 1 and not (tmp_path / "a.ngc").exists()
+
+
 def test_rest_machining_with_a_needle_is_refused_before_its_cells_are_made(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -13,6 +13,7 @@ from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
 from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_units
+from ..formats.readers import offered_suffixes
 from ..formats.tools.holders import outline_of
 from ..model.operation import LEAST_LENGTH
 from ..model.tool import HolderPoint, Tool, ToolKind
@@ -266,7 +267,7 @@ def _part_options(group: argparse._ArgumentGroup) -> None:
         "--against",
         metavar="PART",
         type=Path,
-        help="a drawing (.hito .dxf .svg .draw), a closed solid (.stl), or a scene of surfaces (.toml)",
+        help=f"a drawing ({' '.join(offered_suffixes())}), a closed solid (.stl), or a scene of surfaces (.toml)",
     )
     group.add_argument(
         "--depth",

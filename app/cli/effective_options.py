@@ -15,7 +15,7 @@ from .parser import OptionParser, number
 Kind = TypeVar("Kind")
 
 _DEFAULTS = CorrectionOptions()
-_ONLY = ("epsilon", "ends", "before", "after", "move", "select", "embodiment")
+_ONLY = ("epsilon", "nearness", "ends", "before", "after", "move", "select", "embodiment")
 
 
 def add_effective_options(parser: OptionParser) -> None:
@@ -30,6 +30,13 @@ def add_effective_options(parser: OptionParser) -> None:
     )
     group.add_argument(
         "--epsilon", metavar="E", type=number("epsilon"), help="points so near to one segment belong to one facet (mm)"
+    )
+    group.add_argument(
+        "--nearness",
+        metavar="N",
+        type=number("nearness"),
+        help="how far the curve may be from the points that it goes by (mm; default: some last digits of the program, "
+        "or a twentieth of epsilon); the tolerance says how far it may leave the facets",
     )
     group.add_argument(
         "--ends",
@@ -82,9 +89,10 @@ def effective_method(arguments: argparse.Namespace) -> EffectiveMethod | None:
     if arguments.embodiment != 2:
         if late := [name for name in ("before", "after", "move", "select") if name in given]:
             raise InputError(f"--{late[0]} belongs to --embodiment 2; give that too, or leave it out")
-        return EffectiveMethod(choose)
+        return EffectiveMethod(choose, nearness=arguments.nearness)
     move = Move.PERPENDICULAR if arguments.move == "perpendicular" else Move.NEAREST
-    return EffectiveMethod(choose, second_embodiment(arguments.select, arguments.before, arguments.after, move))
+    correct = second_embodiment(arguments.select, arguments.before, arguments.after, move)
+    return EffectiveMethod(choose, correct, arguments.nearness)
 
 
 def _pair(kinds: dict[str, Kind]) -> Callable[[str], tuple[Kind, float]]:

@@ -9,8 +9,9 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..drafting.expressions.numbers import length
 from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
+from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
-from ..model.tool import LEAST_RATE
+from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
 from ..usecases.proposal.propose import Proposing
 from .parser import MACHINE_HELP, OptionParser, join_tolerance, machine_named, number, typed, with_equals
@@ -57,7 +58,7 @@ def make_parser() -> OptionParser:
         "drawing",
         metavar="DRAWING",
         type=Path,
-        help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp",
+        help=f"the drawing or project, {' '.join(offered_suffixes())}, or a picture, .png .jpg .bmp",
     )
     _file_options(parser.add_argument_group("files"))
     _proposal_options(parser.add_argument_group("proposed operations"))
@@ -131,10 +132,16 @@ def _proposal_options(group: argparse._ArgumentGroup) -> None:
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
-        "--contour-tool", metavar="D", type=number("diameter"), help="diameter of the tool that follows the walls"
+        "--contour-tool",
+        metavar="D",
+        type=number("diameter", least=LEAST_DIAMETER),
+        help="diameter of the tool that follows the walls",
     )
     group.add_argument(
-        "--pocket-tool", metavar="D", type=number("diameter"), help="diameter of the tool that clears the area"
+        "--pocket-tool",
+        metavar="D",
+        type=number("diameter", least=LEAST_DIAMETER),
+        help="diameter of the tool that clears the area",
     )
     group.add_argument(
         "--stepover",

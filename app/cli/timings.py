@@ -23,13 +23,15 @@ class StageTimes:
         self._seconds: dict[str, float] = {}
         self._clock = clock
         self._stage, self._since = "Start", clock()
+        self._told = ""
 
     def watch(self, progress: Progress) -> Progress:
         """Return a progress that tells its listener what it is told, and notes when."""
         listener = progress.listener
 
         def told(fraction: float, text: str) -> None:
-            if text:
+            if text and text != self._told:  # where it is the same, its time goes on
+                self._told = text
                 self._charge(text)
             if listener is not None:
                 listener(fraction, text)

@@ -1,4 +1,4 @@
-"""What every reader of drawings returns."""
+"""What every reader of drawings returns, and every writer."""
 
 from __future__ import annotations
 
@@ -28,3 +28,37 @@ class Drawing:
     units_named: bool = True
     contents: Contents = NO_CHOICE
     question: Question | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Converted:
+    """Curves that the format cannot hold and that became lines and arcs.
+
+    Attributes:
+        kind: "ellipse" or "spline".
+        count: how many.
+        deviation: the largest distance between any of them and what was written for it, mm.
+    """
+
+    kind: str
+    count: int
+    deviation: float
+
+
+@dataclass(frozen=True)
+class Written:
+    """A drawing as it was written.
+
+    Attributes:
+        data: the whole file.
+        converted: what could not be kept exactly, by kind.
+        renamed: (layer, its name in the file) where the format forbids the name.
+        too_small: how many curves are left out because they are too small for the format.
+        notes_left_out: how many points, guides and dimensions are.
+    """
+
+    data: bytes
+    converted: tuple[Converted, ...] = ()
+    renamed: tuple[tuple[str, str], ...] = ()
+    too_small: int = 0
+    notes_left_out: int = 0

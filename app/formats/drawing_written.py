@@ -1,4 +1,4 @@
-"""What every writer of drawings returns, and what all of them need: a box round the part, curves as lines and arcs, a
+"""What all writers of drawings need: a box round the part, curves as lines and arcs, a
 count of both.
 """
 
@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,36 +14,7 @@ from ..geometry.arcs.arcs import lines_and_arcs
 from ..geometry.primitives import boxes, curve_rows
 from ..model.curves import Curve, Ellipse, Primitive, Spline
 from ..model.part import Entity
-
-
-@dataclass(frozen=True, slots=True)
-class Converted:
-    """Curves that the format cannot hold and that became lines and arcs.
-
-    Attributes:
-        kind: "ellipse" or "spline".
-        count: how many.
-        deviation: the largest distance between any of them and what was written for it, mm.
-    """
-
-    kind: str
-    count: int
-    deviation: float
-
-
-@dataclass(frozen=True)
-class Written:
-    """A drawing as it was written.
-
-    Attributes:
-        data: the whole file.
-        converted: what could not be kept exactly, by kind.
-        renamed: (layer, its name in the file) where the format forbids the name.
-    """
-
-    data: bytes
-    converted: tuple[Converted, ...] = ()
-    renamed: tuple[tuple[str, str], ...] = ()
+from .drawing import Converted
 
 
 class Conversions:

@@ -1,21 +1,17 @@
-"""The one door to all readers of drawings: by the suffix of a file's name."""
+"""The one door to all formats of drawings: by the suffix of a file's name."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import PurePath
 
 from ..core.errors import InputError
 from ..model.part import Units
-from ..model.read_options import AS_DRAWN, ReadOptions
+from ..model.read_options import AS_DRAWN, OPTION_OF, ReadOptions
+from ..model.reading import Reading
+from . import known  # noqa: F401 (registers what comes with the program)
 from .drawing import Drawing
-
-PROJECTS = (".hito", ".hito~")
-"""A project, and the backup of one."""
-
-SUFFIXES = (*PROJECTS, ".dxf", ".svg", ".draw")
-"""Suffixes of drawings that can be read, in lower case."""
+from .registry import FORMATS, DrawingFormat
 
 
 def read_drawing(
@@ -38,15 +34,75 @@ def read_drawing(
         InputError: the suffix is not supported, the file cannot be used, or something that is said has no effect on it.
     """
     name = PurePath(path_name).name
-    suffix = PurePath(path_name).suffix.lower()
-    if suffix not in SUFFIXES:
+    format_ = format_of(name)
+    check_options(how, name)
+    drawing = _without_layers(format_.read(name, data, Reading(units, layers, how)), how, name)
+    return drawing if format_.scaled_page else replace(drawing, part=replace(drawing.part, reading=how))
+
+
+def suffixes() -> tuple[str, ...]:
+    """Return the suffixes of all drawings that can be read, in lower case."""
+    return tuple(FORMATS)
+
+
+def offered_suffixes() -> tuple[str, ...]:
+    """Return the suffixes that help and dialogs name."""
+    return tuple(suffix for suffix, each in FORMATS.items() if suffix not in each.hidden)
+
+
+def formats() -> tuple[DrawingFormat, ...]:
+    """Return all formats, in the order of their registration."""
+    return tuple(dict.fromkeys(FORMATS.values()))
+
+
+def known_format(name: str) -> DrawingFormat | None:
+    """Return the format of a file by the suffix of its name or path; None where it is no drawing's."""
+    return FORMATS.get(PurePath(name).suffix.lower())
+
+
+def format_of(name: str) -> DrawingFormat:
+    """Return the format of a file by the suffix of its name or path.
+
+    Raises:
+        InputError: it is no drawing's.
+    """
+    found = known_format(name)
+    if found is None:
+        path = PurePath(name)
         raise InputError(
-            f"{name}: drawings of type {suffix or 'without a suffix'} cannot be read; supported: {', '.join(SUFFIXES)}."
+            f"{path.name}: drawings of type {path.suffix.lower() or 'without a suffix'} cannot be read; supported: "
+            f"{', '.join(suffixes())}."
         )
-    how.check(name, suffix)
-    drawing = _READERS[suffix](data, name, (units, layers), how)
-    drawing = _without_layers(drawing, how, name)
-    return drawing if suffix == ".svg" else replace(drawing, part=replace(drawing.part, reading=how))
+    return found
+
+
+def check_options(how: ReadOptions, name: str) -> None:
+    """Refuse what says nothing of a file.
+
+    Raises:
+        InputError: an option has no effect on such a file; or the file is no drawing.
+    """
+    taken = format_of(name).takes
+    for each in _special():
+        if getattr(how, each) and each not in taken:
+            takers = [suffix for suffix, other in FORMATS.items() if each in other.takes]
+            raise InputError(
+                f"{OPTION_OF[each]} is for {' and '.join(takers)} drawings and says nothing of {PurePath(name).name}; "
+                "take it away."
+            )
+
+
+def fit_for(how: ReadOptions, name: str) -> ReadOptions:
+    """Return options without those that say nothing of a file."""
+    found = known_format(name)
+    taken = found.takes if found else frozenset()
+    return replace(how, **{each: getattr(AS_DRAWN, each) for each in _special() if each not in taken})
+
+
+def _special() -> tuple[str, ...]:
+    """Return the options that some formats alone take, in the order of their declaration."""
+    special = {name for each in FORMATS.values() for name in each.takes}
+    return tuple(each.name for each in fields(ReadOptions) if each.name in special)
 
 
 def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
@@ -59,8 +115,8 @@ def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
     if not layers:
         return drawing
     part, gone = drawing.part, {layer.casefold() for layer in layers}
-    known = {layer.name.casefold() for layer in part.layers}
-    missing = [layer for layer in layers if layer.casefold() not in known]
+    there = {layer.name.casefold() for layer in part.layers}
+    missing = [layer for layer in layers if layer.casefold() not in there]
     if missing and not how.lenient:
         raise InputError(
             f"{name}: there is no layer {missing[0]} to leave out; the drawing has "
@@ -70,39 +126,3 @@ def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
     if not kept:
         raise InputError(f"{name}: without layer {', '.join(layers)} nothing is left to machine; leave out less.")
     return replace(drawing, part=replace(part, entities=kept))
-
-
-_Chosen = tuple[Units | None, tuple[str, ...]]
-"""Units of a drawing that names none, and the layers that are kept."""
-
-
-def _svg(data: bytes, name: str, chosen: _Chosen, how: ReadOptions) -> Drawing:
-    from .svg.svg import read_svg
-
-    return read_svg(data, name, *chosen, how)
-
-
-def _draw(data: bytes, name: str, chosen: _Chosen, _: ReadOptions) -> Drawing:
-    from .draw import read_draw
-
-    return read_draw(data, name, *chosen)
-
-
-def _project(data: bytes, name: str, chosen: _Chosen, _: ReadOptions) -> Drawing:
-    from .project.project import project_drawing
-
-    return project_drawing(data, name, *chosen)
-
-
-def _dxf(data: bytes, name: str, chosen: _Chosen, how: ReadOptions) -> Drawing:
-    from .dxf.dxf import read_dxf
-
-    return read_dxf(data, name, *chosen, how)
-
-
-_READERS: dict[str, Callable[[bytes, str, _Chosen, ReadOptions], Drawing]] = {
-    ".dxf": _dxf,
-    ".svg": _svg,
-    ".draw": _draw,
-    **dict.fromkeys(PROJECTS, _project),
-}

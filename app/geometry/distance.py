@@ -17,6 +17,9 @@ _WORTH_TWO_CORES = 20_000
 
 _BANDS = 4
 
+_WORTH_LINES = 8
+"""Points on one line along X from which all of them are asked together."""
+
 
 @dataclass(frozen=True)
 class DistanceField:
@@ -62,5 +65,13 @@ class DistanceField:
         """Return for points (m, 2) whether the closed rows enclose them by the even-odd rule."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         result = np.empty(len(points), np.bool_)
+        heights, line = np.unique(points[:, 1], return_inverse=True)
+        if len(heights) * _WORTH_LINES <= len(points):
+            along = np.argsort(line, kind="stable")
+            first = np.searchsorted(line[along], np.arange(len(heights) + 1))
+            found = np.empty(len(points), np.bool_)
+            kernels.inside_on_lines(self.rows, self.order, self.nodes, heights, first, points[along, 0], found)
+            result[along] = found
+            return result
         kernels.inside_many(self.rows, self.order, self.nodes, points, result)
         return result

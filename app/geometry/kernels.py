@@ -181,6 +181,17 @@ def nearest(rows, order, nodes, x, y, limit):
     return best, row
 
 
+@kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
+def nearest_of_few(rows, x, y):
+    """Return (distance, row) of the row nearest to a point, without a tree."""
+    best, row = INF, -1
+    for j in range(len(rows)):
+        d = point_distance(rows, j, x, y)
+        if d < best:
+            best, row = d, j
+    return best, row
+
+
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64[::1], int64[::1])")
 def nearest_many(rows, order, nodes, points, limit, distances, found):
     """Write the distance and the row nearest to each point (m, 2)."""
@@ -188,26 +199,51 @@ def nearest_many(rows, order, nodes, points, limit, distances, found):
         distances[k], found[k] = nearest(rows, order, nodes, points[k, 0], points[k, 1], limit)
 
 
-@kernel("int64(float64[:, ::1], int64, float64, float64)", counts=False)
-def _crossings(rows, j, x, y):
-    """Return how often row j crosses the ray from a point towards -X (even-odd rule, half open in y).
+@kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], float64, float64)")
+def stays_clear(rows, order, nodes, way, distance, level):
+    """Return whether the straight way x0, y0, x1, y1 stays at least `distance` - `level` / 2 from all rows, mm.
+
+    Distance changes by no more than the length gone, so a step of (measured - needed) passes no wall unseen; steps are
+    `level` at least.
+    """
+    ahead_x, ahead_y = way[2] - way[0], way[3] - way[1]
+    length, at = math.hypot(ahead_x, ahead_y), 0.0
+    while at < length:
+        x, y = way[0] + ahead_x * (at / length), way[1] + ahead_y * (at / length)
+        spare = nearest(rows, order, nodes, x, y, INF)[0] - distance
+        if spare < -level / 2:
+            return False
+        at += max(spare, level)
+    return True
+
+
+@kernel("UniTuple(float64, 2)(float64[:, ::1], int64, float64)", counts=False)
+def _crossing_places(rows, j, y):
+    """Return where row j crosses a height, infinity where it does not (half open in y).
 
     A row sweeps less than pi, so it has at most one y extremum; on a piece without one the circle's right side
     is the one where a counter-clockwise arc rises.
     """
     ax, ay, bx, by, turn = rows[j, 0], rows[j, 1], rows[j, 2], rows[j, 3], rows[j, 7]
     if turn == 0.0:
-        return int((ay <= y) != (by <= y) and ax + (y - ay) / (by - ay) * (bx - ax) < x)
+        return (ax + (y - ay) / (by - ay) * (bx - ax) if (ay <= y) != (by <= y) else INF), INF
     cx, cy, r = rows[j, 4], rows[j, 5], rows[j, 6]
     if abs(y - cy) > r:
-        return 0
+        return INF, INF
     h = math.sqrt(max(r * r - (y - cy) * (y - cy), 0.0))
     middle = by
     for end in (-r, r):
         if turn * (ax - cx) * end > 0.0 and turn * -end * (bx - cx) > 0.0:
             middle = cy + end
-    count = int((ay <= y) != (middle <= y) and cx + math.copysign(h, turn * (middle - ay)) < x)
-    return count + int((middle <= y) != (by <= y) and cx + math.copysign(h, turn * (by - middle)) < x)
+    first = cx + math.copysign(h, turn * (middle - ay)) if (ay <= y) != (middle <= y) else INF
+    return first, (cx + math.copysign(h, turn * (by - middle)) if (middle <= y) != (by <= y) else INF)
+
+
+@kernel("int64(float64[:, ::1], int64, float64, float64)", counts=False)
+def _crossings(rows, j, x, y):
+    """Return how often row j crosses the ray from a point towards -X (even-odd rule)."""
+    first, second = _crossing_places(rows, j, y)
+    return int(first < x) + int(second < x)
 
 
 @kernel("int64(float64[:, ::1], float64, float64)", counts=False)
@@ -250,6 +286,49 @@ def inside_many(rows, order, nodes, points, result):
     stack = np.empty(DEPTH, np.int64)
     for k in range(len(points)):
         result[k] = inside(rows, order, nodes, points[k, 0], points[k, 1], stack)
+
+
+@kernel(f"void({_TREE}, float64[::1], int64[::1], float64[::1], boolean[::1])")
+def inside_on_lines(rows, order, nodes, heights, first, places, result):
+    """Write for points on lines along X whether they are inside by the even-odd rule.
+
+    A line is crossed once for all its points: asked one by one, each is held against all that lies to its left, which
+    grows with the drawing.
+
+    Args:
+        heights: (n,) Y of the lines. first: (n + 1,) number of each one's first point. places: (m,) X of the points.
+    """
+    leaves, stack, found = (len(nodes) + 1) // 2, np.empty(DEPTH, np.int64), np.empty(2 * len(order))
+    for line in range(len(heights)):
+        y, count, top = heights[line], 0, 1
+        stack[0] = 0
+        while top > 0:
+            top -= 1
+            k = stack[top]
+            if y < nodes[k, 1] or y > nodes[k, 3]:
+                continue
+            if k < leaves - 1:
+                stack[top], stack[top + 1] = 2 * k + 1, 2 * k + 2
+                top += 2
+                continue
+            begin = (k - leaves + 1) * LEAF
+            for place in range(begin, min(begin + LEAF, len(order))):
+                if order[place] < 0:  # a leaf that is not full
+                    break
+                for x in _crossing_places(rows, order[place], y):
+                    if x < INF:
+                        found[count] = x
+                        count += 1
+        crossed = np.sort(found[:count])
+        for i in range(first[line], first[line + 1]):
+            low, high = 0, count  # how many lie before the point
+            while low < high:
+                middle = (low + high) // 2
+                if crossed[middle] < places[i]:
+                    low = middle + 1
+                else:
+                    high = middle
+            result[i] = low % 2 == 1
 
 
 @kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], boolean[::1])")

@@ -16,13 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import GeometryError
-from ..model.curves import Arc, Circle, Line, Primitive
+from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.part import Contour, Region
 
 Rows = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _MAX_SWEEP = 0.75 * math.pi
+
+_FEW = 8
+"""Rows that are measured quicker one by one."""
+
 X0, Y0, X1, Y1, CX, CY, R, TURN = range(8)
 
 
@@ -152,6 +156,16 @@ def sweeps(rows: Rows) -> NDArray[np.float64]:
     return np.where(same, math.tau, turn) * rows[:, TURN]
 
 
+def sweep_of(row: Sequence[float]) -> float:
+    """Return the signed sweep of one row of eight numbers, radians, as `sweeps` does: a few rows are quicker so."""
+    x0, y0, x1, y1, cx, cy, _, turn = row
+    if turn == 0:
+        return 0.0
+    if x0 == x1 and y0 == y1:
+        return math.tau * turn
+    return (math.atan2(y1 - cy, x1 - cx) - math.atan2(y0 - cy, x0 - cx)) * turn % math.tau * turn
+
+
 def turns(rows: Rows, previous: Indices) -> NDArray[np.float64]:
     """Return by how much (n,) closed paths turn where each row begins, radians, in [0, pi].
 
@@ -174,6 +188,17 @@ def lengths(rows: Rows) -> NDArray[np.float64]:
     """Return the length of each row, mm."""
     chord = np.hypot(rows[:, X1] - rows[:, X0], rows[:, Y1] - rows[:, Y0])
     return np.where(rows[:, TURN] == 0, chord, np.abs(sweeps(rows)) * rows[:, R])
+
+
+def path_length(rows: Rows) -> float:
+    """Return the length of a path, mm."""
+    if len(rows) > _FEW:
+        return float(lengths(rows).sum())
+    each = (
+        math.hypot(row[X1] - row[X0], row[Y1] - row[Y0]) if row[TURN] == 0 else abs(sweep_of(row)) * row[R]
+        for row in rows.tolist()
+    )
+    return float(sum(each))
 
 
 def signed_area(rows: Rows) -> float:
@@ -223,6 +248,33 @@ def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
     arc = rows[:, CX:R] + rows[:, [R]] * np.stack([np.cos(angle), np.sin(angle)], 1)
     arc = np.where((fraction == 0)[:, None], rows[:, :2], arc)
     return np.where((rows[:, TURN] == 0)[:, None], line, arc)
+
+
+def point_on(row: Sequence[float], fraction: float) -> Point:
+    """Return the point at a fraction in [0, 1] of one row of eight numbers, as `points_at` does."""
+    x0, y0, x1, y1, cx, cy, r, turn = row
+    if turn == 0:
+        return x0 + (x1 - x0) * fraction, y0 + (y1 - y0) * fraction
+    if fraction == 0:
+        return x0, y0
+    angle = math.atan2(y0 - cy, x0 - cx) + sweep_of(row) * fraction
+    return cx + r * math.cos(angle), cy + r * math.sin(angle)
+
+
+def fraction_on(row: Sequence[float], point: Point) -> float:
+    """Return the fraction in [0, 1] of the length of one row of eight numbers that is nearest to a point."""
+    x0, y0, x1, y1, cx, cy, _, turn = row
+    if turn == 0:
+        dx, dy = x1 - x0, y1 - y0
+        square = dx * dx + dy * dy
+        along = (point[0] - x0) * dx + (point[1] - y0) * dy
+        return min(max(along / (square if square > 0 else 1.0), 0.0), 1.0)
+    start = math.atan2(y0 - cy, x0 - cx)
+    sweep = (math.atan2(y1 - cy, x1 - cx) - start) * turn % math.tau
+    gone = (math.atan2(point[1] - cy, point[0] - cx) - start) * turn % math.tau
+    if gone <= sweep:
+        return gone / (sweep if sweep > 0 else 1.0)
+    return 1.0 if gone - sweep < math.tau - gone else 0.0
 
 
 def distances(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -213,6 +213,11 @@ class Operation:
         """Share of the diameter in (0, 1] beyond which the feed is slowed; 1 = never."""
         return 1.0
 
+    @property
+    def proven_angle(self) -> float | None:
+        """Engaged angle, radians, that the written program must not exceed anywhere; None = there is no such limit."""
+        return None
+
 
 @dataclass(frozen=True, slots=True)
 class ContourOperation(Operation):
@@ -331,6 +336,48 @@ class PocketOperation(Operation):
 
 
 @dataclass(frozen=True, slots=True)
+class AdaptiveOperation(Operation):
+    """Clear the area inside with a cutter whose rim is nowhere engaged by more than an angle."""
+
+    most_engaged_deg: float = parameter(
+        math.radians(60),
+        "most_engaged_deg",
+        "Engaged at most",
+        "angle of the cutter's rim that may be in metal, anywhere; 90: half of the diameter, 60: a quarter",
+        Unit.ANGLE,
+        low=math.radians(15),
+        high=math.radians(90),
+        option=True,
+    )
+    lift: float = parameter(
+        0.2,
+        "lift",
+        "Lift",
+        "how high the tool goes on its way back over ground that is cut; 0: it stays down",
+        Unit.LENGTH,
+        high=100.0,
+        option=True,
+    )
+
+    WORD = "adaptive"
+    CLEARS = True
+    COARSE = True
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+
+    @property
+    def proven_angle(self) -> float | None:
+        """Engaged angle, radians, that the written program must not exceed anywhere."""
+        return self.most_engaged_deg
+
+    @property
+    def limit_deg(self) -> float:
+        """The limit in degrees."""
+        return round(math.degrees(self.most_engaged_deg), 6)
+
+
+@dataclass(frozen=True, slots=True)
 class RestOperation(Operation):
     """Clear what the operations before it in the list have left within reach of its tool."""
 
@@ -432,7 +479,7 @@ def register(kind: type[Operation]) -> None:
         raise ValueError(f"two kinds of operation are called {kind.WORD}")
 
 
-for _kind in (PocketOperation, RestOperation, ContourOperation, DrillOperation):
+for _kind in (PocketOperation, AdaptiveOperation, RestOperation, ContourOperation, DrillOperation):
     register(_kind)
 
 

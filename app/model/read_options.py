@@ -3,28 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from ..core.errors import InputError, ParameterError
+from ..core.errors import ParameterError
 
 LEAST_PER_INCH, MOST_PER_INCH = 1.0, 1e5
 
 
-@dataclass(frozen=True, slots=True)
-class _Limited:
-    """An option that is for some kinds of files alone."""
-
-    field: str
-    option: str
-    kinds: tuple[str, ...]
-
-
-_LIMITED = (
-    _Limited("layout", "--layout", (".dxf",)),
-    _Limited("without_types", "--skip-type", (".dxf",)),
-    _Limited("to_zero", "--to-zero", (".dxf", ".svg")),
-    _Limited("pixels_per_inch", "--px-per-inch", (".svg",)),
-)
+OPTION_OF = {
+    "layout": "--layout",
+    "to_zero": "--to-zero",
+    "pixels_per_inch": "--px-per-inch",
+    "without_layers": "--skip-layer",
+    "without_types": "--skip-type",
+}
+"""The option of the command line that asks for a field of `ReadOptions`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,30 +47,6 @@ class ReadOptions:
         given = self.pixels_per_inch
         if given is not None and not (math.isfinite(given) and LEAST_PER_INCH <= given <= MOST_PER_INCH):
             raise ParameterError(f"--px-per-inch is {given:g}; use {LEAST_PER_INCH:g} to {MOST_PER_INCH:g}.")
-
-    def check(self, name: str, suffix: str) -> None:
-        """Refuse what says nothing of a kind of file.
-
-        Args:
-            name: of the file, for messages. suffix: in lower case, with its dot.
-
-        Raises:
-            InputError: an option has no effect on such a file.
-        """
-        for each in _LIMITED:
-            if getattr(self, each.field) and suffix not in each.kinds:
-                raise InputError(
-                    f"{each.option} is for {' and '.join(each.kinds)} drawings and says nothing of {name}; take it "
-                    "away."
-                )
-
-    def fit_for(self, suffix: str) -> ReadOptions:
-        """Return the options without those that say nothing of a kind of file, by its suffix in lower case, with its
-        dot.
-        """
-        return replace(
-            self, **{each.field: getattr(AS_DRAWN, each.field) for each in _LIMITED if suffix not in each.kinds}
-        )
 
 
 AS_DRAWN = ReadOptions()

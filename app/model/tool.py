@@ -38,7 +38,11 @@ _SHAPE_OF_KIND: dict[ToolKind, frozenset[str]] = {
     ToolKind.DRILL: frozenset({"tip_angle"}),
     ToolKind.TAPER: frozenset({"tip_angle", "tip_diameter"}),
 }
+LEAST_DIAMETER = 1e-3
+"""mm; what is thinner is no cutter, and its paths in any drawing would have no end."""
+
 _RATES = (("spindle_speed", "rpm"), ("feed_rate", "mm/min"), ("plunge_rate", "mm/min"))
+_LEAST = {"mm": LEAST_DIAMETER, "mm/min": LEAST_RATE}
 _LENGTHS = ("corner_radius", "tip_diameter", "flute_length", "overall_length", "stick_out", "shank_diameter")
 _NOT_ABOVE = (("flute_length", "overall_length"), ("stick_out", "overall_length"))
 
@@ -86,7 +90,7 @@ class Tool:
 
     Attributes:
         number: T word, 1 … 9999.
-        diameter: cutting diameter, the largest one of a tapered tool, mm, in (0, 1e6).
+        diameter: cutting diameter, the largest one of a tapered tool, mm, in [LEAST_DIAMETER, 1e6).
         kind: shape of its end.
         name: remark for lists and NC comments, or "".
         flutes: cutting edges, >= 1.
@@ -130,11 +134,11 @@ class Tool:
         if not 1 <= self.number <= 9999:
             raise ParameterError(f"Tool number {self.number} is out of range; use 1 to 9999.")
         for name, unit in (("diameter", "mm"), *_RATES):
-            value, rate = getattr(self, name), unit == "mm/min"
-            if not 0 < value < 1e6 or (rate and value < LEAST_RATE):
-                least = f"{LEAST_RATE:g} {unit} or more" if rate else f"greater than 0 {unit}"
+            value, least = getattr(self, name), _LEAST.get(unit, 0.0)
+            if not 0 < value < 1e6 or value < least:
+                bound = f"{least:g} {unit} or more" if least else f"greater than 0 {unit}"
                 raise ParameterError(
-                    f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {least} and less than 1000000 "
+                    f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {bound} and less than 1000000 "
                     f"{unit}."
                 )
         if not 1 <= self.flutes <= 100:

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, reversed_rows, sweeps
+from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, point_on, reversed_rows, sweep_of
 from ..model.moves import MoveKind, Moves, Purpose
 
 _SAME_CENTRE = 1e-6  # mm
 _NO_CENTRE = (math.nan, math.nan)
+_KIND_BY_TURN = np.array([MoveKind.ARC_CW, MoveKind.LINE, MoveKind.ARC_CCW], np.uint8)
 
 
 @dataclass(frozen=True)
@@ -172,16 +173,20 @@ class MovesBuilder:
         )
         self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
 
+    def along(
+        self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: NDArray[np.float64]
+    ) -> None:
+        """Append a path whose rows each end at their own height, mm, and have their own feed, mm/min, (n,) each."""
+        self._path(stroke, heights, label, feed)
+
     def _path(
         self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: float | NDArray[np.float64]
     ) -> None:
         rows = stroke.rows
         arcs = rows[:, TURN] != 0
-        end = np.column_stack([rows[:, X1:CX], heights])
-        centre = np.where(arcs[:, None], rows[:, CX:R], math.nan)
-        kind = np.where(arcs, np.where(rows[:, TURN] > 0, MoveKind.ARC_CCW, MoveKind.ARC_CW), MoveKind.LINE).astype(
-            np.uint8
-        )
+        end, centre = np.empty((len(rows), 3)), rows[:, CX:R].copy()
+        end[:, :2], end[:, 2], centre[~arcs] = rows[:, X1:CX], heights, math.nan
+        kind = _KIND_BY_TURN[rows[:, TURN].astype(np.int64) + 1]
         self._columns.append((end, centre, kind, stroke.purpose, label, stroke.region, feed))
 
     def moves(self) -> Moves:
@@ -216,42 +221,42 @@ def merged(stroke: Stroke) -> Stroke:
     """Return a stroke whose neighbouring arcs of one circle, purpose and least height are one, but never a full turn or
     more.
     """
-    rows, purpose, least_z = stroke.rows, stroke.purpose, stroke.least_z
-    same = (
-        (rows[1:, TURN] != 0)
-        & (rows[1:, TURN] == rows[:-1, TURN])
-        & (purpose[1:] == purpose[:-1])
-        & (np.hypot(rows[1:, CX] - rows[:-1, CX], rows[1:, CY] - rows[:-1, CY]) < _SAME_CENTRE)
-        & (np.abs(rows[1:, R] - rows[:-1, R]) < _SAME_CENTRE)
-    )
-    if least_z is not None:
-        same &= least_z[1:] == least_z[:-1]
-    if not same.any():
+    if not len(stroke.rows):
         return stroke
-    turn = np.abs(sweeps(rows))
-    joined, kept, total = [rows[0].copy()], [0], turn[0]
+    rows, purpose, least_z = stroke.rows.tolist(), stroke.purpose.tolist(), stroke.least_z
+    heights = [0.0] * len(rows) if least_z is None else least_z.tolist()
+    kept, total = [0], abs(sweep_of(rows[0]))
     for i in range(1, len(rows)):
-        if same[i - 1] and total + turn[i] < math.tau - 1e-3:
-            joined[-1][[X1, Y1]] = rows[i, [X1, Y1]]
-            total += turn[i]
+        turn = abs(sweep_of(rows[i]))
+        alike = purpose[i] == purpose[i - 1] and heights[i] == heights[i - 1] and _one_circle(rows[i - 1], rows[i])
+        if alike and total + turn < math.tau - 1e-3:
+            total += turn
             continue
-        joined.append(rows[i].copy())
         kept.append(i)
-        total = turn[i]
+        total = turn
+    if len(kept) == len(rows):
+        return stroke
+    joined = stroke.rows[kept]
+    joined[:, X1 : Y1 + 1] = stroke.rows[[*(k - 1 for k in kept[1:]), -1], X1 : Y1 + 1]
     return replace(
-        stroke, rows=np.array(joined), purpose=purpose[kept], least_z=None if least_z is None else least_z[kept]
+        stroke, rows=joined, purpose=stroke.purpose[kept], least_z=None if least_z is None else least_z[kept]
+    )
+
+
+def _one_circle(a: Sequence[float], b: Sequence[float]) -> bool:
+    """Tell whether two rows, one after the other, are arcs of one circle that go the same way round it."""
+    return (
+        b[TURN] != 0
+        and a[TURN] == b[TURN]
+        and math.hypot(b[CX] - a[CX], b[CY] - a[CY]) < _SAME_CENTRE
+        and abs(b[R] - a[R]) < _SAME_CENTRE
     )
 
 
 def split_row(row: Rows, fraction: float) -> tuple[Rows, Rows]:
     """Return the parts of a row (8,) before and after a fraction in (0, 1) of its length."""
     first, second = row.copy(), row.copy()
-    if row[TURN] == 0:
-        point = row[:2] + fraction * (row[2:4] - row[:2])
-    else:
-        angle = math.atan2(row[Y0] - row[CY], row[X0] - row[CX]) + fraction * float(sweeps(row[None])[0])
-        point = row[[CX, CY]] + row[R] * np.array([math.cos(angle), math.sin(angle)])
-    first[2:4] = second[:2] = point
+    first[2:4] = second[:2] = point_on(row.tolist(), fraction)
     return first, second
 
 

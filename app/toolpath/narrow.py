@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -155,8 +156,10 @@ def necks(level: Level, primitives: Primitives, field: DistanceField, tool: Tool
 
 def _nearest_pairs(level: Level) -> list[tuple[Floats, Floats, int]]:
     """Return (ends of the shortest ways that join all parts of a region, region), one less than there are parts."""
-    parts = [k for k, ring in enumerate(level.rings) if ring.area > 0]
-    if len(parts) < 2:
+    outer = [k for k, ring in enumerate(level.rings) if ring.area > 0]
+    count = Counter(level.rings[k].region for k in outer)
+    parts = [k for k in outer if count[level.rings[k].region] > 1]
+    if not parts:
         return []
     tree = Tree(len(level.rings))
     pairs = []

@@ -131,32 +131,43 @@ class Suspects:
     Attributes:
         core: centres (n, 2) of those where the cutter's centre may be. rim: of those nearer to the walls.
         half: half their side, mm.
-        farthest: distance from the walls beyond which no metal of the core is left, mm.
     """
 
     core: Floats
     rim: Floats
     half: float
-    farthest: float
 
 
-def suspects(ground: Ground, reach: Reach, progress: Progress) -> Suspects:
-    """Return the squares of a grid that may hold metal that is left, by ever finer squares."""
-    whole = DistanceField.of(pack(reach.sheet.regions).rows)
+def suspects(ground: Ground, reach: Reach, cutting: Rows, progress: Progress) -> Suspects:
+    """Return the squares of a grid that may hold metal that is left, by ever finer squares.
+
+    Args:
+        cutting: pieces (n, 8) of the ring nearest to the walls along which the cutter still cuts: nearer to the walls
+            nothing is left but beside these.
+    """
     last = 2 * reach.cell
-    found = [np.zeros((0, 3)), *_sifted(ground, reach, whole, progress)]
+    area = _Area(DistanceField.of(pack(reach.sheet.regions).rows), DistanceField.of(cutting) if len(cutting) else None)
+    found = [np.zeros((0, 3)), *_sifted(ground, reach, area, progress)]
     centres, walls = np.split(np.concatenate(found), [2], axis=1)
     q, near = last * math.sqrt(2), walls[:, 0]
     core = near + q >= reach.closest
-    return Suspects(centres[core], centres[near - q < reach.closest], last, float(near.max(initial=0.0)) + q)
+    return Suspects(centres[core], centres[near - q < reach.closest], last)
 
 
-def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progress) -> Iterator[Floats]:
+@dataclass(frozen=True, eq=False)
+class _Area:
+    """Edges of an area, and the pieces of the ring nearest to its walls that still cut; None: there are none."""
+
+    edges: DistanceField
+    cutting: DistanceField | None
+
+
+def _sifted(ground: Ground, reach: Reach, area: _Area, progress: Progress) -> Iterator[Floats]:
     """Yield the centres (n, 2) of squares of the last size, and how far from the walls they are, part after part from
     left to right.
     """
     last, found = 2 * reach.cell, 0
-    low, high = whole.boxes[:, :2].min(axis=0), whole.boxes[:, 2:].max(axis=0)
+    low, high = area.edges.boxes[:, :2].min(axis=0), area.edges.boxes[:, 2:].max(axis=0)
     waiting = [_grid((*low, *high), last)]
     while waiting:
         centres, half = waiting.pop()
@@ -165,7 +176,7 @@ def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progre
             waiting += [(centres[first : first + most], half) for first in reversed(range(0, len(centres), most))]
             continue
         progress.step(0.0, "Looking for what is left")
-        kept = _sieved(ground, reach, whole, centres, half)
+        kept = _sieved(ground, reach, area, centres, half)
         if half <= last:
             found += len(kept)
             reach.ask_memory(CELL_BYTES * found)
@@ -176,20 +187,24 @@ def _sifted(ground: Ground, reach: Reach, whole: DistanceField, progress: Progre
             waiting.append(((kept[:, None, :2] + around).reshape(-1, 2), half))
 
 
-def _sieved(ground: Ground, reach: Reach, whole: DistanceField, centres: Floats, half: float) -> Floats:
+def _sieved(ground: Ground, reach: Reach, area: _Area, centres: Floats, half: float) -> Floats:
     """Return the squares that may hold metal that is left: their centres (m, 2), and how far from the walls.
 
     Args:
         ground, reach: what is left, and where the cutter's centre may be.
-        whole: edges of the area.
+        area: that the squares are looked for in.
         centres, half: (n, 2) of the squares, and half their side, mm.
     """
     q = half * math.sqrt(2)
     centres = centres[~ground.holds(centres, q)]
     walls = reach.sheet.distances.nearest(centres)[0]
+    open_ = walls + q >= reach.closest
+    if area.cutting is not None:
+        open_[~open_] = area.cutting.nearest(centres[~open_], reach.radius + q)[1] >= 0
+    centres, walls = centres[open_], walls[open_]
     alone = walls > q  # all of such a square lies on one side of the walls
     keep = ~alone
-    keep[alone] = whole.inside(centres[alone])
+    keep[alone] = area.edges.inside(centres[alone])
     bytes_each = CELL_BYTES * (half / reach.cell) ** 2
     if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
         # all cells of such a square will be found

@@ -75,10 +75,7 @@ def emit(setting: Setting, index: int, sheet: Sheet, strokes: Sequence[Stroke], 
     """
     job = setting.job
     cut = job.operations[index].cut
-    if cut.depth > job.stock.thickness + 1e-9:
-        raise ParameterError(
-            f"Depth is {cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; reduce the depth."
-        )
+    check_depth(job, cut)
     groups = in_order(strokes, setting.at, progress.part(0.0, 0.3))
     if not groups:
         return
@@ -88,7 +85,7 @@ def emit(setting: Setting, index: int, sheet: Sheet, strokes: Sequence[Stroke], 
     keep = tool.radius + cut.stock_to_leave
     ground = Ground(tool, cut.entry, sheet.distances, keep, beside, cut.direction, setting.cleared, setting.tabs)
     label = Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
-    passes = DepthPasses(setting.builder, label, ground, _levels(setting, cut))
+    passes = DepthPasses(setting.builder, label, ground, levels_of(setting, cut))
     if cut.entry.kind is EntryKind.PREDRILLED:
         passes.holes = usable(
             drilled(setting.builder.moves(), {each.number: each for each in job.tools}), ground, -cut.floor
@@ -98,7 +95,19 @@ def emit(setting: Setting, index: int, sheet: Sheet, strokes: Sequence[Stroke], 
     setting.findings.extend(passes.entries.findings(tool, cut.entry.kind))
 
 
-def _levels(setting: Setting, cut: Cut) -> Levels:
+def check_depth(job: Job, cut: Cut) -> None:
+    """Refuse a depth that the stock has not.
+
+    Raises:
+        ParameterError: it is deeper than the stock.
+    """
+    if cut.depth > job.stock.thickness + 1e-9:
+        raise ParameterError(
+            f"Depth is {cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; reduce the depth."
+        )
+
+
+def levels_of(setting: Setting, cut: Cut) -> Levels:
     """Return the heights of an operation."""
     job, clamps = setting.job, setting.sheets.drawn.clamps
     heights = pass_heights(cut.floor, cut.stepdown, cut.finish_depth)

@@ -167,7 +167,7 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
 
 def on_pixels(operation: Operation) -> bool:
     """Tell whether the way of 1986 knows an operation: pockets, and contours inside the walls."""
-    return operation.COARSE or (operation.FOLLOWS_WALLS and operation.wall_side is Side.INSIDE)
+    return isinstance(operation, PocketOperation) or (operation.FOLLOWS_WALLS and operation.wall_side is Side.INSIDE)
 
 
 def _left_out(job: Job) -> list[Finding]:

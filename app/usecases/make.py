@@ -6,6 +6,7 @@ The command line and the window both call it. Everything is pure: bytes and valu
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 import numpy as np
 
@@ -49,8 +50,10 @@ from .written import write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
 
-NAMED = 3
-"""How many findings the one line names that says why nothing can be cut."""
+NAMED, LETTERS = 3, 340
+"""How many findings the one line names that says why nothing can be cut, and letters beyond which it names no further
+one.
+"""
 
 
 @dataclass(frozen=True)
@@ -162,14 +165,16 @@ def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
     if not findings:
         return f"{name}: there is no closed contour to machine; draw one, or choose other layers."
     telling = sorted(findings, key=lambda finding: (not finding.counts, finding.kind is not FindingKind.OPEN_CONTOUR))
-    more = f" ({len(findings) - NAMED} more findings)" if len(findings) > NAMED else ""
     counting = {finding.kind for finding in findings if finding.counts}
     why = (
         "there is no closed contour, so nothing can be cut."
         if counting == {FindingKind.OPEN_CONTOUR}
         else "nothing can be cut."
     )
-    return f"{name}: {why} {' '.join(finding.text for finding in telling[:NAMED])}{more}"
+    letters = accumulate(len(finding.text) for finding in telling[:NAMED])
+    named = max(1, sum(upto <= LETTERS for upto in letters))
+    more = f" ({len(findings) - named} more findings)" if len(findings) > named else ""
+    return f"{name}: {why} {' '.join(finding.text for finding in telling[:named])}{more}"
 
 
 def export(

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import PurePath
 
-from ..formats.readers import PROJECTS
+from ..formats.readers import known_format
 from .options import MakeOptions
 
 
 def with_own_job(name: str, data: bytes, options: MakeOptions) -> MakeOptions:
-    """Return the options with the job of a project file, unless they bring another.
+    """Return the options with the job of a file that holds one, a project, unless they bring another.
 
     Args:
         name: of the file; its suffix tells the kind.
         data: its bytes.
 
     Raises:
-        InputError: it is a project file that cannot be read.
+        InputError: the file cannot be read.
     """
-    if options.job is not None or PurePath(name).suffix.lower() not in PROJECTS:
+    format_ = known_format(name)
+    if options.job is not None or format_ is None or format_.job is None:
         return options
-    from ..formats.project.project import read_project
-
-    return replace(options, job=read_project(name, data).state.job)
+    return replace(options, job=format_.job(name, data))

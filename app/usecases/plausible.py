@@ -14,7 +14,7 @@ from pathlib import PurePath
 from ..core.errors import InputError
 from ..formats.drawing import Drawing
 from ..formats.drawing_account import size_of
-from ..formats.readers import read_drawing
+from ..formats.readers import format_of, read_drawing
 from ..formats.reading_question import UNIT_WORDS, Choice, Question, Size, UndecidedError, about_size, size_words
 from ..model.job import Job
 from ..model.part import Part, Units
@@ -32,9 +32,6 @@ _SMALLEST, _LARGEST_SMALL = 0.05, 0.5
 _UNITS = {Units.MM: "mm", Units.INCH: "in", Units.CM: "cm", Units.M: "m", Units.FOOT: "ft", Units.MICRON: "um"}
 _LIKELY = (Units.MM, Units.INCH, Units.M)
 """Units that are offered."""
-
-_SIZED = (".dxf", ".svg")
-"""Drawings that may lack a unit, or name one that nobody chose; the others have units in their own words."""
 
 
 def read_plausible(
@@ -55,7 +52,7 @@ def read_plausible(
             units.
     """
     drawing = _read(name, data, reading)
-    if PurePath(name).suffix.lower() not in _SIZED:
+    if not format_of(name).foreign:
         return drawing
     tools = tuple(diameters(drawing))
     doubt = doubt_of(drawing.part, reading.layers, tools)
@@ -78,10 +75,10 @@ def _read(name: str, data: bytes, reading: Reading) -> Drawing:
 
 
 def _size_in(units: Units, drawing: Drawing, reading: Reading, name: str, data: bytes) -> Size:
-    """Return the size of a drawing in other units, mm: of an SVG, whose page may be scaled, by reading it so; (0, 0)
+    """Return the size of a drawing in other units, mm: where they scale a page, by reading it so; (0, 0)
     where it cannot be.
     """
-    if PurePath(name).suffix.lower() == ".svg":
+    if format_of(name).scaled_page:
         try:
             return size_of(_read(name, data, reading.in_units(units)).part, reading.layers)
         except InputError:

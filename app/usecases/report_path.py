@@ -112,9 +112,13 @@ def _stepover(job: Job, index: int, program: Program) -> Json:
 def _parameters(operation: Operation) -> Json:
     """Return what was asked of an operation, with the unit behind the name; None where nothing was."""
     return {
-        f"{key}{_SUFFIXES.get(placed.parameter.unit, '')}": _plain(placed, placed.of(operation))
+        f"{key.removesuffix(_suffix(placed))}{_suffix(placed)}": _plain(placed, placed.of(operation))
         for key, placed in parameters_of(type(operation)).items()
     }
+
+
+def _suffix(placed: Placed) -> str:
+    return _SUFFIXES.get(placed.parameter.unit, "")
 
 
 def _plain(placed: Placed, value: Any) -> Any:

@@ -22,6 +22,7 @@ from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasse
 from ..fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from ..fitting.point_curves.smoothness import Smoothness, of_curve, of_points
 from ..fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, joined
+from ..fitting.point_curves.through_points import through_points
 from ..fitting.point_curves.tube import Answer, Judgement, Tube, judge
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.interpreter.options import PATIENT, ReadOptions
@@ -44,6 +45,8 @@ TOLERANCES = (1e-4, 10.0)
 
 _FOR_CUBICS = 0.25
 """Of the tolerance: what cubics in place of a spline of degree 5 take up."""
+_FINE = 0.1
+"""Of the nearness: how far chords may be from the splines that they stand for."""
 _REACH = 4.0
 """Corners are looked for over so many tolerances of the path."""
 
@@ -123,6 +126,7 @@ class Piece:
         before, after: how smooth it is.
         corners: numbers of its points that are kept exactly, the outer ones among them.
         classes: what its points are by method D; None without it, and of a stretch that is too short.
+        near: of the curve against the points that method D goes by; None without it.
         lines: its first and last one in the text that came in, 1-based.
         rounded: how many bends above the corner's angle, beside shorter legs than corners have, are kept no more.
     """
@@ -137,6 +141,7 @@ class Piece:
     after: Smoothness
     corners: NDArray[np.int64]
     classes: PointClasses | None = None
+    near: Judgement | None = None
     lines: tuple[int, int] = (0, 0)
     rounded: int = 0
 
@@ -156,6 +161,7 @@ class Smoothed:
         found: stretches, and what is in none.
         dialects: of the control that the program came for, and of the one that it is written for.
         off: how far from the source all else may be in the other control's words, mm; 0 where it is the same control.
+        nearness: how far from the points of method D curves may be, mm; None without it.
     """
 
     name: str
@@ -168,6 +174,12 @@ class Smoothed:
     found: Found
     dialects: tuple[Dialect, Dialect]
     off: float = 0.0
+    nearness: float | None = None
+
+    @property
+    def farthest_point(self) -> float:
+        """How far from the curve a point of method D was found at most, mm."""
+        return max((piece.near.from_points for piece in self.pieces if piece.near), default=0.0)
 
     @property
     def bound(self) -> float:
@@ -210,6 +222,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
     )
     dialects = ready.dialect, ready.post.dialect
     done = Smoothed(name, options, ready.source, ready.program, after, new.data, pieces, found, dialects, ready.off)
+    done = replace(done, nearness=work.nearness)
     return replace(done, data=rewrite(ready.data, found.stretches, blocks, _comments(done, ready)).data)
 
 
@@ -226,12 +239,13 @@ class _Judged:
     """A stretch as it was written.
 
     Attributes:
-        curve: what is driven along. judgement: of it.
+        curve: what is driven along. judgement: of it. near: of it by the points of method D alone; None without it.
         cut: whether a corner is kept no more. rounded: how many bends beside shorter legs are not.
     """
 
     curve: SpaceCurve
     judgement: Judgement
+    near: Judgement | None
     cut: bool
     rounded: int
 
@@ -240,6 +254,8 @@ class _Judged:
         """Why it cannot stay as it was written, or ""."""
         if self.judgement.answer is not Answer.INSIDE:
             return "as it was written it is not proven to keep to the tolerance"
+        if self.near is not None and self.near.answer is not Answer.INSIDE:
+            return "as it was written it is not proven to go near the effective points"
         return "as it was written it would lose a corner" if self.cut else ""
 
 
@@ -268,16 +284,19 @@ class _Work:
             if len(self._points[k]) < 3 or k in self._astray:
                 kept[k] = "its moves are not the source's one by one" if k in self._astray else "it is too short"
                 continue
-            path = self._fitted(k, progress.part(k / count, (k + 1) / count))
+            share = progress.part(k / count, (k + 1) / count)
             state = self._program.states[self._program.motions.state[stretch.first]]
-            made = curve_blocks(path.motions, Spelling(self._post, state, stretch.feed, stretch.resumed))
-            if len(made) >= stretch.stop - stretch.first:
+            spelling = Spelling(self._post, state, stretch.feed, stretch.resumed)
+            made = curve_blocks(self._fitted(k, self._options.form, share).motions, spelling)
+            if len(made) >= len(stretch.points) - 1 and self._options.form is Form.NURBS:
+                made = curve_blocks(self._fitted(k, Form.ARCS, share).motions, spelling)
+            if len(made) >= len(stretch.points) - 1:
                 kept[k] = "it would not take fewer blocks"
             else:
                 blocks[k] = made
         return blocks, kept
 
-    def _fitted(self, k: int, progress: Progress) -> FittedPath:
+    def _fitted(self, k: int, form: Form, progress: Progress) -> FittedPath:
         points, stretch = self._points[k], self._found.stretches[k]
         state = self._program.states[self._program.motions.state[stretch.first]]
         step = 10.0 ** -self._post.digits(state.units).X * state.units.value
@@ -293,15 +312,21 @@ class _Work:
             )
             self._classes[k] = classes
             points, spent = classes.passed, classes.off
-            slack += spent
-            if not self._tube.radius > slack:
+            if not self._tube.radius > slack + spent:
                 raise InputError(
                     f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm "
                     "off the path by the effective ones, which leaves nothing of the tolerance; use a smaller "
-                    f"epsilon, or more than {slack:.4g} mm."
+                    f"epsilon, or more than {slack + spent:.4g} mm."
                 )
-        tube = self._tube.narrower(slack)
-        form, nurbs = self._options.form, self._post.nurbs.form
+            tube = self._near(self._options.effective, slack, self._tube.widest - slack - spent)
+            if self._options.effective.on_shape:
+                fine = _FINE * tube.radius
+                tube = Tube(tube.radius - fine)
+                at = corners(points, self._options.corner, _REACH * self._tube.widest)
+                points = through_points(points, at, fine, self._tube.widest - slack - spent - tube.radius)
+        else:
+            tube = self._tube.narrower(slack)
+        nurbs = self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
         arcs = ArcOptions(
             tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend
@@ -323,6 +348,16 @@ class _Work:
         )
         return fit_splines(points, splines, progress)
 
+    def _near(self, method: EffectiveMethod, slack: float, between: float) -> Tube:
+        """Return the region round the points that method D goes by: near to them, as wide as may be between them."""
+        nearness = method.nearness_for(self._step)
+        if not nearness > slack:
+            raise InputError(
+                f"a nearness of {nearness:g} mm is too near to the last decimal of {self._post.title}; use more than "
+                f"{slack:g} mm, or a post with more decimals."
+            )
+        return Tube(min(nearness - slack, between), between)
+
     def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
         order = np.argsort(after.motions.line, kind="stable")
@@ -332,8 +367,16 @@ class _Work:
             rows = order[np.searchsorted(lines, first) : np.searchsorted(lines, last, side="right")]
             row, stop = int(rows.min()), int(rows.max()) + 1
             curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
-            answers[k] = _Judged(curve, judge(curve, self._points[k], self._tube), *self._lost(self._points[k], ends))
+            near_by = self._judged_near(k, curve)
+            judgement = judge(curve, self._points[k], self._tube)
+            answers[k] = _Judged(curve, judgement, near_by, *self._lost(self._points[k], ends))
         return answers
+
+    def _judged_near(self, k: int, curve: SpaceCurve) -> Judgement | None:
+        """Return how near a curve goes to the points of method D; between them it may be as far as the tolerance."""
+        if (nearness := self.nearness) is None:
+            return None
+        return judge(curve, self._classes[k].passed, Tube(nearness, max(self._tube.widest, nearness)))
 
     def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
         """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion
@@ -377,6 +420,12 @@ class _Work:
         )
 
     @property
+    def nearness(self) -> float | None:
+        """How far from the points of method D curves may be, mm; None without it."""
+        method = self._options.effective
+        return None if method is None else method.nearness_for(self._step)
+
+    @property
     def _step(self) -> float:
         """The last decimal of an axis word, mm: the coarser one where the program has two units."""
         units = {self._program.states[k].units for k in np.unique(self._program.motions.state).tolist()}
@@ -401,24 +450,31 @@ class _Work:
         count = stretch.stop - stretch.first
         at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
-        lines = self._source.lines(stretch)
-        if judged is None:
-            return Piece(stretch, points, (count, count), None, None, kept, before, before, at, classes, lines)
-        after = of_curve(judged.curve, points[at])
-        numbers = (count, blocks)
-        return Piece(
+        alike = Piece(
             stretch,
             points,
-            numbers,
-            judged.curve,
-            judged.judgement,
-            "",
+            (count, count),
+            None,
+            None,
+            kept,
             before,
-            after,
+            before,
             at,
             classes,
-            lines,
-            judged.rounded,
+            None,
+            self._source.lines(stretch),
+        )
+        if judged is None:
+            return alike
+        return replace(
+            alike,
+            blocks=(count, blocks),
+            curve=judged.curve,
+            judgement=judged.judgement,
+            kept="",
+            after=of_curve(judged.curve, points[at]),
+            near=judged.near,
+            rounded=judged.rounded,
         )
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Json = dict[str, Any]
 LISTED = 1000
-"""Stretches that the report lists singly, those that changed first."""
+"""Stretches that the report lists singly, those that changed first; and of each its ranges and points, by method D."""
 
 
 def certificate(done: Smoothed) -> tuple[str, ...]:
@@ -38,7 +38,8 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
         f"curvature step {step[0]:.4g} per mm before, {step[1]:.4g} after",
         _corner_words(done),
         *(
-            f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected"
+            f"effective points: {told['effective']} of {told['all']}, {told['corrected']} corrected; nearness "
+            f"{told['nearness_mm']:g} mm to them, proven as written; found {told['farthest_mm']:.6f} mm"
             for told in _points(done)
         ),
         "the control may add what its own blending allows",
@@ -147,6 +148,7 @@ def _listed(piece: Piece) -> Json:
         "curve_to_moves_found_mm": judgement.from_curve,
         "moves_to_curve_found_mm": judgement.from_points,
         "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
+        **_points_of(piece),
     }
 
 
@@ -166,7 +168,32 @@ def _points(done: Smoothed) -> list[Json]:
     if not classes:
         return []
     states = np.bincount(np.concatenate([each.state for each in classes]), minlength=len(PointState)).tolist()
-    return [{"effective": states[PointState.EFFECTIVE], "corrected": states[PointState.CORRECTED], "all": sum(states)}]
+    return [
+        {
+            "effective": states[PointState.EFFECTIVE],
+            "corrected": states[PointState.CORRECTED],
+            "left_out": states[PointState.INVALID],
+            "all": sum(states),
+            "nearness_mm": done.nearness,
+            "farthest_mm": done.farthest_point,
+        }
+    ]
+
+
+def _points_of(piece: Piece) -> Json:
+    """Return the ranges of a stretch, and what each of its points is to the curve."""
+    if (classes := piece.classes) is None:
+        return {}
+    names = [PointState(state).name.lower() for state in classes.state[:LISTED].tolist()]
+    places, moved = piece.points[:LISTED].tolist(), classes.moved[:LISTED].tolist()
+    return {
+        "ranges": [{"first": first, "last": last} for first, last in classes.ranges[:LISTED].tolist()],
+        "points": [
+            {"number": number, "x": x, "y": y, "z": z, "is": name, "moved_mm": by}
+            for number, (name, (x, y, z), by) in enumerate(zip(names, places, moved, strict=True))
+        ],
+        "points_not_listed": max(len(classes.state) - LISTED, 0),
+    }
 
 
 def _most(done: Smoothed, name: str) -> tuple[float, float]:

@@ -6,19 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
-from pathlib import PurePath
 
+from ..formats.readers import fit_for
 from ..model.finding import Finding, FindingKind
 from ..model.part import Units
-from ..model.read_options import AS_DRAWN, ReadOptions
-
-_OPTIONS = {
-    "layout": "--layout",
-    "to_zero": "--to-zero",
-    "pixels_per_inch": "--px-per-inch",
-    "without_layers": "--skip-layer",
-    "without_types": "--skip-type",
-}
+from ..model.read_options import AS_DRAWN, OPTION_OF, ReadOptions
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +34,7 @@ def told_reading(asked: ReadOptions, told: ReadOptions, name: str, units: Units 
         name: of the drawing; what the header tells of another kind of file says nothing of this one.
         units: that are asked for, which say the same as pixels to the inch.
     """
-    told = told.fit_for(PurePath(name).suffix.lower())
+    told = fit_for(told, name)
     told = told if units is None else replace(told, pixels_per_inch=None)
     given = {
         each.name: value
@@ -54,7 +46,7 @@ def told_reading(asked: ReadOptions, told: ReadOptions, name: str, units: Units 
 
 
 def _differing(given: dict[str, object], told: ReadOptions) -> Iterator[Finding]:
-    for field, option in _OPTIONS.items():
+    for field, option in OPTION_OF.items():
         before = getattr(told, field)
         if field in given and before != getattr(AS_DRAWN, field) and _plain(before) != _plain(given[field]):
             yield _as_asked(_words(option, before), _words(option, given[field]))

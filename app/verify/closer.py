@@ -78,7 +78,7 @@ class Metal:
         """Return the metal over a grid when a motion of the last program is about to begin."""
         metal = self.stock.over(grid)
         for k, course in enumerate(self.courses):
-            rows = self._near(k, grid.box)
+            rows = self.near(k, grid.box)
             rows = rows if k < len(self.courses) - 1 else rows[rows < row]
             if len(rows):
                 metal = trim(metal, picked(course, rows), self.cutters, TrimOptions(Rapids.IGNORED)).workpiece
@@ -93,7 +93,7 @@ class Metal:
         """
         deepest: RapidHit | None = None
         course = way.course()
-        for grid in _looks(way, top, pitch, self.stock.box):
+        for grid in looks(way, top, pitch, self.stock.box):
             metal = self.over(grid, way.row)
             for hit in trim(metal, course, {1: way.cutter}).rapids:
                 if deepest is None or hit.depth > deepest.depth:
@@ -106,7 +106,7 @@ class Metal:
         radius = way.radius(top)
         return radius <= 0 or len(_pieces(way, min(radius / FINE, pitch))) <= LOOKS
 
-    def _near(self, k: int, box: Box) -> NDArray[np.intp]:
+    def near(self, k: int, box: Box) -> NDArray[np.intp]:
         """Return the rows of a course that may cut in a box."""
         low, high = self._reaches[k]
         return np.flatnonzero(
@@ -130,7 +130,7 @@ class Metal:
         return low[:, :2] - radius[:, None], high[:, :2] + radius[:, None]
 
 
-def _looks(way: Way, top: float, pitch: float, stock: Box) -> Iterator[Grid]:
+def looks(way: Way, top: float, pitch: float, stock: Box) -> Iterator[Grid]:
     """Yield grids that a way is seen on: what of it is below the top and over the stock, in pieces that are not too
     large.
     """

@@ -25,7 +25,10 @@ from .clearance import curve_distance
 Floats = NDArray[np.float64]
 
 _CHORD = 1e-3
-"""mm; walls and moves are flattened within this only to find which pairs can be near."""
+"""mm; within this areas of chords are what was drawn."""
+
+_ROUGH = 0.02
+"""mm; walls and moves are flattened within this to find which pairs can be near: few chords are quicker to ask."""
 
 _PORTION = 4000
 """Moves that are held against walls between two looks at whether to stop."""
@@ -218,16 +221,17 @@ def deepest_of(depths: Depths) -> Gouge:
 
 def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_PROGRESS) -> tuple[Floats, Floats]:
     """Return (n,) how far each move comes nearer to a wall than it may (<= 0: it does not), and where, (n, 2)."""
-    tree = shapely.STRtree(lines(walls, _CHORD))
+    tree = shapely.STRtree(lines(walls, _ROUGH))
     depth, places = np.full(len(rows), -np.inf), rows[:, 2:4].copy()
     for first in range(0, len(rows), _PORTION):
         progress.step(first / len(rows), "Checking clearance")
         some = slice(first, first + _PORTION)
-        move, wall = near(tree, lines(rows[some], _CHORD), need[some] + 4 * _CHORD)
+        move, wall = near(tree, lines(rows[some], _ROUGH), need[some] + 4 * _ROUGH)
         distance, points = curve_distance(rows[some][move], walls[wall])
         short = need[some][move] - distance
-        for k in np.argsort(short):
-            depth[first + move[k]], places[first + move[k]] = short[k], points[k]
+        order = np.lexsort((short, move))
+        worst = order[np.flatnonzero(np.diff(move[order], append=-1))]  # of each move the last, which is the deepest
+        depth[first + move[worst]], places[first + move[worst]] = short[worst], points[worst]
     return depth, places
 
 

@@ -92,3 +92,16 @@ def test_many_points_on_two_cores_measure_as_few_do() -> None:
     for part in np.array_split(np.arange(len(points)), 7):
         few = field.nearest(points[part], 9.0)
         assert np.array_equal(distance[part], few[0]) and np.array_equal(row[part], few[1])
+
+
+@settings(max_examples=examples(30), deadline=None)
+@given(st.integers(0, 10**6))
+def test_inside_is_the_same_for_many_points_on_a_line(seed: int) -> None:
+    contours, _ = random_part(seed)
+    field = DistanceField.of(np.concatenate([contour_rows(c) for c in contours]))
+    ends = field.rows[:4, 1]  # lines through vertices too
+    x, y = np.meshgrid(np.linspace(-35, 45, 60), np.append(np.linspace(-35, 45, 20), ends))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    one_by_one = np.array([field.inside(point[None])[0] for point in points])
+    assert np.array_equal(field.inside(points), one_by_one)
+    assert one_by_one.any() and not one_by_one.all()

@@ -29,7 +29,8 @@ from app.model.tool import Tool
         (lambda: PocketOperation(Cut(1), 0.0005), "Stepover is 0.0005 mm; use 0.001 to 9999 mm"),
         (lambda: Tool(3, 6.0, feed_rate=0.5), "T3: feed rate is 0.5 mm/min; it must be 1 mm/min or more"),
         (lambda: Tool(3, 6.0, plunge_rate=1e-6), "T3: plunge rate is 1e-06 mm/min; it must be 1 mm/min or more"),
-        (lambda: Tool(3, 0.0), "T3: diameter is 0 mm; it must be greater than 0"),
+        (lambda: Tool(3, 0.0), "T3: diameter is 0 mm; it must be 0.001 mm or more"),
+        (lambda: Tool(3, 1e-300), "T3: diameter is 1e-300 mm; it must be 0.001 mm or more"),
         (
             lambda: Tool(3, 6.0, spindle_speed=2e6),
             "T3: spindle speed is 2e+06 rpm; it must be greater than 0 rpm and less than 1000000 rpm",

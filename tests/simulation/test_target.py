@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.simulation.cutter import Cutter
 from app.simulation.field.judge_kernels import MOST_RINGS
-from app.simulation.field.outline import inside
+from app.simulation.field.outline import beside, inside
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.target import MARGIN, RIM, cutter_profile, dilated, solid_target
 from app.simulation.field.workpiece import Grid
@@ -162,3 +162,15 @@ def test_a_flat_that_is_used_up_leaves_none_and_not_less_than_none() -> None:
         slim = Cutter(2.5 + flat, flat, 2.5).shrunk(1.7 * flat)
         assert slim is not None
         assert slim.flat == 0.0
+
+
+@given(st.integers(3, 9), st.integers(0, 10_000), st.sampled_from([0.0, 1e-3, 0.02, 0.15, 0.7]))
+@settings(max_examples=examples(60), deadline=None)
+def test_cells_are_beside_an_outline_where_their_centre_is_as_near(corners: int, seed: int, distance: float) -> None:
+    rng = np.random.default_rng(seed)
+    rings = [np.round(rng.uniform((-2, 1), (6, 7), (count, 2)), 2 + seed % 3) for count in (corners, 3)]
+    away = shapely.distance(
+        shapely.points(*centres(GRID)), shapely.MultiLineString([[*ring, ring[0]] for ring in rings])
+    )
+    found = beside(GRID, rings, distance)
+    assert np.all(found[away < distance - 1e-9]) and not np.any(found[away > distance + 1e-9])

@@ -59,7 +59,7 @@ def test_a_strip_is_found_when_a_disc_fits_in_it(width: float, seen: bool) -> No
     """Two paths side by side leave a strip of so many mm between them."""
     ground = Ground.of([(line(-5, 5, 25, 5), 5.0), (line(-5, 15 + width, 25, 15 + width), 5.0)])
     reach = Reach(sheet_of(20), 1.0, 1.0, 1 / 16)
-    found = suspects(ground, reach, NO_PROGRESS)
+    found = suspects(ground, reach, np.zeros((0, 8)), NO_PROGRESS)
     assert bool(len(core_cells(ground, reach, found))) is seen
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from tests.ui.one_window import OneWindow
 
 WAIT_MS = 20_000

@@ -21,8 +21,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.core.settings import ThemeChoice
 from app.fitting.point_curves.correction import Select
-from app.ui.shell.computation import State
-from app.ui.shell.memory import choose_theme
+from app.ui.framework.computation import State
 from app.ui.shell.start import build
 from app.ui.shell.views import View
 from app.ui.shell.wiring import Wiring
@@ -244,7 +243,7 @@ def take_drawing(wiring: Wiring, folder: Path) -> None:
     """Take every tool, page and menu of the drawing workstation; what was open is not kept."""
     states = DrawingStates(wiring, wait)
     for theme in (ThemeChoice.LIGHT, ThemeChoice.DARK):
-        choose_theme(wiring.window_, theme)
+        wiring.window_.choose_theme(theme)
         for width, height in SIZES:
             wiring.window_.resize(width, height)
             states.begin()
@@ -259,13 +258,13 @@ def main() -> None:
     application = QApplication.instance() or QApplication([])
     wiring = computed_sample()
     if len(sys.argv) < 2:
-        choose_theme(wiring.window_, ThemeChoice.LIGHT)
+        wiring.window_.choose_theme(ThemeChoice.LIGHT)
         take(wiring, DOCUMENT)
         return
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for theme in (ThemeChoice.LIGHT, ThemeChoice.DARK):
-        choose_theme(wiring.window_, theme)
+        wiring.window_.choose_theme(theme)
         for width, height in SIZES:
             wiring.window_.resize(width, height)
             for view in View:

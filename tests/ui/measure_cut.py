@@ -59,7 +59,7 @@ def shown_view() -> CutView:
 
 def new_heights(view: CutView) -> tuple[float, float]:
     """Return how long other heights take to the screen, and how long preparing them took, ms."""
-    picture = replace(view.picture, heights=view.picture.heights * np.float32(0.9), values={})
+    picture = replace(view.model.picture, heights=view.model.picture.heights * np.float32(0.9), values={})
     begun = time.perf_counter()
     prepare(picture, view.colour)
     made = time.perf_counter()
@@ -72,7 +72,7 @@ def new_heights(view: CutView) -> tuple[float, float]:
 def turn(view: CutView) -> float:
     """Return how long one step of turning takes until it is on the screen, ms."""
     begun = time.perf_counter()
-    view.look_now(view.camera.orbited(0.05, 0.0, np.array([50.0, 50.0, -10.0])))
+    view.look_now(view.model.camera.orbited(0.05, 0.0, np.array([50.0, 50.0, -10.0])))
     while view.painting.due:
         QApplication.processEvents()
     return 1000 * (time.perf_counter() - begun)
@@ -97,7 +97,7 @@ def measure() -> Felt:
     turns = [turn(view) for _ in range(TURNS)]
     fines = [fine(view) for _ in range(3)]
     return Felt(
-        type(view.surface).__name__,
+        type(view.painting.surface).__name__,
         statistics.median(n for n, _ in news),
         statistics.median(r for _, r in news),
         statistics.median(turns[TURNS // 2 :]),

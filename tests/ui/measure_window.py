@@ -77,7 +77,7 @@ def use_fine_tools(document) -> None:
 
 def measure_gaps(drawing: Path) -> dict[str, float]:
     """Open a drawing in a window and compute it; return the longest gap in ms by what was going on."""
-    from app.ui.shell.computation import State
+    from app.ui.framework.computation import State
     from app.ui.shell.start import build, warm_up
 
     window, wiring = build()

@@ -96,9 +96,9 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     for name, on in (("snap", True), ("ortho", False), ("grid", False), ("log", True)):
         window.actions_[name].setChecked(on)
     window.findings_list.hide()
-    if window.settings.theme is not ThemeChoice.SYSTEM:
+    if window.preferences.settings.theme is not ThemeChoice.SYSTEM:
         window.set_theme_choice(ThemeChoice.SYSTEM)
-    window.settings = Settings()
+    window.preferences.settings = Settings()
     window.status.show_place(0.0, 0.0)
     wiring.log.lines.clear()
     window.command_line.log.show_lines(wiring.log.lines)

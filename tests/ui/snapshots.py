@@ -19,8 +19,8 @@ from PySide6.QtCore import QEventLoop, QPoint, QTimer
 from PySide6.QtGui import QFontMetrics, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.core.settings import ThemeChoice
 from app.ui.framework.theme import text_font
-from app.ui.shell.memory import ThemeChoice, choose_theme
 from app.ui.shell.start import build
 from app.ui.shell.wiring import Wiring
 from tests.ui.drawing_states import DrawingStates
@@ -66,7 +66,7 @@ def small(picture: QPixmap) -> Picture:
 
 def states(wiring: Wiring, theme: ThemeChoice, size: tuple[int, int]) -> Iterator[tuple[str, Picture]]:
     """Put the window into every state and give its name and small picture."""
-    choose_theme(wiring.window_, theme)
+    wiring.window_.choose_theme(theme)
     wiring.window_.resize(*size)
     made = DrawingStates(wiring, wait)
     made.begin()

@@ -8,7 +8,7 @@ import pytest
 from app.formats.readers import read_drawing
 from app.model.curves import Circle
 from app.model.notes import Mark
-from app.ui.shell.drawing_export import FORMATS
+from app.ui.shell.drawing_export import offered
 from tests.ui.conftest import WAIT_MS
 
 LINES = (
@@ -27,7 +27,7 @@ def export(qtbot, wiring, path: Path, format_: str) -> None:
         wiring.window_.actions_["export_drawing"].trigger()
 
 
-@pytest.mark.parametrize("format_", FORMATS.values())
+@pytest.mark.parametrize("format_", offered().values())
 def test_what_is_exported_is_read_again(qtbot, wiring, tmp_path, format_):
     for line in LINES:
         wiring.document.run(line)

@@ -34,7 +34,7 @@ def test_what_was_used_lately_comes_first_and_is_remembered(qtbot, wiring) -> No
     qtbot.keyClicks(palette.edit, "ortho")
     qtbot.keyClick(palette.edit, Qt.Key.Key_Return)
     assert wiring.window_.actions_["ortho"].isChecked()
-    assert wiring.window_.settings.recent_commands[0] == "ortho"
+    assert wiring.window_.preferences.settings.recent_commands[0] == "ortho"
     open_palette(qtbot, wiring)
     assert names(palette)[0] == "Ortho"
 

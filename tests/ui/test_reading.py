@@ -217,7 +217,7 @@ def test_a_dropped_file_and_a_recent_one_are_asked_about_alike(qtbot, wiring, tm
     )
     qtbot.waitUntil(window.card.isVisible, timeout=WAIT_MS)
     window.card.hide()
-    window.settings = window.settings.with_recent_file(path)
+    window.preferences.settings = window.preferences.settings.with_recent_file(path)
     window.actions_.recent.aboutToShow.emit()
     window.actions_.recent.actions()[0].trigger()
     qtbot.waitUntil(window.card.isVisible, timeout=WAIT_MS)

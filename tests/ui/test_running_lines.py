@@ -5,9 +5,9 @@ import time
 import pytest
 
 from app.drafting.document import Document
-from app.ui.shell import running_lines
-from app.ui.shell.running_lines import AT_ONCE_S, RunningLines
 from app.ui.views.canvas.trials import Trial, Trials, keeps_the_window
+from app.ui.views.language import running_lines
+from app.ui.views.language.running_lines import AT_ONCE_S, RunningLines
 
 LONG = "repeat 3000 as k; circle k,0 1; end"
 

@@ -11,7 +11,7 @@ from app.formats.project.beside import Beside
 from app.formats.project.files import load_project, save_project
 from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from app.ui.shell.views import View
 from tests.ui.conftest import WAIT_MS
 

@@ -80,19 +80,20 @@ def test_backspace_takes_a_key_away_and_reset_brings_it_back(qtbot, keys: KeysWi
     keys.list.setCurrentItem(row_of(keys, "compute"))
     keys.reset.click()
     assert wiring.window_.actions_.key("compute") == "F5"
-    assert wiring.window_.settings.shortcuts == ()
+    assert wiring.window_.preferences.settings.shortcuts == ()
 
 
 def test_all_keys_go_back_at_once(qtbot, keys: KeysWindow, wiring) -> None:
     wiring.shortcuts.change("fit", "Ctrl+N")
     keys.reset_all.click()
     assert (wiring.window_.actions_.key("fit"), wiring.window_.actions_.key("new")) == ("Ctrl+0", "Ctrl+N")
-    assert wiring.window_.settings.shortcuts == Settings().shortcuts
+    assert wiring.window_.preferences.settings.shortcuts == Settings().shortcuts
 
 
 def test_damaged_settings_change_no_key(wiring) -> None:
     from dataclasses import replace
 
-    wiring.window_.settings = replace(wiring.window_.settings, shortcuts=("nonsense", "gone=Ctrl+M", "fit=Ctrl+M"))
+    preferences, wrong = wiring.window_.preferences, ("nonsense", "gone=Ctrl+M", "fit=Ctrl+M")
+    preferences.settings = replace(preferences.settings, shortcuts=wrong)
     Shortcuts(wiring.window_)
     assert wiring.window_.actions_.key("fit") == "Ctrl+M"

@@ -4,7 +4,6 @@ import pytest
 from PySide6.QtWidgets import QWidget
 
 from app.core.settings import ThemeChoice
-from app.ui.shell.memory import choose_theme
 from app.ui.shell.start import build
 from tests.ui.snapshots import FOLDER, KINDS, kept, letters, seen, share_changed, small, states, wait
 
@@ -44,7 +43,7 @@ def test_what_is_missing_would_be_seen(qtbot, what: str) -> None:
     window.show()
     _, before = next(states(wiring, theme, size))
     if what == "colours":
-        choose_theme(window, KINDS[-1][0])
+        window.choose_theme(KINDS[-1][0])
     else:
         missing: QWidget = getattr(window, what)
         missing.hide()

@@ -12,10 +12,10 @@ from app.drafting.document import Document
 from app.model.job import Job
 from app.model.operation import OPERATION_KINDS, Cut, DrillOperation
 from app.model.tool import Tool, ToolKind
+from app.ui.framework.computation import Computation, State
 from app.ui.framework.labels import Elided
 from app.ui.framework.worker import Worker
 from app.ui.panels.side_panel import SidePanel
-from app.ui.shell.computation import Computation, State
 from app.ui.views.stages.reel import Wish, reel_of
 from app.usecases.bitmap_job import drawn_job
 from app.usecases.bitmap_options import BitmapSize

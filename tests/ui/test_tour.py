@@ -67,7 +67,7 @@ def test_the_first_start_offers_it_until_it_was_seen(computed) -> None:
     assert "Show me round" in [button.text() for button in computed.window_.notice.buttons]
     computed.tour.end()
     computed.files.open_sample()
-    assert computed.window_.settings.tour == SEEN
+    assert computed.window_.preferences.settings.tour == SEEN
 
 
 def test_once_seen_it_is_not_offered(qtbot, wiring) -> None:

@@ -10,10 +10,10 @@ from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from app.core.resources import resource
 from app.core.settings import ThemeChoice, load_settings
+from app.ui.framework.computation import State
 from app.ui.framework.samples import Sample
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.shell.computation import State
 from app.ui.shell.files import FIRST_START
 from app.ui.shell.memory import fit_onto
 from app.ui.shell.views import View

@@ -13,6 +13,7 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cut import CutOptions, CutSetup, cut
+from app.verify import led_ways
 from tests.surfaces.solids import pocketed_block, stl
 from tests.verify.test_judge import program
 
@@ -78,6 +79,20 @@ def test_descents_are_counted_by_tool_and_the_deepest_is_told() -> None:
     (found,) = told(body)
     assert (found.line, found.x, found.y, found.amount) == (11, 30.0, 10.0, pytest.approx(8.0, abs=0.01))
     assert "the deepest of 3 such descents" in found.text
+
+
+@pytest.mark.parametrize("few", [0, 10**6], ids=["together", "one by one"])
+def test_ways_between_the_cells_are_looked_at_closer_together_or_one_by_one(
+    few: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Six descents, the last but one over a place that is cut by then and the last before that place is cut deeper."""
+    monkeypatch.setattr(led_ways, "FEW", few)
+    places = [f"G0 Z5\nX{6 * k + 3} Y{4 * k + 4}\nG1 Z-{2 + k}\n" for k in range(5)]
+    again = "G0 Z5\nX3 Y4\nG1 Z-2\nG0 Z5\nX35 Y25\nG1 Z-9\nZ-9.5 F300\n"
+    body = f"{SLOWLY}{SLOT}{''.join(places)}{again}"
+    (found,) = told(body, tool=Tool(1, 1.0), cells=12)
+    assert "the deepest of 6 such descents" in found.text
+    assert (found.x, found.y, found.amount) == (35.0, 25.0, pytest.approx(9.0, abs=1e-6))
 
 
 SCENE = """

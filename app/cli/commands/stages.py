@@ -15,6 +15,7 @@ from ...core.errors import InputError
 from ...exhibits.stage_files import MOST_TURNS_PX, TURNS, StagesRun, run_stages, stage_files
 from ...exhibits.stages import Variant
 from ...formats.job.toml import read_job, read_units
+from ...formats.readers import offered_suffixes
 from ...usecases.machining import Machining
 from ...usecases.options import MakeOptions
 from ..bitmap_options import add_bitmap_options, bitmap_options
@@ -79,7 +80,7 @@ def _parser() -> OptionParser:
         "drawing",
         metavar="DRAWING",
         type=Path,
-        help="the drawing or project, .hito .dxf .svg .draw, or a picture, .png .jpg .bmp",
+        help=f"the drawing or project, {' '.join(offered_suffixes())}, or a picture, .png .jpg .bmp",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, required=True, help="the folder; made where there is none"

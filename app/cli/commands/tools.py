@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...formats.job.toml import read_units
+from ...formats.readers import offered_suffixes
 from ...formats.tools.files import read_tools
 from ...model.operation import LEAST_LENGTH
 from ...toolpath.advice.advise import RegionAdvice
@@ -68,7 +69,9 @@ def tools_command(argv: Sequence[str], stopped: Stopping) -> int:
 def _parser() -> OptionParser:
     about = "Tell which tools a drawing wants."
     parser = OptionParser("tools", ("drawing", "the drawing"), about, EPILOG)
-    parser.add_argument("drawing", metavar="DRAWING", type=Path, help="the drawing or project, .hito .dxf .svg .draw")
+    parser.add_argument(
+        "drawing", metavar="DRAWING", type=Path, help=f"the drawing or project, {' '.join(offered_suffixes())}"
+    )
     parser.add_argument(
         "--tools",
         metavar="FILE",

@@ -9,11 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.errors import ParameterError
 from ...model.motion import Floats
 from .correction import CorrectionOptions, Curve, Move, Select, corrected
-from .effective_points import EffectiveOptions, PointState, effective_points
+from .effective_points import EffectiveOptions, Ends, PointState, effective_points
 
 _DEFAULTS = CorrectionOptions()
+
+_DIGITS = 4.0
+"""Points are off by 0.71 of a last decimal in a plane, and ends of blocks by as much again; arcs need some room."""
+_OF_EPSILON = 0.05
+"""Of the sag that is taken for one facet: where the digits are fine, curves of few blocks matter more than they."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,11 +30,15 @@ class PointClasses:
         state: (n,) PointState.
         places: (n, 3) mm: where the curve is asked to go by; those left out are where they were.
         off: how far the points lie from the path by these places at most, mm.
+        ranges: (r, 2) first and last point of each range; where one ends the next begins.
+        moved: (n,) how far each point is from where it was, mm.
     """
 
     state: NDArray[np.uint8]
     places: Floats
     off: float
+    ranges: NDArray[np.int64]
+    moved: Floats
 
     @property
     def passed(self) -> Floats:
@@ -43,18 +53,46 @@ class EffectiveMethod:
     Attributes:
         choose: which points these are.
         correct: how the others, and these, are moved first (second embodiment); None: the others are left out (first).
+        nearness: how far from the points that it goes by the curve may be, mm, > 0; None: see `nearness_for`. The
+            tolerance, which holds the sag of the facets, is no freedom to stray from them.
     """
 
     choose: EffectiveOptions
     correct: CorrectionOptions | None = None
+    nearness: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.nearness is not None and not self.nearness > 0:
+            raise ParameterError(f"a nearness of {self.nearness:g} mm; use more than 0.")
+
+    @property
+    def on_shape(self) -> bool:
+        """Whether all points that the curve goes by are meant to lie on the true shape, or on one curve: then a spline
+        through them is nearer to it than chords are.
+        """
+        return self.choose.ends is Ends.OUTER or self.correct is not None
+
+    def nearness_for(self, digit: float) -> float:
+        """Return how far from its points the curve may be, mm.
+
+        Where nothing was asked for: as far as rounding to the last decimal of a program may have moved them and what is
+        written, or a small share of epsilon; all of it where points beside the ends of ranges are effective, too, which
+        lie within facets.
+
+        Args:
+            digit: the last decimal of a program's words, mm.
+        """
+        share = _OF_EPSILON if self.choose.ends is Ends.OUTER else 1.0
+        return self.nearness if self.nearness is not None else max(_DIGITS * digit, share * self.choose.epsilon)
 
     def classes(self, points: Floats, corners: NDArray[np.int64]) -> PointClasses:
         """Return what the points (n, 3) of a path are, its corners by number being effective and unmoved."""
         effective = effective_points(points, self.choose, corners.tolist())
         if self.correct is None:
-            return PointClasses(effective.state, points, self.choose.epsilon)
+            return PointClasses(effective.state, points, self.choose.epsilon, effective.ranges, np.zeros(len(points)))
         moved = corrected(points, effective.state, self.correct, corners.tolist())
-        return PointClasses(moved.state, moved.places, self.choose.epsilon + float(moved.moved.max()))
+        off = self.choose.epsilon + float(moved.moved.max())
+        return PointClasses(moved.state, moved.places, off, effective.ranges, moved.moved)
 
 
 def second_embodiment(

@@ -18,8 +18,6 @@ from .curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, p
 from .fonts import Fonts
 from .hatch import Hatch, hatch_of
 from .letters import LeftOutError, Lettering
-from .mtext import mtext_lettering
-from .text import text_lettering
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 DEEPEST = 64
@@ -188,6 +186,9 @@ class Walker:
 
     def _lettering(self, entity: Any, kind: str) -> Lettering:
         self._read[kind] = None
+        from .mtext import mtext_lettering  # few drawings have texts
+        from .text import text_lettering
+
         if kind == "MTEXT":
             return mtext_lettering(entity, self._fonts)
         if kind == "ATTRIB" and entity.has_embedded_mtext_entity:

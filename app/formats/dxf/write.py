@@ -13,7 +13,8 @@ from ...core import tolerances
 from ...geometry.affine import scaled, transformed
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from ...model.part import Layer, Part, Units
-from ..drawing_written import Conversions, Written, box_round
+from ..drawing import Written
+from ..drawing_written import Conversions, box_round
 from .curves import polar
 from .light_ezdxf import load_ezdxf
 
@@ -78,7 +79,7 @@ def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: flo
             pen.draw(curve, {"layer": names[entity.layer]})
     _show_all(document, part, units)
     renamed = tuple((layer, name) for layer, name in names.items() if layer != name)
-    return Written(_text(document), pen.conversions.converted, renamed)
+    return Written(_text(document), pen.conversions.converted, renamed, notes_left_out=len(part.notes))
 
 
 def _names(layers: tuple[Layer, ...], version: DxfVersion) -> dict[str, str]:

@@ -11,7 +11,6 @@ from typing import Any, TypeVar
 from ...core.errors import HitofudeError, InputError
 from ...core.toml_tables import QUOTED, brief, known_words
 from ...model.tool import FeedRow
-from ..tools.holders import outline_of
 
 Value = TypeVar("Value")
 _MISSING = object()
@@ -201,7 +200,11 @@ def read_holder(value: Any) -> tuple[tuple[float, float], ...]:
     Raises:
         InputError: it is neither.
     """
-    return outline_of(value) if isinstance(value, str) else read_points(value)
+    if not isinstance(value, str):
+        return read_points(value)
+    from ..tools.holders import outline_of  # few jobs name one
+
+    return outline_of(value)
 
 
 def read_feeds(value: Any) -> tuple[FeedRow, ...]:

@@ -1,1 +1,30 @@
-"""SVG in and out."""
+"""SVG drawings."""
+
+from __future__ import annotations
+
+from ...model.part import Part
+from ...model.reading import Reading
+from ..drawing import Drawing, Written
+from ..registry import DrawingFormat, Writer
+
+
+def _read(name: str, data: bytes, reading: Reading) -> Drawing:
+    from .svg import read_svg
+
+    return read_svg(data, name, reading.units, reading.layers, reading.how)
+
+
+def _write(part: Part) -> Written:
+    from .write import svg_bytes
+
+    return svg_bytes(part)
+
+
+SVG = DrawingFormat(
+    (".svg",),
+    _read,
+    takes=frozenset({"to_zero", "pixels_per_inch"}),
+    foreign=True,
+    scaled_page=True,
+    writers=(Writer(".svg", "SVG", _write),),
+)

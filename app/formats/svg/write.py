@@ -13,7 +13,8 @@ from ...core import tolerances
 from ...geometry.arcs.bezier import pieces_of
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Entity, Layer, Part
-from ..drawing_written import Conversions, Written, box_round
+from ..drawing import Written
+from ..drawing_written import Conversions, box_round
 from .generator import INKSCAPE, SODIPODI
 from .joined import joined
 from .svg import HITOFUDE
@@ -63,7 +64,7 @@ def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> Written:
             f"    {element}" for element in _elements((e for e in part.entities if e.layer == layer.name), conversions)
         ]
         lines += ["  </g>"]
-    return Written("\n".join([*lines, "</svg>", ""]).encode(), conversions.converted)
+    return Written("\n".join([*lines, "</svg>", ""]).encode(), conversions.converted, notes_left_out=len(part.notes))
 
 
 def _group(number: int, layer: Layer) -> str:

@@ -1,7 +1,11 @@
-"""Tools in and out by the kind of file: a library (.toml), a spreadsheet (.csv), LinuxCNC's tool table (.tbl)."""
+"""Tools in and out by the kind of file: a library (.toml), a spreadsheet (.csv), LinuxCNC's tool table (.tbl); others
+can be registered.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import PurePath
 
 from ...core.errors import InputError
@@ -11,7 +15,36 @@ from .csv import read_tool_csv, write_tool_csv
 from .library import ToolLibrary, read_library, write_library
 from .tbl import read_tool_table, write_tool_table
 
-SUFFIXES = (".toml", ".csv", ".tbl")
+
+@dataclass(frozen=True)
+class ToolFormat:
+    """A kind of file that holds tools.
+
+    Attributes:
+        suffix: of its files, in lower case, with the dot.
+        read: returns the tools of a file's bytes, and a sentence for each thing left out; it takes the file's name and
+            the units of lengths that name none, and raises InputError.
+        write: returns a file's bytes; the units are those in which a kind that names none is written.
+        rows: returns what a control's tool table would hold, where a file says that itself; None = of its tools.
+    """
+
+    suffix: str
+    read: Callable[[str, bytes, Units], tuple[ToolLibrary, tuple[str, ...]]]
+    write: Callable[[ToolLibrary, Units], bytes]
+    rows: Callable[[str, bytes, Units], tuple[TableRow, ...]] | None = None
+
+
+_FORMATS: dict[str, ToolFormat] = {}
+
+
+def register(format_: ToolFormat) -> None:
+    """Make a kind of file known.
+
+    Raises:
+        ValueError: another kind has its suffix.
+    """
+    if _FORMATS.setdefault(format_.suffix, format_) is not format_:
+        raise ValueError(f"two kinds of tool files have the suffix {format_.suffix}")
 
 
 def read_tools(name: str, data: bytes, units: Units = Units.MM) -> tuple[ToolLibrary, tuple[str, ...]]:
@@ -26,16 +59,7 @@ def read_tools(name: str, data: bytes, units: Units = Units.MM) -> tuple[ToolLib
     Raises:
         InputError: the file is none of these, or there is something wrong with it, or no tool in it.
     """
-    suffix, stem = _suffix(name), PurePath(name).stem
-    if suffix == ".toml":
-        return read_library(name, data), ()
-    if suffix == ".csv":
-        library, passed = read_tool_csv(name, data)
-        return ToolLibrary(stem, library.tools), passed
-    tools, left_out = read_tool_table(name, data, units).tools(name)
-    if not tools:
-        raise InputError(left_out[0])
-    return ToolLibrary(stem, tools), left_out
+    return _format(name).read(name, data, units)
 
 
 def read_rows(name: str, data: bytes, units: Units = Units.MM) -> tuple[TableRow, ...]:
@@ -44,9 +68,10 @@ def read_rows(name: str, data: bytes, units: Units = Units.MM) -> tuple[TableRow
     Raises:
         InputError: as `read_tools`.
     """
-    if _suffix(name) == ".tbl":
-        return read_tool_table(name, data, units).rows
-    return tuple(row_of(tool) for tool in read_tools(name, data, units)[0].tools)
+    format_ = _format(name)
+    if format_.rows is not None:
+        return format_.rows(name, data, units)
+    return tuple(row_of(tool) for tool in format_.read(name, data, units)[0].tools)
 
 
 def write_tools(name: str, library: ToolLibrary, units: Units = Units.MM) -> bytes:
@@ -60,14 +85,41 @@ def write_tools(name: str, library: ToolLibrary, units: Units = Units.MM) -> byt
     Raises:
         InputError: the suffix is none of these, or two tools have the same number.
     """
-    suffix = _suffix(name)
-    if suffix == ".toml":
-        return write_library(library)
-    return write_tool_csv(library) if suffix == ".csv" else write_tool_table(map(row_of, library.tools), units)
+    return _format(name).write(library, units)
 
 
-def _suffix(name: str) -> str:
+def _format(name: str) -> ToolFormat:
     suffix = PurePath(name).suffix.lower()
-    if suffix not in SUFFIXES:
-        raise InputError(f"{name}: tools are read and written as {', '.join(SUFFIXES)}; choose a file that ends so.")
-    return suffix
+    if suffix not in _FORMATS:
+        raise InputError(f"{name}: tools are read and written as {', '.join(_FORMATS)}; choose a file that ends so.")
+    return _FORMATS[suffix]
+
+
+def _read_csv(name: str, data: bytes, units: Units) -> tuple[ToolLibrary, tuple[str, ...]]:
+    library, passed = read_tool_csv(name, data)
+    return ToolLibrary(PurePath(name).stem, library.tools), passed
+
+
+def _read_table(name: str, data: bytes, units: Units) -> tuple[ToolLibrary, tuple[str, ...]]:
+    tools, left_out = read_tool_table(name, data, units).tools(name)
+    if not tools:
+        raise InputError(left_out[0])
+    return ToolLibrary(PurePath(name).stem, tools), left_out
+
+
+register(
+    ToolFormat(
+        ".toml",
+        lambda name, data, units: (read_library(name, data), ()),
+        lambda library, units: write_library(library),
+    )
+)
+register(ToolFormat(".csv", _read_csv, lambda library, units: write_tool_csv(library)))
+register(
+    ToolFormat(
+        ".tbl",
+        _read_table,
+        lambda library, units: write_tool_table(map(row_of, library.tools), units),
+        lambda name, data, units: read_tool_table(name, data, units).rows,
+    )
+)

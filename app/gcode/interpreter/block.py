@@ -67,7 +67,7 @@ SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
 """What marks a block that the control leaves out when it is told to."""
 
 
-def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> Parsed:
+def parse(code: str, nesting: int, free: bool = False, polar: bool = False, begin: int = 0) -> Parsed:
     """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long
     ones.
 
@@ -76,16 +76,18 @@ def parse(code: str, nesting: int, free: bool = False, polar: bool = False) -> P
         nesting: how deep brackets may go.
         free: what a parameter is set to needs no brackets, as Fanuc has it.
         polar: @ and ^ are words.
+        begin: index of the code where its words begin, behind a condition for instance.
 
     Raises:
         Fault: something in it is no word.
     """
-    return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, free, polar)
+    return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, free, polar, begin)
 
 
-def _parsed(code: str, nesting: int, free: bool, polar: bool) -> Parsed:
+def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> Parsed:
     values = Values(code, nesting)
-    slash = SLASH.match(code)
+    values.at = begin
+    slash = SLASH.match(code, begin)
     deleted = slash is not None
     if slash is not None:
         values.at = slash.end()
@@ -96,7 +98,7 @@ def _parsed(code: str, nesting: int, free: bool, polar: bool) -> Parsed:
         if numbered is not None:
             words.append(_numbered(numbered, values))
             continue
-        letter, begin = code[values.at], values.at
+        letter, at = code[values.at], values.at
         values.at += 1
         if letter == "#":
             key = values.key()
@@ -105,9 +107,9 @@ def _parsed(code: str, nesting: int, free: bool, polar: bool) -> Parsed:
             values.at += 1
             settings.append((key, values.expression() if free else values.value()))
         elif "a" <= letter <= "z" or (polar and letter in POLAR):
-            words.append(Word(letter, values.value(), begin, values.at, False))
+            words.append(Word(letter, values.value(), at, values.at, False))
         else:
-            raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - begin, word=letter)
+            raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - at, word=letter)
     return Parsed(code, deleted, tuple(settings), tuple(words))
 
 

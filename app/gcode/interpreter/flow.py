@@ -77,11 +77,30 @@ class Flow:
         self._seen: dict[int, tuple[object, ...]] = {}
         self._statements: dict[int, tuple[Statement, int]] = {}
         self._conditions: dict[str, Value] = {}
+        self._first_values: dict[int, tuple[Value, int]] = {}
 
     @property
     def nested(self) -> bool:
         """Whether a subroutine or a loop is running."""
         return len(self.frames) > 1 or bool(self.frames[0].loops)
+
+    def first_value(self, values: Values) -> Value:
+        """Return the first value that is read of the line that is running: parsed once, however often the line is done.
+
+        Args:
+            values: stands before it, and then behind it.
+
+        Raises:
+            Fault: there is none, or it is wrong.
+        """
+        known = self._first_values.get(self.here.offset)
+        if known is not None:
+            value, values.at = known
+            return value
+        value = values.value()
+        if len(self._first_values) < MOST_KEPT:
+            self._first_values[self.here.offset] = value, values.at
+        return value
 
     def jump(self, to: Cursor) -> None:
         """Go on at a line.

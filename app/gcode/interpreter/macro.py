@@ -22,8 +22,9 @@ def is_macro(code: str) -> bool:
     return _WORDS.match(code) is not None
 
 
-def obey_macro(flow: Flow, control: Control, code: str) -> str:
-    """Obey GOTO, IF, WHILE or END; return what is left to obey: the settings behind THEN.
+def obey_macro(flow: Flow, control: Control, code: str) -> int:
+    """Obey GOTO, IF, WHILE or END; return the index of what is left to obey, the settings behind THEN: the code's
+    length = nothing.
 
     Raises:
         Fault: it is not one, or its goal is missing.
@@ -35,29 +36,29 @@ def obey_macro(flow: Flow, control: Control, code: str) -> str:
     values.at = begun.end()
     if word == "goto":
         _goto(flow, control, values)
-        return ""
+        return len(code)
     if word == "end":
         _end(flow, code[values.at :])
-        return ""
+        return len(code)
     if code[values.at : values.at + 1] != "[":
         raise Fault(f"expected [ with a condition behind {word.upper()}.", column=-1 - values.at)
-    holds = evaluated(values.value(), control.parameters) != 0
+    holds = evaluated(flow.first_value(values), control.parameters) != 0
     if word == "while":
         _while(flow, code[values.at :], holds)
-        return ""
+        return len(code)
     return _if(flow, control, values, holds)
 
 
-def _if(flow: Flow, control: Control, values: Values, holds: bool) -> str:
-    rest = values.code[values.at :]
-    if rest.startswith("then"):
-        return rest[4:] if holds else ""
-    if not rest.startswith("goto"):
+def _if(flow: Flow, control: Control, values: Values, holds: bool) -> int:
+    code = values.code
+    if code.startswith("then", values.at):
+        return values.at + 4 if holds else len(code)
+    if not code.startswith("goto", values.at):
         raise Fault("expected GOTO or THEN behind the condition.", column=-1 - values.at)
     values.at += 4
     if holds:
         _goto(flow, control, values)
-    return ""
+    return len(code)
 
 
 def _goto(flow: Flow, control: Control, values: Values) -> None:

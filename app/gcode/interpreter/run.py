@@ -34,14 +34,19 @@ PLAIN_LINES_A_BLOCK = 16
 LEADER = 4096
 """Bytes before the per cent sign that may be something else."""
 
-_NOT_QUICK = b"oO%/:"
-"""What a line begins with that the compiled lane does not do."""
+_NOT_QUICK = re.compile(rb"[oO%/:]|#[ \t]*<")
+_NOT_QUICK_IN_MACRO_B = re.compile(rb"[oO%/:#]")
+"""What a line begins with that the compiled lane does not do: of parameters it knows numbers, and where expressions
+stand in brackets.
+"""
 
 _LEADER = re.compile(rb"[ \t\n\v\f\0]*%")
 _CLOSED = re.compile(rb"^[ \t]*%[ \t]*$", re.MULTILINE)
 _PERCENT = re.compile(rb"^[ \t]*%", re.MULTILINE)
 _O_WORD = re.compile(r"/?(?:n[0-9.]+)?[o:]")
 _PROGRAM_NUMBER = re.compile(r"^(/?(?:n[0-9.]+)?)[o:]")
+_COMPUTED = re.compile(r"[#\[]")
+"""What the lane computes for controls with O words alone."""
 _ENDS = ("M2", "M30")
 
 
@@ -57,12 +62,13 @@ class Run:
         self._text, self._options, self._progress = Text(data), options, progress
         self._control = Control(options)
         self._habits = self._control.habits
+        self._not_quick = _NOT_QUICK_IN_MACRO_B if self._habits.fanuc_flow else _NOT_QUICK
         self._flow = Flow(Places(self._text), self._control)
         self._longest = min(options.limits.line_length, self._habits.longest_line - self._text.dropped)
         self._quick = QuickLane(self._control, self._text.data, self._longest)
         self._kept: dict[int, Parsed | str] = {}
         self._problems: list[Problem] = []
-        self._furthest, self._told = -1, 0
+        self._furthest, self._told, self._again = -1, 0, False
         self._stop = len(self._text.data) + 1
         self._watch, self._opened = watch, False
         self.stopped = self.inside = False
@@ -173,10 +179,11 @@ class Run:
     def _count(self) -> None:
         """Count what is read again; look up now and then."""
         at = self._flow.next
-        if at.offset > self._furthest:
-            self._furthest = at.offset
-        else:
+        self._again = at.offset <= self._furthest
+        if self._again:
             self._control.unroll()
+        else:
+            self._furthest = at.offset
         self._told += 1
         if self._told >= LINES_A_STEP:
             self._told = 0
@@ -185,7 +192,8 @@ class Run:
     def _quick_lines(self) -> bool:
         """Let the compiled lane do what it can; False where that is nothing."""
         flow, begin = self._flow, self._flow.next
-        if self._text.data[begin.offset] in _NOT_QUICK or not self._quick.ready:
+        begun = self._not_quick.match(self._text.data, begin.offset)
+        if begun is not None or self._never_quick(begin) or not self._quick.ready:
             return False
         behind = self._quick.run(begin, self._stop)
         if behind.line == begin.line:
@@ -196,12 +204,19 @@ class Run:
             self._control.unroll((behind.line - begin.line) // PLAIN_LINES_A_BLOCK)
         return True
 
+    def _never_quick(self, at: Cursor) -> bool:
+        """Tell whether a line that was done before is of a kind that the lane leaves alone, whatever is in force."""
+        line = self._kept.get(at.offset)
+        if line is None:
+            return False
+        return isinstance(line, str) or (self._habits.fanuc_flow and _COMPUTED.search(line.code) is not None)
+
     def _obey(self, at: Cursor) -> bool:
         """Do a line of any kind; False at the end of the program."""
         line = self._kept.get(at.offset)
         if line is None:
             line = self._understood(at)
-            if (self._flow.nested or at.offset < self._furthest) and len(self._kept) < MOST_KEPT:
+            if (self._flow.nested or self._again) and len(self._kept) < MOST_KEPT:
                 self._kept[at.offset] = line
         if isinstance(line, Parsed):
             return self._done(line)
@@ -212,7 +227,7 @@ class Run:
         behind = self._flow.next.offset
         rest = self._jump(line)
         self._check_passed(behind)
-        return not rest or self._done(self._parse(rest))
+        return rest is None or self._done(rest)
 
     def _check_passed(self, behind: int) -> None:
         """Refuse a line between a jump's own, which ends at an offset, and where it goes on, if the control cannot even
@@ -265,20 +280,23 @@ class Run:
             return code
         return self._parse(code)
 
-    def _parse(self, code: str) -> Parsed:
-        return parse(code, self._options.limits.nesting, free=self._habits.fanuc_flow, polar=self._habits.ngc_flow)
+    def _parse(self, code: str, begin: int = 0) -> Parsed:
+        habits = self._habits
+        return parse(code, self._options.limits.nesting, free=habits.fanuc_flow, polar=habits.ngc_flow, begin=begin)
 
-    def _jump(self, code: str) -> str:
-        """Obey a line that is a jump; return what is left of it to obey."""
+    def _jump(self, code: str) -> Parsed | None:
+        """Obey a line that is a jump; return what is left of it to obey, with its place in the line."""
         if self._habits.fanuc_flow and is_macro(code):
-            return obey_macro(self._flow, self._control, code)
+            begin = obey_macro(self._flow, self._control, code)
+            return self._parse(code, begin) if begin < len(code) else None
         if self._habits.ngc_flow:
             self._flow.obey(code)
         elif not self._habits.fanuc_flow:
             raise Fault(f"{self._habits.title} knows no O words.", column=-1)
         else:
-            return _PROGRAM_NUMBER.sub(r"\1n", code, count=1)  # a number, and so as long that columns stay
-        return ""
+            code = _PROGRAM_NUMBER.sub(r"\1n", code, count=1)  # a number, and so as long that columns stay
+            return self._parse(code)
+        return None
 
     def _execute(self, block: Block) -> bool:
         """Do a block; False at the end of the program."""

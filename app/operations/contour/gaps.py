@@ -18,7 +18,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.near_points import nearest
 from ...geometry.offset.offset import Level
 from ...geometry.outlines import Outlines
-from ...geometry.primitives import TURN, Indices, Rows, lengths, points_at, sweeps
+from ...geometry.primitives import TURN, Indices, Rows, lengths, path_length, points_at, sweeps
 from ...toolpath.leads.contour_path import Floats, fractions_at, headings_at, left_of
 from ...toolpath.sheets import Sheet
 
@@ -72,7 +72,7 @@ class Gap:
     @property
     def length(self) -> float:
         """Of the wall, mm."""
-        return float(lengths(self.rows).sum())
+        return path_length(self.rows)
 
     @property
     def is_corner(self) -> bool:

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 from ...core import tolerances
 from ...core.errors import ParameterError
+from ...core.memory import ask
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, offset_levels
-from ...geometry.primitives import lengths
+from ...geometry.primitives import path_length
 from ...model.job import Job
 from ...model.operation import Cut, PocketOperation, Side
 from ...model.tool import Tool
@@ -33,6 +34,9 @@ MOST_LINKED = 0.05
 
 _FAR_TOO_LINKED = 0.075
 """Where it is this much, larger stepovers are not looked at."""
+
+_RING_BYTES = 1500
+"""What a ring of four lines takes, with its distance and its level; longer ones take more."""
 
 _ABOUT = 0.005
 """mm; so exactly is the largest disc of a region known."""
@@ -133,7 +137,7 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
             else NOTHING
         )
         strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
-        length = sum(float(lengths(stroke.rows).sum()) for stroke in strokes)
+        length = sum(path_length(stroke.rows) for stroke in strokes)
         made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
         if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
             best = made
@@ -195,10 +199,18 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
     Args:
         outermost: contour tool radius + stock to leave + pocket tool radius, mm.
         stepover: mm, > 0.
+
+    Raises:
+        MemoryShortError: there are more rings than memory for them.
     """
     x0, y0, x1, y1 = field.boxes[:, 0].min(), field.boxes[:, 1].min(), field.boxes[:, 2].max(), field.boxes[:, 3].max()
     deepest = min(x1 - x0, y1 - y0) / 2
     count = max(0, math.floor((deepest - outermost + tolerances.NOMINAL) / stepover) + 1)
+    ask(
+        count * _RING_BYTES,
+        f"A pocket of {count:,} rings, {stepover:g} mm from one to the next,",
+        "use a larger tool (--pocket-tool) or stepover (--stepover)",
+    )
     return tuple(outermost + k * stepover for k in range(count))
 
 

@@ -162,9 +162,10 @@ class Clearing:
     def runs(self, progress: Progress) -> tuple[Chunks, list[Run]]:
         """Return the rings in short rows, and the runs along them."""
         reach, ground = self.reach, Ground.of(self.paths)
-        squares = suspects(ground, reach, progress)
-        chunks = self._chunks((reach.sheet.frame(reach.closest, progress.part(0.2, 0.3)),))
-        rim = rim_cells(ground, reach, squares, chunks.rows[~ground.in_air(chunks.rows, reach.radius)])
+        chunks = self._chunks((reach.sheet.frame(reach.closest, progress.part(0.0, 0.1)),))
+        cutting = chunks.rows[~ground.in_air(chunks.rows, reach.radius)]
+        squares = suspects(ground, reach, cutting, progress.part(0.1, 0.3))
+        rim = rim_cells(ground, reach, squares, cutting)
         core = core_cells(ground, reach, squares)
         if not len(chunks.rows) or not len(core) + len(rim):
             return chunks, []

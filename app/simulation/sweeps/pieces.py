@@ -23,9 +23,9 @@ from ...model.motion_path import ArcPaths, along_xyz, arc_paths
 CHORD = 1e-6
 """mm."""
 
-HELIX_CHORD = 1e-4
-"""mm, of chords of helices where cells are asked alone, and never more than a thousandth of a cell: ten times fewer
-chords.
+HELIX_CHORD = 1e-3
+"""mm, of chords of helices where cells are asked alone, and never more than a thousandth of a cell: ten to thirty times
+fewer chords.
 """
 
 QUARTER = math.pi / 2

@@ -21,10 +21,10 @@ def united(shapes: Iterable[Shape] | Shapes | Shape) -> Shape:
     """Return what any of some areas covers."""
     parts = _parts(shapes)
     if len(parts) < 2:
-        return _together(parts)
+        return gathered(parts)
     first, second = shapely.STRtree(parts).query(parts)
     if np.all(first == second):
-        return _together(parts)
+        return gathered(parts)
     return shapely.disjoint_subset_union_all(parts)
 
 
@@ -34,20 +34,20 @@ def common(one: Shape, other: Shape) -> Shape:
     if not len(a) or not len(b):
         return shapely.Polygon()
     second, first = shapely.STRtree(a).query(b)[[0, 1]]
-    return _together(_polygons(shapely.intersection(a[first], b[second])))
+    return gathered(shapely.intersection(a[first], b[second]))
 
 
 def without(one: Shape, other: Shape) -> Shape:
     """Return what of an area another one does not cover."""
     a, b = _parts(one), _parts(other)
     if not len(a) or not len(b):
-        return _together(a)
+        return gathered(a)
     second, first = shapely.STRtree(a).query(b)
     order = np.argsort(first, kind="stable")
     met, at = np.unique(first[order], return_index=True)
     left = a.copy()
-    left[met] = shapely.difference(a[met], [_together(b[rows]) for rows in np.split(second[order], at[1:])])
-    return _together(_polygons(left))
+    left[met] = shapely.difference(a[met], [gathered(b[rows]) for rows in np.split(second[order], at[1:])])
+    return gathered(left)
 
 
 def _parts(shapes: Iterable[Shape] | Shapes | Shape) -> Shapes:
@@ -64,8 +64,9 @@ def _polygons(shapes: Shapes) -> Shapes:
     )
 
 
-def _together(parts: Shapes) -> Shape:
-    """Return polygons that have no inside in common as one area."""
+def gathered(shapes: Shapes) -> Shape:
+    """Return the polygons among shapes, which have no inside in common, as one area."""
+    parts = _polygons(shapes)
     if not len(parts):
         return shapely.Polygon()
     return parts[0] if len(parts) == 1 else shapely.multipolygons(parts)

@@ -50,7 +50,7 @@ _BACK = -0.9
 """Cosine of a turn; a sharper one counts as going back."""
 
 _MANY = 4
-"""Regions from which it is worth while to ask first which of them are cleared all over."""
+"""Contours from which it is worth while to ask first what clear moves cover."""
 
 _ASKED = 16
 """Points on the rim of a piece towards which it is asked whether a cutter's centre can be near."""
@@ -124,8 +124,7 @@ class Coverage:
 def measure_beside_clear(
     program: Program, job: Job, clear: NDArray[np.bool_], progress: Progress = NO_PROGRESS
 ) -> Coverage:
-    """Measure what the moves of a program leave on the floor, without polygons for regions that clear moves cover all
-    over.
+    """Measure what the moves of a program leave on the floor, with polygons only round what clear moves do not cover.
 
     Args:
         program, job, progress: as of `measure`.
@@ -170,7 +169,8 @@ def measure(
     skins: list[Place] = []
     for k, (each, deeper) in enumerate(zip(found, inner, strict=True)):
         share = progress.part(k / len(found), (k + 1) / len(found))
-        metal = _left(each.wanted, _paths(program.moves, job, each.depth - miss), share.part(0.0, 0.6))
+        wanted = each.wanted if each.out_of_reach is None else without(each.wanted, each.out_of_reach)
+        metal = _left(wanted, _paths(program.moves, job, each.depth - miss), share.part(0.0, 0.6))
         if program.allowance_mm:
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
             metal = _solid(without(metal, skin))
@@ -209,11 +209,11 @@ def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
 
 
 def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, progress: Progress) -> Floor | None:
-    """Return the floor of a job that has but one, with the regions told apart that moves which keep off the walls clear
-    all over.
+    """Return the floor of a job that has but one, with what of it told apart that moves which keep off the walls do not
+    cover.
     """
     area = one_floor(program, job)
-    if area is None or len(area.regions) < _MANY:
+    if area is None or sum(len(region.contours) for region in area.regions) < _MANY:
         return None
     depth = max(each.cut.floor for each in job.operations if each.cut.enabled)
     paths = _paths(program.moves, job, depth - miss, clear)

@@ -65,6 +65,7 @@ def uncertain(
     if wanted.is_empty or not swaths:
         return np.array([] if wanted.is_empty else [shapely.box(*wanted.bounds)], dtype=object)
     area, least = DistanceField.of(_edges(wanted)), min(each.radius for each in swaths)
+    most_reach = max(each.radius for each in swaths) + _SLACK
     kept: list[NDArray[np.object_]] = []
     centres, half = _grid(wanted.bounds)
     waiting = [(centres, half, np.zeros(len(centres), np.bool_))]
@@ -82,11 +83,14 @@ def uncertain(
         uncut = np.min([far - each.radius for (far, _), each in zip(beside, swaths, strict=True)], axis=0)
         doubtful = uncut > -q
         centres, within, uncut = centres[doubtful], within[doubtful], uncut[doubtful]
-        states = _states(
-            area,
-            [_Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)],
-            _Squares(centres, half, within),
-        )
+        squares = _Squares(centres, half, within)
+        if half > most_reach:
+            states = _wide_states(area, squares)
+        else:
+            near = [
+                _Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)
+            ]
+            states = _states(area, near, squares)
         centres, within, uncut, states = (
             each[(states != OUTSIDE) & (states != COVERED)] for each in (centres, within, uncut, states)
         )
@@ -141,6 +145,16 @@ class _Beside:
     swath: _Swath
     near: Indices
     far: Floats
+
+
+def _wide_states(area: DistanceField, squares: _Squares) -> States:
+    """Return what of squares is wanted that are wider than any stretch of a path cuts: some of it may be uncut."""
+    from .swath_kernels import OPEN, OUTSIDE
+
+    beside = area.nearest(squares.centres, squares.half * math.sqrt(2))[1] >= 0
+    alone = np.flatnonzero(~beside & ~squares.within)
+    squares.within[alone] = area.inside(squares.centres[alone])
+    return np.where(beside | squares.within, np.uint8(OPEN), np.uint8(OUTSIDE))
 
 
 def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) -> States:

@@ -1,9 +1,7 @@
-"""Regions that need no polygons: what is proven cleared all over by cutters that keep off the walls is within reach all
-over, too.
+"""Floor that needs no polygons: what is proven cleared by cutters that keep off the walls is within reach, too.
 
-What a cutter covers whose centre stays its radius from the walls is within its reach by definition. So where such moves
-alone cover all squares of a region, nothing is left there and nothing out of reach; polygons are asked of the other
-regions only.
+What a cutter covers whose centre stays its radius from the walls is within its reach by definition. So squares that
+such moves alone cover have nothing left and nothing out of reach; polygons are made round the other squares only.
 """
 
 from __future__ import annotations
@@ -14,21 +12,27 @@ from dataclasses import dataclass, replace
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely import Geometry as Shape
 
 from ...core.progress import Progress
+from ...geometry.near_points import groups
 from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import Area, Program
 from ...model.operation import Side
-from ...model.part import Region
 from ...model.tool import ToolKind
-from .areas import united
-from .flat import region_shapes
+from .areas import Shapes, gathered, united
+from .cut_out import cut_out
+from .flat import grown, region_shapes
 from .proven import uncertain
-from .wanted import CHORD, Wanted, areas_of_operations, wanted_of
+from .reachable import Cutter
+from .wanted import CHORD, FITS, Wanted, areas_of_operations, cutters_of
 
 _SAME = 1e-9
 """mm between floors that are one."""
+
+_SPARE = 0.1
+"""mm of floor more than can have a say in what is reached."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +40,8 @@ class Floor:
     """The one floor of a job.
 
     Attributes:
-        open: what is wanted in the regions that are not settled; None where all are.
-        all: what is wanted in all regions.
+        open: what is wanted in the boxes; None where there are none.
+        all: what is wanted on all of the floor.
         tiles: boxes that hold every point of the floor that is not proven covered.
     """
 
@@ -72,8 +76,8 @@ def one_floor(program: Program, job: Job) -> Area | None:
 
 
 def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], progress: Progress) -> Floor | None:
-    """Return the floor of a job that has but one (`one_floor`), regions that are settled told apart; None where they
-    cannot be.
+    """Return the floor of a job that has but one (`one_floor`), with what of it is in doubt told apart; None where all
+    is.
 
     Args:
         paths: (rows, radius, mm) of moves as deep as the floor that keep off the walls by at least their radius.
@@ -83,26 +87,38 @@ def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], pro
     """
     area = one_floor(program, job)
     shapes = region_shapes(area.regions, CHORD) if area else np.zeros(0, dtype=object)
-    if area is None or len(shapes) != len(area.regions):
+    if not len(shapes) or not any(len(rows) for rows, _ in paths):
         return None
-    tiles = uncertain(shapely.multipolygons(shapes), paths, progress)
-    doubtful = np.zeros(len(shapes), np.bool_)
-    doubtful[shapely.STRtree(shapes).query(tiles)[1]] = True
-    if doubtful.all():
-        return None
-    regions = tuple(region for region, doubt in zip(area.regions, doubtful.tolist(), strict=True) if doubt)
-    (some,) = wanted_of(_with_regions(program, job, area, regions or area.regions[:1]), job)
-    floor = united(shapes[~doubtful])
-    if not regions:
-        return Floor(None, replace(some, floor=floor, reach=floor, wanted=floor, out_of_reach=shapely.Polygon()), tiles)
-    floor, reach, wanted = (united([floor, shape]) for shape in (some.floor, some.reach, some.wanted))
-    return Floor(some, replace(some, floor=floor, reach=reach, wanted=wanted, out_of_reach=some.beyond), tiles)
+    floor = gathered(shapes)
+    tiles = uncertain(floor, paths, progress)
+    depth, cutters = cutters_of(program, job)
+    known = Wanted(depth, floor, floor, floor, True, cutters, shapely.Polygon())
+    if not len(tiles):
+        return Floor(None, known, tiles)
+    near, reach = _around(shapes, tiles, cutters)
+    some = Wanted(depth, near, reach, reach, True, cutters)
+    return Floor(some, replace(known, out_of_reach=some.beyond), tiles)
 
 
-def _with_regions(program: Program, job: Job, area: Area, regions: tuple[Region, ...]) -> Program:
-    """Return a program whose area has other regions."""
-    areas = tuple(
-        replace(each, regions=regions) if each.regions is area.regions else each
-        for each in areas_of_operations(program, job)
-    )
-    return replace(program, areas=areas)
+def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[Cutter]) -> tuple[Shape, Shape]:
+    """Return what of a floor lies in boxes, and what of that cutters reach: their openings of the floor.
+
+    Boxes that touch are asked together, and as much of the floor round them as can have a say in it. It is cut off
+    there as if by walls, which are too far away to keep a cutter from the boxes.
+
+    Args:
+        shapes: (n,) polygons of the floor's regions. tiles: (m,) boxes that do not overlap.
+    """
+    number = groups(len(tiles), np.column_stack(shapely.STRtree(tiles).query(tiles, predicate="intersects")))
+    order = np.argsort(number, kind="stable")
+    lumps = np.empty(int(number.max()) + 1, dtype=object)
+    lumps[:] = [shapely.union_all(some) for some in np.split(tiles[order], np.flatnonzero(np.diff(number[order])) + 1)]
+    far = max(each.wall for each in cutters) + max(each.radius for each in cutters) + _SPARE
+    x0, y0, x1, y1 = shapely.bounds(lumps).T
+    lump, pieces = cut_out(shapes, np.asarray(shapely.box(x0 - far, y0 - far, x1 + far, y1 + far), dtype=object))
+    floors = shapely.intersection(pieces, lumps[lump])
+    reached = [
+        shapely.intersection(grown(grown(pieces, FITS - each.wall, CHORD), each.radius - FITS, CHORD), floors)
+        for each in cutters
+    ]
+    return gathered(floors), united([gathered(each) for each in reached])

@@ -48,8 +48,8 @@ class Wanted:
     Attributes:
         depth: of the floor, mm below Z 0.
         floor: within the walls and their stock to leave.
-        reach: of it, what some tool of the job reaches.
-        wanted: of that, what is to be cleared.
+        reach: of it, what some tool of the job reaches; where `out_of_reach` is known, that may be among it.
+        wanted: of that, what is to be cleared; the same holds.
         whole: True where all of it is wanted, not paths alone.
         cutters: whose reach it is.
         out_of_reach: what of the floor no tool reaches, where that is known already.
@@ -86,6 +86,13 @@ def wanted_of(program: Program, job: Job, off: float = 0.0) -> tuple[Wanted, ...
             floors.append([work])
     found = [_wanted(group, cutting, made) for group in floors]
     return tuple(_without_tabs(each, program.tabs, program.dog_bones) for each in found if not each.floor.is_empty)
+
+
+def cutters_of(program: Program, job: Job) -> tuple[float, tuple[Cutter, ...]]:
+    """Return the deepest floor of a job, mm, and the cutters that reach farthest at that."""
+    cutting, made = _cutting(program, job), _Shapes(job, 0.0)
+    depth = max(each.depth for each in cutting)
+    return depth, _cutters([each for each in cutting if each.depth > depth - _SAME and each.covers], made)
 
 
 def areas_of_operations(program: Program, job: Job) -> tuple[Area, ...]:
@@ -174,10 +181,8 @@ class _Shapes:
 def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> Wanted:
     """Return what the operations of one floor want."""
     depth = max(each.depth for each in group)
-    farthest = _farthest([each for each in cutting if each.depth > depth - _SAME and each.covers], made.job)
-    cutters = tuple(
-        Cutter(each.area.regions, made.wall(each), made.job.tool(each.operation.cut.tool).radius) for each in farthest
-    )
+    covering = [each for each in cutting if each.depth > depth - _SAME and each.covers]
+    farthest, cutters = _farthest(covering, made.job), _cutters(covering, made)
     reach = united([made.reach(each) for each in farthest])
     within: dict[
         int, tuple[Shape, Shape]
@@ -197,6 +202,14 @@ def _wanted(group: Sequence[_Work], cutting: Sequence[_Work], made: _Shapes) -> 
     floor, reached = (united([*(pair[k] for pair in within.values()), *lines]) for k in (0, 1))
     whole = any(each.operation.CLEARS for each in group)
     return Wanted(depth, floor, reached, asked, whole, cutters)
+
+
+def _cutters(works: Sequence[_Work], made: _Shapes) -> tuple[Cutter, ...]:
+    """Return the cutters that reach farthest of those of some operations."""
+    return tuple(
+        Cutter(each.area.regions, made.wall(each), made.job.tool(each.operation.cut.tool).radius)
+        for each in _farthest(works, made.job)
+    )
 
 
 def _farthest(works: Sequence[_Work], job: Job) -> list[_Work]:

@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...geometry.primitives import fraction_on, point_on
 from ...model.curves import Point
 from ...model.moves import Purpose
 from ..build import Stroke
-from ..linking.bridge import foot
 from .entry import Ground
 from .ways import keeps_off_walls
 
@@ -53,5 +53,5 @@ def _places(start: Point, z: float, ground: Ground) -> list[Point]:
     places = [
         (x + part * radius * math.cos(angle), y + part * radius * math.sin(angle)) for part in _AWAY for angle in angles
     ]
-    fx, fy = foot(row[None], np.array([start]))[0].tolist()
-    return sorted([*places, (fx, fy)], key=lambda place: math.dist(place, start))
+    nearest = row.tolist()
+    return sorted([*places, point_on(nearest, fraction_on(nearest, start))], key=lambda place: math.dist(place, start))

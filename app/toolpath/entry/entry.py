@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...core import tolerances
 from ...geometry.distance import DistanceField
-from ...geometry.primitives import CX, TURN, Rows, lengths, points_at
+from ...geometry.primitives import CX, TURN, Rows, lengths, path_length, points_at
 from ...model.curves import Point
 from ...model.entry import Entry, EntryKind
 from ...model.moves import Tab
@@ -183,7 +183,7 @@ def _ramp(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
     if _reach(head.rows) < _SHORTEST * ground.tool.radius:
         return None
     leg, _ = _at(head, min(float(size.sum()), max(long / 2, _SHORTEST * ground.tool.radius)))
-    span = float(lengths(leg.rows).sum())
+    span = path_length(leg.rows)
     count = math.ceil(long / (2 * span) - 1e-9)
     if 2 * count * len(leg.rows) > _MOST_ROWS:
         return None
@@ -194,7 +194,7 @@ def _ramp(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
 
 def _round(stroke: Stroke, z: float, top: float, long: float) -> Descent | None:
     """Return a way down round a closed path, which then begins where the way ends."""
-    whole = float(lengths(stroke.rows).sum())
+    whole = path_length(stroke.rows)
     turns = math.floor(long / whole)
     if (turns + 1) * len(stroke.rows) > _MOST_ROWS:
         return None

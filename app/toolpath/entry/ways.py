@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import tolerances
 from ...geometry.kernels import point_distance
-from ...geometry.primitives import lengths
+from ...geometry.primitives import path_length
 from ...model.curves import Point
 from ...model.moves import Purpose
 from .. import cleared_kernels as kernels
@@ -89,7 +89,7 @@ def way_back(stroke: Stroke, z: float, air: tuple[float, float], feed: float) ->
     lead = int(np.argmin(np.append(stroke.purpose == Purpose.LEAD, False)))
     found = _tail(stroke, lead)
     back = stroke.backwards() if found is None else found.backwards().and_then(stroke.part(0, lead).backwards())
-    seconds = float(lengths(back.rows).sum()) / feed * 60
+    seconds = path_length(back.rows) / feed * 60
     if not len(back.rows) or seconds > _lift_seconds(
         (*stroke.end, float(stroke.heights(z)[-1])), stroke.start, air, feed
     ):

@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core import tolerances
+from ...geometry import kernels
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring
-from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, lengths, points_at
+from ...geometry.outlines import Outlines
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, fraction_on, lengths, points_at
 from ...geometry.triangulation import neighbours
 from .rows import Place
+
+_LONGEST = 64
+"""Rows of a ring from whose middles a bridge to the level outside it is looked for, the longest ones."""
+
+_TRIED_OUTWARD = 16
+"""The same for a straight line of bridges out to the outermost level."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +59,7 @@ def inward_bridges(levels: Sequence[Level], halves: Sequence[Level], field: Dist
         first += len(outer.rings)
         for number, some in ((first, levels[k + 1 : k + 2]), (half_first, halves[k : k + 1])):
             for inner in some:
-                for at, ring in enumerate(inner.rings, number):
-                    bridges.extend(_from_ring(ring, at, target, field, inner.distance - outer.distance))
+                bridges.extend(_from_rings(inner.rings, number, target, field, inner.distance - outer.distance))
         half_first += sum(len(half.rings) for half in halves[k : k + 1])
     return bridges
 
@@ -100,54 +107,115 @@ class RingField:
         return Place(int(self.ring[row]), int(self.row[row]), part)
 
 
-def _from_ring(ring: Ring, number: int, target: RingField, field: DistanceField, step: float) -> list[Bridge]:
-    """Return the best bridge from a ring to each ring of the level before that it can reach."""
-    size = lengths(ring.rows)
-    order = np.argsort(-size)[:64]
-    points = points_at(ring.rows[order], np.full(len(order), 0.5))
-    distance, nearest = field.nearest(points)
-    feet = foot(field.rows[nearest], points)
-    arrived = points + (feet - points) * (step / distance)[:, None]
+@dataclass(frozen=True, eq=False)
+class _Middles:
+    """Middles of the longest rows of some rings, of each ring the longest first.
+
+    Attributes:
+        ring, row: (n,) which of the rings, and the row of it. rank: (n,) how many longer ones the ring has.
+        points: (n, 2) the middles.
+        feet: (n, 2) what of the drawing is nearest to each. distance: (n,) how far away that is, mm.
+    """
+
+    ring: Indices
+    row: Indices
+    rank: Indices
+    points: Rows
+    feet: Rows
+    distance: NDArray[np.float64]
+
+    @staticmethod
+    def of(rings: Sequence[Ring], most: int, field: DistanceField) -> _Middles:
+        """Return those of so many rows a ring at most."""
+        outlines = Outlines.joined([ring.rows for ring in rings])
+        order = np.lexsort((-outlines.sizes, outlines.owner))
+        rank = np.arange(len(order)) - outlines.first[outlines.owner]
+        order, ring, rank = (each[rank < most] for each in (order, outlines.owner, rank))
+        points = points_at(outlines.rows[order], np.full(len(order), 0.5))
+        distance, nearest = field.nearest(points)
+        feet = foot(field.rows[nearest], points)
+        return _Middles(ring, order - outlines.first[ring], rank, points, feet, distance)
+
+    def towards_wall(self, some: Indices, length: float | NDArray[np.float64]) -> Rows:
+        """Return where some of them come to by going a length, mm, straight to their feet."""
+        return self.points[some] + (self.feet[some] - self.points[some]) * (length / self.distance[some])[:, None]
+
+
+def _from_rings(
+    rings: Sequence[Ring], number: int, target: RingField, field: DistanceField, step: float
+) -> list[Bridge]:
+    """Return the best bridge from each of some rings, numbered from `number`, to each ring of the level before that it
+    can reach.
+    """
+    if not rings:
+        return []
+    middles = _Middles.of(rings, _LONGEST, field)
+    arrived = middles.towards_wall(np.arange(len(middles.ring)), step)
     off, rows = target.field.nearest(arrived)
-    best: dict[int, Bridge] = {}
-    for k in range(len(order)):
-        other = int(target.ring[rows[k]])
-        if off[k] > tolerances.LEVEL or other in best:
-            continue
-        at = fraction_at(target.field.rows[rows[k]], arrived[k])
-        best[other] = Bridge(Place(number, int(order[k]), 0.5), Place(other, int(target.row[rows[k]]), at), step)
-    return list(best.values())
+    kept = np.flatnonzero(off <= tolerances.LEVEL)
+    pair = middles.ring[kept] * (int(target.ring[-1]) + 1) + target.ring[rows[kept]]
+    best = kept[np.sort(np.unique(pair, return_index=True)[1])]
+    parts = fractions_at(target.field.rows[rows[best]], arrived[best])
+    begins = zip((number + middles.ring[best]).tolist(), middles.row[best].tolist(), strict=True)
+    ends = zip(target.ring[rows[best]].tolist(), target.row[rows[best]].tolist(), parts.tolist(), strict=True)
+    return [Bridge(Place(*begin, 0.5), Place(*end), step) for begin, end in zip(begins, ends, strict=True)]
 
 
-def outward(ring: Ring, number: int, targets: Sequence[tuple[float, RingField]], field: DistanceField) -> list[Bridge]:
-    """Return bridges in one straight line from a ring out to the outermost level, the innermost first; none if there is
-    no such line.
+def outward(
+    rings: Mapping[int, Ring], counts: Indices, targets: Sequence[tuple[float, RingField]], field: DistanceField
+) -> dict[int, list[Bridge]]:
+    """Return for each of some rings bridges in one straight line from it out to the outermost level, the innermost
+    first; none if there is no such line.
 
     The way from a point to its nearest point on the drawing crosses all levels outside it, each as far from the next as
     they are.
 
     Args:
-        number: the ring's.
-        targets: (distance from the drawing, rings there) of the levels outside the ring, outermost first.
+        rings: by their numbers.
+        counts: (n,) how many of the levels lie outside each of these.
+        targets: (distance from the drawing, rings there) of the levels, outermost first.
         field: distances from the drawing.
     """
-    if not targets:
-        return []
-    order = np.argsort(-lengths(ring.rows))[:16]
-    points = points_at(ring.rows[order], np.full(len(order), 0.5))
-    distance, nearest = field.nearest(points)
-    feet = foot(field.rows[nearest], points)
-    for k, point in enumerate(points):
-        line, at, before = [], Place(number, int(order[k]), 0.5), float(distance[k])
-        for level, target in reversed(targets):
-            off, place, _ = target.nearest(point + (feet[k] - point) * ((distance[k] - level) / distance[k]))
-            if off > tolerances.LEVEL:
-                break
-            line.append(Bridge(at, place, before - level))
-            at, before = place, level
-        if len(line) == len(targets):
-            return line
-    return []
+    lines: dict[int, list[Bridge]] = {number: [] for number in rings}
+    if not rings:
+        return lines
+    numbers, middles = np.fromiter(rings, np.int64), _Middles.of(list(rings.values()), _TRIED_OUTWARD, field)
+    missing = counts > 0
+    for rank in range(_TRIED_OUTWARD):
+        some = np.flatnonzero((middles.rank == rank) & missing[middles.ring])
+        if not len(some):
+            break
+        there, crossed = _crossed(middles, some, counts[middles.ring[some]], targets)
+        missing[middles.ring[some[there]]] = False
+        for k, line in zip(some[there].tolist(), crossed, strict=True):
+            number = int(numbers[middles.ring[k]])
+            at, before = Place(number, int(middles.row[k]), 0.5), float(middles.distance[k])
+            for level, place in line:
+                lines[number].append(Bridge(at, place, before - level))
+                at, before = place, level
+    return lines
+
+
+def _crossed(
+    middles: _Middles, some: Indices, counts: Indices, targets: Sequence[tuple[float, RingField]]
+) -> tuple[Indices, list[list[tuple[float, Place]]]]:
+    """Return (which of some middles come out to the outermost level straight (k,), where each of these crosses the
+    levels on the way, with these levels' distances, the innermost first).
+    """
+    there = np.full(len(some), True)
+    found: list[tuple[float, RingField, Indices, Indices, list[float]]] = []
+    for k in range(int(counts.max()) - 1, -1, -1):
+        level, target = targets[k]
+        at = np.flatnonzero(there & (counts > k))
+        off, rows, parts, _ = target.nearest_of(middles.towards_wall(some[at], middles.distance[some[at]] - level))
+        there[at[off > tolerances.LEVEL]] = False
+        found.append((level, target, at, rows, parts.tolist()))
+    crossed: dict[int, list[tuple[float, Place]]] = {k: [] for k in np.flatnonzero(there).tolist()}
+    for level, target, asked, row_of, part_of in found:
+        for one, row, part in zip(asked.tolist(), row_of.tolist(), part_of, strict=True):
+            if there[one]:
+                crossed[one].append((level, target.place(row, part)))
+    return np.flatnonzero(there), list(crossed.values())
 
 
 def foot(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -175,7 +243,14 @@ def fractions_at(rows: Rows, points: NDArray[np.float64]) -> NDArray[np.float64]
 
 def fraction_at(row: Rows, point: NDArray[np.float64]) -> float:
     """Return the fraction in [0, 1] of a row's length that is nearest to a point."""
-    return float(fractions_at(row[None], point[None])[0])
+    x, y = point.tolist()
+    return fraction_on(row.tolist(), (x, y))
+
+
+def nearest_on(ring: Ring, number: int, point: NDArray[np.float64]) -> tuple[float, Place]:
+    """Return (distance, place) of what of a ring is nearest to a point (2,), mm."""
+    distance, row = kernels.nearest_of_few(np.ascontiguousarray(ring.rows), *point.tolist())
+    return float(distance), Place(number, int(row), fraction_at(ring.rows[row], point))
 
 
 def level_bridges(
@@ -227,11 +302,5 @@ def is_clear(field: DistanceField, a: np.ndarray, b: np.ndarray, distance: float
 
     Distance changes by no more than the length gone, so a step of (measured - needed) cannot pass a wall unseen.
     """
-    length = float(np.hypot(*(b - a)))
-    at = 0.0
-    while at < length:
-        spare = float(field.nearest((a + (b - a) * (at / length))[None])[0][0]) - distance
-        if spare < -tolerances.LEVEL / 2:
-            return False
-        at += max(spare, tolerances.LEVEL)
-    return True
+    way = np.array([*a, *b], np.float64)
+    return bool(kernels.stays_clear(field.rows, field.order, field.nodes, way, distance, tolerances.LEVEL))

@@ -12,6 +12,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring
 from ...model.operation import Direction
@@ -83,7 +85,8 @@ def _lines_out(
         if k < deep:
             targets.append((level.distance, RingField.of(level.rings, first)))
         first += len(level.rings)
-    return {root: outward(walked.rings[root], root, targets[: math.ceil(walked.depth[root])], field) for root in roots}
+    counts = np.array([min(math.ceil(walked.depth[root]), len(targets)) for root in roots], np.int64)
+    return outward({root: walked.rings[root] for root in roots}, counts, targets, field)
 
 
 def link_by_proof(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.primitives import Rows, lengths, points_at
+from ...geometry.primitives import Rows, lengths, point_on
 from ..build import split_row
 
 _SAME = 1e-9  # fraction of a row
@@ -24,8 +24,7 @@ class Place:
 
 def point_of(rows: Rows, place: Place) -> Rows:
     """Return the point (2,) at a place of a ring's rows."""
-    point: Rows = points_at(rows[place.row][None], np.array([place.fraction]))[0]
-    return point
+    return np.array(point_on(rows[place.row].tolist(), place.fraction))
 
 
 def position(place: Place, count: int, forward: bool) -> float:
@@ -58,12 +57,14 @@ def along(rows: Rows, start: float, distance: float) -> float:
 
 def span(rows: Rows, start: float, end: float) -> Rows:
     """Return a closed ring's rows from one position to another, going on past its beginning."""
-    count = len(rows)
-    parts = [
-        part_of(rows[k % count], max(start - k, 0.0), min(end - k, 1.0))
-        for k in range(math.floor(start), math.ceil(end))
-    ]
-    return np.concatenate(parts) if parts else rows[:0]
+    first, last = math.floor(start), math.ceil(end) - 1
+    if last < first:
+        return rows[:0]
+    if last == first:
+        return part_of(rows[first % len(rows)], start - first, end - first)
+    whole = rows[np.arange(first, last + 1) % len(rows)]
+    head, tail = part_of(whole[0], start - first, 1.0), part_of(whole[-1], 0.0, end - last)
+    return np.concatenate([head, whole[1:-1], tail])
 
 
 def part_of(row: Rows, start: float, end: float) -> Rows:

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from ...geometry.distance import DistanceField
 from ...geometry.near_points import groups, pairs_within
 from ...geometry.offset.offset import Level, Ring
-from ...geometry.primitives import Indices, Rows, lengths, points_at, reversed_rows, sample
+from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, sample
 from ..coverage import uncut_kernels
 from . import runs_kernels
 from .bridge import RingField, is_clear
@@ -62,7 +62,7 @@ class Trip:
     @property
     def length(self) -> float:
         """mm."""
-        return float(lengths(self.rows).sum())
+        return path_length(self.rows)
 
 
 @dataclass(frozen=True, eq=False)
@@ -312,7 +312,7 @@ class _Space:
         for side in self._sides:
             for run in (rows, reversed_rows(rows)):
                 away, place, start = side.nearest(run[0, :2])
-                length = float(lengths(run).sum())
+                length = path_length(run)
                 back = np.concatenate([reversed_rows(run), straight(run[0, :2], start)])
                 ways.append((2 * (away + length), place, np.concatenate([straight(start, run[0, :2]), run]), back))
                 home = straight(run[-1, 2:4], start)

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from ...core.tolerances import LEVEL
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Ring
-from ...geometry.primitives import Rows, lengths, reversed_rows
+from ...geometry.primitives import Rows, path_length, reversed_rows
 from ...model.moves import Purpose
 from ...model.operation import Direction
 from ..build import Stroke
-from .bridge import Bridge, RingField, is_clear
+from .bridge import Bridge, is_clear, nearest_on
 from .rows import Place, joined, point_at, point_of, position, span, straight
 from .runs import Trip
 from .slant import left_out, room_beside
@@ -138,7 +138,8 @@ class Walk:
         """
         here, there, length = edge
         ring, start = self._walked.rings[entry.ring].rows, point_of(self._walked.rings[entry.ring].rows, entry)
-        away, place, end = RingField.of([self._walked.rings[there.ring]], there.ring).nearest(start)
+        away, place = nearest_on(self._walked.rings[there.ring], there.ring, start)
+        end = point_of(self._walked.rings[there.ring].rows, place)
         count = len(ring)
         gone = span(ring, *sorted((position(entry, count, True), position(here, count, True))))
         other = span(
@@ -146,8 +147,8 @@ class Walk:
             max(position(entry, count, True), position(here, count, True)),
             min(position(entry, count, True), position(here, count, True)) + count,
         )
-        along = min((gone, other), key=lambda rows: float(lengths(rows).sum()))
-        again = float(lengths(along).sum())
+        along = min((gone, other), key=lambda rows: path_length(rows))
+        again = path_length(along)
         if away <= min(again + length, ahead) + LEVEL and is_clear(
             self._walked.walls[0], start, end, self._walked.walls[1]
         ):

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 
 from ...core.progress import Progress
 from ...drafting.document import Change
@@ -16,8 +16,9 @@ from ...model.job import Job
 from ...model.operation import Operation
 from ...model.tool import Tool, ToolKind
 from ..framework.worker import Answer, Worker
+from ..framework.workspace import Workspace
 from ..panels.changes import with_library_tool
-from .main_window import MainWindow
+from ..panels.side_panel import SidePanel
 
 if TYPE_CHECKING:
     from ...toolpath.advice.advise import Advice
@@ -64,35 +65,25 @@ def with_tool_for(job: Job, tool: Tool, concerned: Callable[[Operation], bool]) 
 
 
 class Advising(QObject):
-    """Opens and closes the sheet and keeps it up to date while it is open.
+    """Opens and closes the sheet and keeps it up to date while it is open."""
 
-    Signals:
-        failed(sentence).
-    """
-
-    failed = Signal(str)
-
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window, self._panel, self._document = window, window.panel, window.document
+    def __init__(self, panel: SidePanel, workspace: Workspace) -> None:
+        super().__init__(panel)
+        self._panel, self._document = panel, workspace.document
         self.worker = Worker(self)
         self._for: object = None
         sheet = self._panel.advice
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
-        self.worker.progress.connect(window.status.show_progress)
-        self.worker.busy_changed.connect(self._on_busy)
+        workspace.activity.follow(self.worker)
         self.worker.cancelled.connect(
             lambda _: self._panel.advice.show_advice(None, "Cancelled. Close the sheet and open it again.")
         )
-        window.status.cancelled.connect(self.worker.cancel)
-        window.closed.connect(self.worker.finish)
         self._panel.advice_shown.connect(self._refresh)
         sheet.for_pocket.connect(lambda tool: self._use(tool, lambda each: each.COARSE, "Tool for pockets"))
         sheet.for_contour.connect(
             lambda tool: self._use(tool, lambda each: not each.COARSE and not each.DRILLS, "Tool for contours")
         )
-        sheet.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self._unsubscribe = self._document.subscribe(self._on_change)
 
     def _on_change(self, change: Change) -> None:
@@ -111,12 +102,6 @@ class Advising(QObject):
         assert isinstance(answer.value, tuple)
         self._for, advice = answer.value
         self._panel.advice.show_advice(advice, "")
-
-    def _on_busy(self, busy: bool) -> None:
-        other = self._window.worker.busy
-        if busy or not other:
-            self._window.status.show_progress(0.0 if busy else None)
-        self._window.actions_["cancel"].setEnabled(busy or other)
 
     def _on_failed(self, answer: Answer) -> None:
         self._panel.advice.show_advice(None, answer.error or "")

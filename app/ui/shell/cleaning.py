@@ -42,7 +42,7 @@ class Cleaning(QObject):
         self.worker.failed.connect(lambda answer: section.show_refusal(answer.error or ""))
         self._document.subscribe(self._follow)
         window.side.chosen.connect(lambda page: self._give_up() if page != PAGE else None)
-        window.closed.connect(self.worker.finish)
+        window.activity.ended.connect(self.worker.finish)
 
     def _look(self, tolerance: float) -> None:
         self._give_up()

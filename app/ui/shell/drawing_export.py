@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -12,24 +12,23 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...core.atomic import write_atomically
 from ...core.progress import Progress
+from ...formats.drawing import Written
+from ...formats.readers import formats, known_format
+from ...formats.registry import DrawingFormat
 from ...model.part import Part
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
 from ..framework.worker import Answer, Worker
 from .main_window import MainWindow
 
-FORMATS = {
-    "DXF, AutoCAD 2010 and later (*.dxf)": "R2010",
-    "DXF 2018 (*.dxf)": "R2018",
-    "DXF 2013 (*.dxf)": "R2013",
-    "DXF 2007 (*.dxf)": "R2007",
-    "DXF 2004 (*.dxf)": "R2004",
-    "DXF 2000 (*.dxf)": "R2000",
-    "DXF R12, lines and arcs alone (*.dxf)": "R12",
-    "SVG (*.svg)": ".svg",
-    "Shape language (*.draw)": ".draw",
-}
-"""What the file dialog offers: a version of DXF, or a suffix."""
+
+def offered() -> dict[str, str]:
+    """Return what the file dialog offers, and the key of the writer: a version of DXF, or a suffix."""
+    return {
+        f"{writer.words} (*{each.suffixes[0]})": writer.key
+        for each in sorted(formats(), key=lambda each: -len(each.writers))
+        for writer in each.writers
+    }
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ class DrawingExport(QObject):
         written(path), failed(sentence).
 
     Attributes:
-        choose_file: asks the user for a path and one of `FORMATS`, given a first choice; None = he changed his mind.
+        choose_file: asks the user for a path and the key of a writer, given a first choice; None = he changed his mind.
     """
 
     written = Signal(Path)
@@ -54,12 +53,13 @@ class DrawingExport(QObject):
 
     def __init__(self, window: MainWindow, log: Log) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self._log = window, log
         self._worker = Worker(window)
         self.choose_file: Callable[[Path], tuple[Path, str] | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(lambda answer: self.failed.emit(f"{answer.error} Nothing was written."))
-        window.closed.connect(lambda: self._worker.finish(10.0))
+        window.activity.ended.connect(lambda: self._worker.finish(10.0))
         window.actions_["export_drawing"].triggered.connect(lambda *_: self.start())
 
     def start(self) -> None:
@@ -68,17 +68,18 @@ class DrawingExport(QObject):
         if not document.part.entities:
             self.failed.emit("Nothing is drawn yet, so there is nothing to export.")
             return
-        folder = Path(self._window.settings.last_folder or Path.home())
+        folder = self._preferences.last_folder
         chosen = self.choose_file(folder / f"{document.path.stem if document.path else document.part.name}.dxf")
         if chosen is not None:
             self._worker.start(partial(_export, document.part, *chosen), document.revision)
 
     def _choose(self, first: Path) -> tuple[Path, str] | None:
-        dialog = QFileDialog(self._window, "Export drawing", str(first), ";;".join(FORMATS))
+        keys = offered()
+        dialog = QFileDialog(self._window, "Export drawing", str(first), ";;".join(keys))
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("dxf")
-        dialog.filterSelected.connect(lambda name: dialog.setDefaultSuffix(_suffix(FORMATS[name])[1:]))
-        return (Path(dialog.selectedFiles()[0]), FORMATS[dialog.selectedNameFilter()]) if dialog.exec() else None
+        dialog.filterSelected.connect(lambda name: dialog.setDefaultSuffix(_format(keys[name]).suffixes[0][1:]))
+        return (Path(dialog.selectedFiles()[0]), keys[dialog.selectedNameFilter()]) if dialog.exec() else None
 
     def _on_done(self, answer: Answer) -> None:
         exported = answer.value
@@ -92,44 +93,30 @@ class DrawingExport(QObject):
         self.written.emit(exported.path)
 
 
-def _suffix(format_: str) -> str:
-    return format_ if format_.startswith(".") else ".dxf"
+def _format(key: str) -> DrawingFormat:
+    """Return the format that has the writer of a key."""
+    return next(each for each in formats() if any(writer.key == key for writer in each.writers))
 
 
-def _export(part: Part, path: Path, format_: str, progress: Progress) -> _Exported:
+def _export(part: Part, path: Path, key: str, progress: Progress) -> _Exported:
     """Write the drawing; the suffix of the name decides where it is one of another format."""
     progress.step(0.1, f"Writing {path.name}")
-    suffix = path.suffix.lower() if path.suffix.lower() in (".dxf", ".svg", ".draw") else _suffix(format_)
-    path = path if path.suffix.lower() == suffix else path.with_name(path.name + suffix)
-    data, remarks = _written(part, suffix, format_)
-    write_atomically(path, data)
-    return _Exported(path, len(data), remarks)
-
-
-def _written(part: Part, suffix: str, format_: str) -> tuple[bytes, tuple[str, ...]]:
-    if suffix == ".draw":
-        from ...drafting.language.write import draw_text
-
-        drawn = draw_text(part)
-        return drawn.text.encode(), (
-            f"{counted(drawn.left_out, 'curve')} too small for it left out.",
-        ) if drawn.left_out else ()
-    if suffix == ".svg":
-        from ...formats.svg.write import svg_bytes
-
-        written = svg_bytes(part)
-    else:
-        from ...formats.dxf.write import DxfVersion, dxf_bytes
-
-        written = dxf_bytes(part, DxfVersion[format_] if format_ in DxfVersion.__members__ else DxfVersion.R2010)
+    named = known_format(path.name)
+    format_ = named if named is not None and named.writers else _format(key)
+    path = path if path.suffix.lower() in format_.suffixes else path.with_name(path.name + format_.suffixes[0])
+    written = format_.writer(key).write(part)
+    write_atomically(path, written.data)
     converted = (
         f"{counted(each.count, each.kind)} became lines and arcs, at most {each.deviation * 1000:.3f} µm away."
         for each in written.converted
     )
     renamed = (f"Layer {old} is called {new} there." for old, new in written.renamed)
-    notes = (
-        (f"{counted(len(part.notes), 'point, guide or dimension', 'points, guides and dimensions')} left out.",)
-        if part.notes
-        else ()
-    )
-    return written.data, (*converted, *renamed, *notes)
+    return _Exported(path, len(written.data), (*converted, *renamed, *_left_out(written)))
+
+
+def _left_out(written: Written) -> Iterator[str]:
+    if written.too_small:
+        yield f"{counted(written.too_small, 'curve')} too small for it left out."
+    if written.notes_left_out:
+        notes = counted(written.notes_left_out, "point, guide or dimension", "points, guides and dimensions")
+        yield f"{notes} left out."

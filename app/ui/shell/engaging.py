@@ -7,10 +7,11 @@ from PySide6.QtCore import QObject
 from ...core.progress import Progress
 from ...usecases.make import Made
 from ..framework.worker import Answer, Worker
+from ..framework.workspace import Workspace
+from ..views.canvas.canvas import Canvas
+from ..views.canvas.legend import Legend
 from ..views.canvas.modes import ColourBy
 from ..views.canvas.program_picture import ProgramPicture
-from .computation import Computation
-from .main_window import MainWindow
 
 
 def engaged_picture(made: Made, progress: Progress) -> ProgramPicture:
@@ -25,24 +26,20 @@ def engaged_picture(made: Made, progress: Progress) -> ProgramPicture:
 class Engaging(QObject):
     """Follows the legend's choice and the computation."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
-        self._computation: Computation = window.computation
+    def __init__(self, canvas: Canvas, legend: Legend, workspace: Workspace) -> None:
+        super().__init__(canvas)
+        self._canvas, self._computation = canvas, workspace.computation
         self.worker = Worker(self)
         self._for: Made | None = None
-        window.views.legend.colour_chosen.connect(lambda _: self._follow())
+        legend.colour_chosen.connect(lambda _: self._follow())
         self._computation.changed.connect(self._follow)
         self.worker.done.connect(self._on_done)
-        self.worker.progress.connect(window.status.show_progress)
-        self.worker.busy_changed.connect(self._on_busy)
-        window.status.cancelled.connect(self.worker.cancel)
-        window.closed.connect(self.worker.finish)
+        workspace.activity.follow(self.worker)
 
     def _follow(self) -> None:
         """Measure what is shown, where it is to be coloured so and was not measured yet."""
         made = self._computation.made
-        if self._window.canvas.colour_by is not ColourBy.ENGAGEMENT or made is None or made is self._for:
+        if self._canvas.colour_by is not ColourBy.ENGAGEMENT or made is None or made is self._for:
             return
         self._for = made
         self.worker.start(lambda progress: (made, engaged_picture(made, progress)), 0)
@@ -51,8 +48,4 @@ class Engaging(QObject):
         assert isinstance(answer.value, tuple)
         made, picture = answer.value
         if made is self._computation.made:
-            self._window.canvas.set_program(picture)
-
-    def _on_busy(self, busy: bool) -> None:
-        if busy or not self._window.worker.busy:
-            self._window.status.show_progress(0.0 if busy else None)
+            self._canvas.set_program(picture)

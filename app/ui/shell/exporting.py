@@ -11,8 +11,8 @@ from PySide6.QtCore import QObject, Signal
 from ...core.atomic import write_together
 from ...core.errors import HitofudeError
 from ...gcode.posts.posts import load_post
+from ..framework.computation import Computation, State
 from ..framework.notice import Notice
-from .computation import Computation, State
 from .proof import proof, warning
 
 if TYPE_CHECKING:

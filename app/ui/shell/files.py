@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import Change
 from ...formats.project.project import Look, Project
-from ...formats.readers import SUFFIXES
+from ...formats.readers import suffixes
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, Reading
 from ...usecases.bitmap_options import PICTURES, is_picture
@@ -25,7 +25,6 @@ from ..views.surfaces.shown_scene import is_scene
 from . import opening as opening_files
 from .exporting import FILTER, Exporting
 from .main_window import MainWindow
-from .memory import remember
 from .opening import Asked, Opened, Opening
 from .rereading import Rereading
 from .saving import Saving
@@ -33,11 +32,12 @@ from .showing import Showing
 from .views import View
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
-OPEN_FILTER = (
-    "Drawings, scenes, pictures and NC programs "
-    f"({' '.join('*' + suffix for suffix in (*SUFFIXES, '.DXF', '.toml', *PICTURES, *PROGRAM_SUFFIXES))});;All files "
-    "(*)"
-)
+
+
+def open_filter() -> str:
+    """Return what the dialog of Open shows: every kind of file that can be opened."""
+    patterns = (*suffixes(), ".DXF", ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+    return f"Drawings, scenes, pictures and NC programs ({' '.join(f'*{each}' for each in patterns)});;All files (*)"
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,7 @@ class Files(QObject):
 
     def __init__(self, window: MainWindow, showing: Showing, log: Log, open_others: Openers) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
@@ -124,14 +125,16 @@ class Files(QObject):
 
     def choose_file(self) -> None:
         """Ask for a drawing or a program and open it."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Open", self._window.settings.last_folder, OPEN_FILTER)
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, "Open", self._preferences.settings.last_folder, open_filter()
+        )
         if name:
             self.open_file(Path(name))
 
     def _list_recent(self) -> None:
         menu = self._window.actions_.recent
         menu.clear()
-        for name in self._window.settings.recent_files:
+        for name in self._preferences.settings.recent_files:
             if Path(name).is_file():
                 menu.addAction(name.replace("&", "&&"), partial(self.open_file, Path(name)))
         if menu.isEmpty():
@@ -141,12 +144,11 @@ class Files(QObject):
             menu.addAction("Clear this list", self._forget_recent)
 
     def _forget_recent(self) -> None:
-        self._window.settings = replace(self._window.settings, recent_files=())
-        remember(self._window)
+        self._preferences.keep(replace(self._preferences.settings, recent_files=()))
 
     def _choose_nc_file(self, ending: str) -> Path | None:
         stem = self._document.path.stem if self._document.path else self._document.part.name
-        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}{ending}")
+        start = str(self._preferences.last_folder / f"{stem}{ending}")
         name, _ = QFileDialog.getSaveFileName(self._window, "Export NC", start, FILTER)
         return Path(name) if name else None
 
@@ -173,7 +175,7 @@ class Files(QObject):
     def _on_closing(self) -> None:
         self._window.may_close = not self._would_lose
         if self._window.may_close:
-            remember(self._window)
+            self._preferences.save()
         else:
             self.leave("Close?", self._close_anyway)
 
@@ -189,7 +191,7 @@ class Files(QObject):
     def _on_opened(self, opened: Opened) -> None:
         window = self._window
         if opened.path != opening_files.sample_path():
-            window.settings = window.settings.with_recent_file(opened.path)
+            self._preferences.add_recent(opened.path)
         self.saving.known = opened.stamp
         self._computation.forget(opened.drawing.findings)
         self._log.note(f"open {opened.path.name}", self._opened_sentence(opened))
@@ -203,7 +205,7 @@ class Files(QObject):
         if opened.path == opening_files.sample_path():
             self._computation.start()
             self._showing.show_view(View.PATHS)
-            tour = [] if window.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
+            tour = [] if window.preferences.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
             window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
         elif opened.drawing.question is not None:
             self._ask_after(opened)

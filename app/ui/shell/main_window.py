@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
 
 from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
-from ...formats.readers import SUFFIXES
+from ...formats.readers import suffixes
 from ...usecases.bitmap_options import PICTURES
 from ..framework import style
+from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
+from ..framework.computation import Computation
+from ..framework.log import Log
 from ..framework.notice import Notice
+from ..framework.preferences import Preferences
 from ..framework.theme import DARK, LIGHT, Theme
 from ..framework.worker import Worker
+from ..framework.workspace import Workspace
 from ..panels.drawing_page import DrawingPage
 from ..panels.side_panel import SidePanel
 from ..panels.side_tabs import SideTabs
 from ..views.canvas.canvas import Canvas
+from ..views.canvas.program_picture import ProgramPicture
 from ..views.curves.curves_panel import CurvesPanel
 from ..views.cut.cut_panel import CutPanel
 from ..views.cut.setup_form import SetupForm
@@ -32,13 +41,21 @@ from .actions import Actions
 from .badge import FindingsList
 from .bars import TopBar
 from .command_line import CommandLine
-from .computation import Computation
+from .memory import remember_geometry
 from .question_card import QuestionCard
 from .status_bar import StatusBar
 from .tool_strip import ToolStrip
 from .views import Views
 
+if TYPE_CHECKING:
+    from ...usecases.make import Made
+
 SIZE = (1440, 900)
+
+
+def picture_of(made: Made) -> ProgramPicture:
+    """Return the moves of a result prepared for painting."""
+    return ProgramPicture(made.program, made.coverage.places)
 
 
 class MainWindow(QMainWindow):
@@ -47,21 +64,22 @@ class MainWindow(QMainWindow):
     Signals:
         dropped(path): a drawing, a scene, a picture or an NC program was dropped on the window.
         closing(): about to close; `may_close` tells whether it may.
-        closed(): it closes now; whoever runs jobs of his own ends them.
     """
 
     dropped = Signal(str)
     closing = Signal()
-    closed = Signal()
 
     def __init__(self, document: Document, settings: Settings) -> None:
         super().__init__()
-        self.document, self.settings = document, settings
+        self.document, self.preferences = document, Preferences(settings, self)
+        self.preferences.saving.connect(lambda: remember_geometry(self, self.preferences))
         self.theme = self._theme_for(settings.theme)
         self._apply_style()
         self.may_close = True
         self.worker = Worker(self)
-        self.computation = Computation(document, self.worker)
+        self.activity = Activity(self)
+        self.activity.follow(self.worker)
+        self.computation = Computation(document, self.worker, picture_of)
         self.actions_ = Actions(self)
         self.canvas = Canvas(document, self.theme)
         self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
@@ -77,9 +95,19 @@ class MainWindow(QMainWindow):
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
         self.file_label = QLabel()
+        self.workspace = Workspace(
+            document,
+            self.computation,
+            self.activity,
+            self.preferences,
+            Log(document, self.command_line.log),
+            self.notice,
+        )
         self._lay_out()
         self.set_theme_choice(settings.theme)
-        QGuiApplication.styleHints().colorSchemeChanged.connect(lambda _: self.set_theme_choice(self.settings.theme))
+        QGuiApplication.styleHints().colorSchemeChanged.connect(
+            lambda _: self.set_theme_choice(self.preferences.settings.theme)
+        )
 
     def _lay_out(self) -> None:
         self.actions_.fill(self.menuBar())
@@ -137,6 +165,11 @@ class MainWindow(QMainWindow):
         if isinstance(application, QApplication):
             style.apply(application, self.theme, arrow_picture(self.theme))
 
+    def choose_theme(self, choice: ThemeChoice) -> None:
+        """Switch colours and remember it."""
+        self.set_theme_choice(choice)
+        self.preferences.keep(replace(self.preferences.settings, theme=choice))
+
     def set_theme_choice(self, choice: ThemeChoice) -> None:
         """Paint everything in the theme that the user or the system chose."""
         self.theme = self._theme_for(choice)
@@ -151,7 +184,7 @@ class MainWindow(QMainWindow):
         """Welcome one drawing, scene, picture or NC program."""
         urls = event.mimeData().urls()
         if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*SUFFIXES, ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+            (*suffixes(), ".toml", *PICTURES, *PROGRAM_SUFFIXES)
         ):
             event.acceptProposedAction()
 
@@ -166,6 +199,5 @@ class MainWindow(QMainWindow):
         if not self.may_close:
             event.ignore()
             return
-        self.worker.finish()
-        self.closed.emit()
+        self.activity.ended.emit()
         event.accept()

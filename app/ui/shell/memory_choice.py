@@ -8,7 +8,6 @@ from functools import partial
 from ...core.memory import allow, machine_memory
 from ...core.settings import JobMemory
 from .main_window import MainWindow
-from .memory import remember
 
 SHARES = {JobMemory.QUARTER: 0.25, JobMemory.HALF: 0.5, JobMemory.MOST: 0.75}
 """Of the machine's memory."""
@@ -21,15 +20,15 @@ class MemoryChoice:
 
     def __init__(self, window: MainWindow) -> None:
         """Allow what was chosen the last time."""
+        self._preferences = window.preferences
         self._window = window
         for choice in JobMemory:
             window.actions_[f"memory_{choice.value}"].triggered.connect(partial(self._choose, choice))
-        self._show(window.settings.memory)
+        self._show(window.preferences.settings.memory)
 
     def _choose(self, choice: JobMemory, *_: object) -> None:
-        self._window.settings = replace(self._window.settings, memory=choice)
+        self._preferences.keep(replace(self._preferences.settings, memory=choice))
         self._show(choice)
-        remember(self._window)
 
     def _show(self, choice: JobMemory) -> None:
         self._window.actions_[f"memory_{choice.value}"].setChecked(True)

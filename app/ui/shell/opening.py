@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from ...formats.project.project import Project
     from ...formats.reading_question import Question
 
-READ_AGAIN = (".dxf", ".svg")
-"""Drawings that can be read in other ways than one."""
-
 
 @dataclass(frozen=True)
 class Opened:
@@ -78,6 +75,7 @@ def read_drawing_file(path: Path, reading: Reading, before: Job, progress: Progr
     Raises:
         HitofudeError: it cannot be used. Cancelled: `progress` says so.
     """
+    from ...formats.readers import format_of
     from ...formats.reading_question import UndecidedError
     from ...usecases.make import job_from_drawing  # imports the DXF reader: never on the window's thread
     from ...usecases.options import MakeOptions
@@ -97,7 +95,7 @@ def read_drawing_file(path: Path, reading: Reading, before: Job, progress: Progr
     progress.step(0.9, f"Reading {path.name}")
     drawing = replace(drawing, part=_shown(drawing.part, reading.layers))
     job = job_from_drawing(drawing, MakeOptions(job=before))
-    source = Source(str(path.absolute()), reading) if path.suffix.lower() in READ_AGAIN else None
+    source = Source(str(path.absolute()), reading) if format_of(path.name).foreign else None
     return Opened(path, drawing, job, size_of(job.part), source)
 
 
@@ -111,9 +109,9 @@ def _shown(part: Part, layers: tuple[str, ...]) -> Part:
 
 
 def _read(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
-    from ...formats.readers import PROJECTS
+    from ...formats.project import SUFFIXES
 
-    if path.suffix.lower() in PROJECTS:
+    if path.suffix.lower() in SUFFIXES:
         progress.step(0.05, f"Reading {path.name}")
         return _read_project(path)
     return read_drawing_file(path, reading, before, progress)

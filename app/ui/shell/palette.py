@@ -26,7 +26,6 @@ from ..framework.theme import LIGHT, Theme
 from ..framework.words import tr
 from .actions import plain
 from .main_window import MainWindow
-from .memory import remember
 
 WIDTH, ROW_PX, SHOWN = 520, 30, 10
 _RECENT = 8
@@ -88,6 +87,7 @@ class Palette(QFrame):
     def __init__(self, window: MainWindow, open_file: Callable[[Path], object]) -> None:
         super().__init__(window)
         self.setObjectName("palette")
+        self._preferences = window.preferences
         self._window, self._open_file = window, open_file
         self.edit, self.list, self._rows = QLineEdit(), QListWidget(), _Rows()
         self.edit.setAccessibleName("Command palette")
@@ -149,11 +149,11 @@ class Palette(QFrame):
         ]
 
     def _files(self) -> list[Entry]:
-        paths = [Path(name) for name in self._window.settings.recent_files]
+        paths = [Path(name) for name in self._preferences.settings.recent_files]
         return [Entry(str(path), path.name, str(path.parent), "", partial(self._open_file, path)) for path in paths]
 
     def _show_fitting(self, typed: str) -> None:
-        recent = {name: at for at, name in enumerate(self._window.settings.recent_commands)}
+        recent = {name: at for at, name in enumerate(self._preferences.settings.recent_commands)}
         found = [
             (score, entry)
             for entry in self._entries
@@ -177,9 +177,8 @@ class Palette(QFrame):
         if item is None:
             return
         entry: Entry = item.data(_ENTRY)
-        names = (entry.name, *(name for name in self._window.settings.recent_commands if name != entry.name))
-        self._window.settings = replace(self._window.settings, recent_commands=names[:_RECENT])
-        remember(self._window)
+        names = (entry.name, *(name for name in self._preferences.settings.recent_commands if name != entry.name))
+        self._preferences.keep(replace(self._preferences.settings, recent_commands=names[:_RECENT]))
         self._leave()
         entry.act()
 

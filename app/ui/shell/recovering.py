@@ -49,7 +49,7 @@ class Recovering(QObject):
         self._timer.timeout.connect(self.keep)
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
-        window.closed.connect(self._close)
+        window.activity.ended.connect(self._close)
         self._unsubscribe = self._document.subscribe(self._on_change)
         files.saving.beside.changed.connect(self._wait)
 

@@ -65,7 +65,7 @@ class Rereading(QObject):
         window.worker.done.connect(self._on_done)
         window.worker.failed.connect(self._on_failed)
         window.worker.cancelled.connect(self._on_cancelled)
-        window.closed.connect(self._looking.finish)
+        window.activity.ended.connect(self._looking.finish)
         self._unsubscribe = self._document.subscribe(self._on_change)
         window.actions_["reading"].setEnabled(False)
 

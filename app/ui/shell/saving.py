@@ -22,7 +22,6 @@ from ..framework.log import Log
 from ..framework.worker import Answer, Worker
 from .beside import BesideDrawing
 from .main_window import MainWindow
-from .memory import remember
 from .showing import Showing
 
 FILTER = "Hitofude projects (*.hito)"
@@ -70,6 +69,7 @@ class Saving(QObject):
 
     def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self._showing, self._log = window, showing, log
         self._document = window.document
         self._worker = Worker(window, head_start_s=0.0)
@@ -80,9 +80,9 @@ class Saving(QObject):
         self.choose_file: Callable[[str, Path], Path | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
-        window.closed.connect(lambda: self._worker.finish(30.0))
+        window.activity.ended.connect(lambda: self._worker.finish(30.0))
         backups = window.actions_["backups"]
-        backups.setChecked(window.settings.backups)
+        backups.setChecked(window.preferences.settings.backups)
         backups.toggled.connect(self._keep_backups)
         self._unsubscribe = self._document.subscribe(self._on_change)
 
@@ -126,13 +126,12 @@ class Saving(QObject):
             self._start(wish)
 
     def _keep_backups(self, on: bool) -> None:
-        self._window.settings = replace(self._window.settings, backups=on)
-        remember(self._window)
+        self._preferences.keep(replace(self._preferences.settings, backups=on))
 
     def _first_choice(self, behind: str) -> Path:
         path = self._document.path
         own = path is not None and path.suffix.lower() == SUFFIX
-        folder = path.parent if path is not None and own else Path(self._window.settings.last_folder or Path.home())
+        folder = path.parent if path is not None and own else self._preferences.last_folder
         return folder / f"{path.stem if path else self._document.part.name}{behind}{SUFFIX}"
 
     def _choose(self, title: str, first: Path) -> Path | None:
@@ -145,7 +144,7 @@ class Saving(QObject):
         if self._worker.busy:
             self._next = wish
             return
-        self._worker.start(partial(_save, wish, self.project(), self._window.settings.backups), self._generation)
+        self._worker.start(partial(_save, wish, self.project(), self._preferences.settings.backups), self._generation)
 
     def _on_change(self, change: Change) -> None:
         if change & Change.LOADED:
@@ -164,7 +163,7 @@ class Saving(QObject):
             self.known = saved.stamp
             self._document.mark_saved(saved.wish.path, saved.project.state)
             self.beside.mark_saved(saved.project.beside)
-            self._window.settings = self._window.settings.with_recent_file(saved.wish.path)
+            self._preferences.add_recent(saved.wish.path)
         self._log.note(
             f"save {saved.wish.path.name}",
             f"{counted(len(saved.project.state.job.part.entities), 'curve')}, {size} kB.",

@@ -8,15 +8,15 @@ from PySide6.QtGui import QKeySequence
 
 from .actions import Actions
 from .main_window import MainWindow
-from .memory import remember
 
 
 class Shortcuts:
     """The window's keys; what differs from the table is remembered."""
 
     def __init__(self, window: MainWindow) -> None:
+        self._preferences = window.preferences
         self._window, self._actions = window, window.actions_
-        for name, key in _pairs(window.settings.shortcuts).items():
+        for name, key in _pairs(window.preferences.settings.shortcuts).items():
             if name in self._actions.specs:
                 self._actions.set_key(name, key)
 
@@ -56,8 +56,7 @@ class Shortcuts:
 
     def _keep(self) -> None:
         pairs = tuple(f"{name}={key}" for name, key in changed_keys(self._actions).items())
-        self._window.settings = replace(self._window.settings, shortcuts=pairs)
-        remember(self._window)
+        self._preferences.keep(replace(self._preferences.settings, shortcuts=pairs))
 
 
 def changed_keys(actions: Actions) -> dict[str, str]:

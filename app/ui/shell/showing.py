@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QObject, Signal
 
 from ...drafting.document import Change
@@ -11,11 +9,13 @@ from ...drafting.expressions.words import name_text
 from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
+from ..framework.computation import State
+from ..framework.missing import NOTHING, Missing
 from ..framework.samples import Sample
 from ..framework.verdict import Level, Verdict, verdict
 from ..views.canvas.modes import CanvasTool, ColourBy, PathLayers
+from ..views.canvas.program_picture import ProgramPicture
 from ..views.surfaces.scene_work import SceneState
-from .computation import State
 from .main_window import MainWindow
 from .opening import size_of
 from .views import View
@@ -34,16 +34,6 @@ _LAYERS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Missing:
-    """What a view lacks: a sentence, and the button (with the name of its action) that makes it."""
-
-    sentence: str = ""
-    button: str = ""
-    action: str = "open"
-
-
-NOTHING = Missing()
 NO_DRAWING = Missing(
     "Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing"
 )
@@ -109,8 +99,9 @@ class Showing(QObject):
         self._empty_action = "open"
         self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
         self._computation.changed.connect(self._on_computation)
-        window.worker.progress.connect(window.status.show_progress)
-        window.worker.busy_changed.connect(self._on_busy)
+        window.activity.progress.connect(window.status.show_progress)
+        window.activity.busy_changed.connect(window.actions_["cancel"].setEnabled)
+        window.actions_["cancel"].setEnabled(False)
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
         window.findings_list.left_out.connect(self.leave_out)
@@ -198,8 +189,8 @@ class Showing(QObject):
         actions["export"].setEnabled(surfaces.shown is not None if in_surfaces else drawn)
         actions["compute"].setEnabled(scene.open if in_surfaces else drawn)
 
-    def show_scene(self) -> None:
-        """Show where the scene stands."""
+    def show_state(self) -> None:
+        """Show where the view at the front stands."""
         self._show_badge()
         self._show_standing()
         self.show_missing()
@@ -258,7 +249,7 @@ class Showing(QObject):
         if self.view is View.SURFACES:
             return views.surfaces.shown is not None
         if self.view is View.CUT:
-            return views.cut.picture is not None or bool(views.cut.sentence.text())
+            return views.cut.model.picture is not None or bool(views.cut.sentence.text())
         return self._computation.made is not None or (
             self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0
         )
@@ -288,6 +279,7 @@ class Showing(QObject):
         if made is not self._shown_program:
             self._shown_program = made
             picture = self._computation.picture
+            assert picture is None or isinstance(picture, ProgramPicture)
             self._window.canvas.set_program(picture)
             if picture is not None:
                 self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
@@ -298,7 +290,6 @@ class Showing(QObject):
         self._show_badge()
         self.show_missing()
         self._window.status.show_message(state.value)
-        self._window.actions_["cancel"].setEnabled(self._window.worker.busy)
 
     def _show_badge(self) -> None:
         badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
@@ -316,10 +307,6 @@ class Showing(QObject):
             badge.show_verdict(Verdict(Level.REMARK, "Could not be computed"))
         else:
             badge.show_verdict(Verdict(Level.NONE, "Not computed" if state is State.NONE else "Out of date"))
-
-    def _on_busy(self, busy: bool) -> None:
-        self._window.status.show_progress(0.0 if busy else None)
-        self._window.actions_["cancel"].setEnabled(busy)
 
     def _on_layer(self, sample: Sample, on: bool) -> None:
         flag = _LAYERS[sample]

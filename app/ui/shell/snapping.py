@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QMenu, QToolButton
 from ...core.settings import Settings
 from ..views.canvas.snap import CHOICES, SNAP_NAMES, SNAP_WORDS
 from .main_window import MainWindow
-from .memory import remember
 
 STEPS = (15.0, 30.0, 45.0, 90.0)
 _WORDS = {kind: word for word, kind in SNAP_WORDS.items()}
@@ -29,8 +28,9 @@ class Snapping(QObject):
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window = window
-        status, settings = window.status, window.settings
+        status, settings = window.status, window.preferences.settings
         at_snap, at_polar = _menu_at(status.snap), _menu_at(status.polar)
         self.kinds = {
             kind: _switch(at_snap, f"{SNAP_NAMES[kind]}\t{_WORDS[kind]}", _WORDS[kind] in settings.snaps)
@@ -59,18 +59,19 @@ class Snapping(QObject):
     def _change(self) -> None:
         snaps = tuple(_WORDS[kind] for kind, action in self.kinds.items() if action.isChecked())
         step = next(step for step, action in self.steps.items() if action.isChecked())
-        self._window.settings = replace(
-            self._window.settings,
-            snaps=snaps,
-            polar_step=f"{step:g}",
-            polar_on=self.on.isChecked(),
-            tracking=self.tracking.isChecked(),
+        self._preferences.keep(
+            replace(
+                self._preferences.settings,
+                snaps=snaps,
+                polar_step=f"{step:g}",
+                polar_on=self.on.isChecked(),
+                tracking=self.tracking.isChecked(),
+            )
         )
         self._apply()
-        remember(self._window)
 
     def _apply(self) -> None:
-        settings = self._window.settings
+        settings = self._preferences.settings
         kinds = frozenset(kind for kind, action in self.kinds.items() if action.isChecked())
         polar = _step(settings) if settings.polar_on else None
         self._window.canvas.aiming.switch(kinds=kinds, polar=polar, tracking=settings.tracking)

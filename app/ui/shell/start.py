@@ -73,7 +73,7 @@ def warm_up(window: MainWindow) -> Worker:
     warmer = Worker(window)
     warmer.progress.connect(lambda _, text: window.status.show_waiting(text))
     warmer.busy_changed.connect(lambda _: window.status.show_waiting(""))
-    warmer.start(partial(_warm, window.settings), 0)
+    warmer.start(partial(_warm, window.preferences.settings), 0)
     return warmer
 
 
@@ -108,7 +108,7 @@ def start(path: Path | None = None) -> int:
     application.setApplicationName("Hitofude")
     application.setDesktopFileName("hitofude")
     window, wiring = build()
-    restore_geometry(window)
+    restore_geometry(window, window.preferences)
     sys.excepthook = partial(_tell_mistake, window)
     window.show()
     warmer = warm_up(window)

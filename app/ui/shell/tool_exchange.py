@@ -31,19 +31,20 @@ class ToolExchange(QObject):
 
     def __init__(self, window: MainWindow, log: Log) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self._log = window, log
         window.panel.library.imported.connect(self.choose_file)
         window.panel.library.exported.connect(self.choose_place)
 
     def choose_file(self) -> None:
         """Ask for a file of tools and take it into the library."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Import tools", self._window.settings.last_folder, IN)
+        name, _ = QFileDialog.getOpenFileName(self._window, "Import tools", self._preferences.settings.last_folder, IN)
         if name:
             self.take(Path(name))
 
     def choose_place(self) -> None:
         """Ask where to, and write the job's tools."""
-        start = str(Path(self._window.settings.last_folder or Path.home()) / "tools.toml")
+        start = str(self._preferences.last_folder / "tools.toml")
         name, kind = QFileDialog.getSaveFileName(
             self._window, "Export tools", start, ";;".join((LIBRARY, SHEET, TABLE_MM, TABLE_INCH))
         )

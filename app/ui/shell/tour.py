@@ -13,7 +13,6 @@ from ..framework.labels import muted
 from ..framework.section import heading
 from ..framework.words import tr
 from .main_window import MainWindow
-from .memory import remember
 
 WIDTH, _GAP, _EDGE = 320, 10, 8
 SEEN = "seen"
@@ -108,6 +107,7 @@ class Tour(QObject):
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self.number = window, 0
         self.callout, self._ring = Callout(window), QFrame(window)
         self._ring.setObjectName("ring")
@@ -141,8 +141,7 @@ class Tour(QObject):
         """Leave the tour, and never offer it again."""
         self.callout.hide()
         self._ring.hide()
-        self._window.settings = replace(self._window.settings, tour=SEEN)
-        remember(self._window)
+        self._preferences.keep(replace(self._preferences.settings, tour=SEEN))
         self._window.views.take_focus()
 
     def _place(self) -> None:

@@ -17,7 +17,6 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, 
 from ...core.settings import Language
 from ..framework.words import catalogue, speak, spoken
 from .main_window import MainWindow
-from .memory import remember
 
 
 @dataclass(frozen=True)
@@ -120,17 +119,17 @@ class Translating:
     """View, Language: switches at once and remembers it."""
 
     def __init__(self, window: MainWindow) -> None:
+        self._preferences = window.preferences
         self._window, self._later, self._qt = window, _Later(window), QTranslator(window)
         for choice in Language:
             action = window.actions_[f"language_{choice.value}"]
             action.triggered.connect(partial(self.choose, choice))
-        self._show(window.settings.language)
+        self._show(window.preferences.settings.language)
 
     def choose(self, choice: Language, *_: object) -> None:
         """Switch, and remember it."""
-        self._window.settings = replace(self._window.settings, language=choice)
+        self._preferences.keep(replace(self._preferences.settings, language=choice))
         self._show(choice)
-        remember(self._window)
 
     def _show(self, choice: Language) -> None:
         code = code_of(choice)

@@ -36,6 +36,7 @@ class Underlaying(QObject):
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
+        self._preferences = window.preferences
         self._window, self._points = window, list[Point]()
         self._shown: UnderlayPicture | None = None
         self._missing: Underlay | None = None
@@ -102,7 +103,7 @@ class Underlaying(QObject):
         name, _ = QFileDialog.getOpenFileName(
             self._window,
             "Place a picture to trace",
-            self._window.settings.last_folder,
+            self._preferences.settings.last_folder,
             f"Pictures ({' '.join('*' + suffix for suffix in SUFFIXES)})",
         )
         if name:

@@ -13,7 +13,6 @@ from ..framework.fields import NumberField
 from ..framework.shown_unit import show_in
 from ..views.canvas.viewport import Viewport
 from .main_window import MainWindow
-from .memory import remember
 
 SIZES = {ShownUnits.MM: 1.0, ShownUnits.INCH: 25.4}
 """Size of each, mm."""
@@ -24,19 +23,19 @@ class UnitChoice:
 
     def __init__(self, window: MainWindow) -> None:
         """Show what was chosen the last time."""
+        self._preferences = window.preferences
         self._window = window
         for units in ShownUnits:
             window.actions_[f"units_{units.value}"].triggered.connect(partial(self._choose, units))
-        self._show(window.settings.units)
+        self._show(window.preferences.settings.units)
 
     def meant(self, line: str) -> str:
         """Return a typed line of the shape language so that it says in which unit it is meant, where that is not mm."""
-        return line if self._window.settings.units is ShownUnits.MM else in_unit(line, "in")
+        return line if self._preferences.settings.units is ShownUnits.MM else in_unit(line, "in")
 
     def _choose(self, units: ShownUnits, *_: object) -> None:
-        self._window.settings = replace(self._window.settings, units=units)
+        self._preferences.keep(replace(self._preferences.settings, units=units))
         self._show(units)
-        remember(self._window)
 
     def _show(self, units: ShownUnits) -> None:
         self._window.actions_[f"units_{units.value}"].setChecked(True)

@@ -11,8 +11,9 @@ from PySide6.QtCore import QObject
 from ...core.settings import ThemeChoice
 from ...drafting.document import Change
 from ...model.operation import OPERATION_KINDS
+from ..framework.controller import Controller
 from ..framework.figures import counted
-from ..framework.log import Log
+from ..framework.section import theme_children
 from ..framework.verdict import Level, verdict
 from ..panels.changes import Subject, SubjectKind
 from ..views.canvas.modes import CanvasTool
@@ -20,7 +21,6 @@ from ..views.curves.smoothing import Smoothing
 from ..views.cut.cutting import Cutting
 from ..views.cut.recorder import Recorder
 from ..views.cut.saving import CutSaving
-from ..views.language.wiring import LanguageWiring
 from ..views.nc.control import NcControl
 from ..views.nc.reading import Shown
 from ..views.nc.wiring import NcWiring
@@ -38,10 +38,11 @@ from .engaging import Engaging
 from .entering import Entering
 from .files import Files, Openers
 from .help import show_about
+from .help_window import HelpWindow
 from .inspecting import Inspecting
 from .keys_window import KeysWindow
+from .language import LanguageWiring
 from .main_window import MainWindow
-from .memory import choose_theme
 from .memory_choice import MemoryChoice
 from .palette import Palette
 from .recovering import Recovering
@@ -58,6 +59,7 @@ from .views import View
 from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
+TEXT_PAGE = "Text"
 WORDS = {
     "compute": "compute",
     "cancel": "cancel",
@@ -76,37 +78,36 @@ class Wiring(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self.window_, self.document, self.computation = window, window.document, window.computation
-        self.log = Log(window.document, window.command_line.log)
+        views, workspace, commands = window.views, window.workspace, window.actions_
+        self.workspace, self.log = workspace, workspace.log
         self.showing = Showing(window)
-        self.nc = NcControl(window, self.log)
-        self.cutting = Cutting(window)
-        self.staging = Staging(window)
-        self.cutting.shown.connect(self.showing.show_missing)
+        self.nc = NcControl(views.nc, workspace)
+        self.cutting = Cutting(views.cut_page, window.cut_panel, window.cut_form, workspace)
+        self.staging = Staging(views.stages, window.stages_panel, workspace)
         self.nc.cut_wanted.connect(self._show_cut)
-        self.cutting.failed.connect(self._say_error)
         window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
         window.cut_panel.line_wanted.connect(self._go_to_motion)
-        self.picturing = Picturing(window, self.log)
-        self.scenes = SceneControl(window, self.showing, self.log)
-        self.scene_export = SceneExport(window, self.log, lambda: self.scenes.work.proven)
+        self.picturing = Picturing(views.stages, window.import_panel, workspace)
+        self.scenes = SceneControl(views.surfaces, window.scene_side, window.scene, workspace)
+        self.scene_export = SceneExport(views.surfaces, lambda: self.scenes.work.proven, workspace)
         self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open, self.scenes.open))
         self.drawing_export = DrawingExport(window, self.log)
         self.drawing_export.failed.connect(self._say_error)
         self.recovering = Recovering(window, self.showing, self.files, self.log)
         self.tools, self.memory_choice = ToolExchange(window, self.log), MemoryChoice(window)
         self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
-        self.language = LanguageWiring(window, self.showing)
+        self.language = LanguageWiring(window.command_line.edit, HelpWindow(window), workspace, commands)
         self.what_is_this = WhatIsThis(window, self.language.help)
         self.files.saving.beside.watch(self.underlaying, self.language.control)
-        self.advising = Advising(window)
+        self.advising = Advising(window.panel, workspace)
+        window.panel.advice.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self.inspecting = Inspecting(window, self.showing)
-        self.engaging, self.entering = Engaging(window), Entering(window)
+        self.engaging, self.entering = Engaging(window.canvas, views.legend, workspace), Entering(window)
         self.cleaning = Cleaning(window)
-        self.cut_saving, self.recorder = CutSaving(window, self.log), Recorder(window, self.log)
+        self.cut_saving, self.recorder = CutSaving(views.cut, workspace), Recorder(views.cut_page, workspace)
         self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
-        self.plotting = Plotting(window, self.showing, self.log)
-        self.plotting.failed.connect(self._say_error)
-        self.session_1986 = SessionOpening(window, self.showing, self.log)
+        self.plotting = Plotting(views.plot, window.plot_panel, workspace)
+        self.session_1986 = SessionOpening(window, workspace)
         self._connect_stages()
         self._connect_files()
         self._connect_scenes()
@@ -114,15 +115,78 @@ class Wiring(QObject):
         self._connect_view()
         self._connect_job()
         self._connect_canvas()
-        self._nc_wiring = NcWiring(window, self.nc, self.showing)
-        self.nc.failed.connect(self._say_error)
-        self.smoothing = Smoothing(window, self.nc, self.showing, self.log)
-        self.smoothing.failed.connect(self._say_error)
+        self._nc_wiring = NcWiring(views.nc, self.nc, self.computation, commands)
+        self.smoothing = Smoothing(views.curves, window.curves_panel, self.nc, workspace)
+        self._connect_controllers()
+        self._connect_pages()
+        self._connect_programs()
+        self._connect_language()
         self.snapping = Snapping(window)
         self.tour, self.translating = Tour(window), Translating(window)
         self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)
         self.showing.refresh(Change.ALL)
+
+    def _connect_controllers(self) -> None:
+        """Show what the controllers of views tell, and tell them whether their view is at the front."""
+        self._connect_controller(self.staging, View.STAGES)
+        self._connect_controller(self.picturing, View.STAGES)
+        self._connect_controller(self.cutting, View.CUT)
+        self._connect_controller(self.cut_saving, View.CUT)
+        self._connect_controller(self.recorder, View.CUT)
+        self._connect_controller(self.smoothing, View.CURVES)
+        self._connect_controller(self.scenes, View.SURFACES)
+        self._connect_controller(self.scene_export, View.SURFACES)
+        self._connect_controller(self.nc, View.NC)
+
+    def _connect_controller(self, controller: Controller, view: View) -> None:
+        controller.failed.connect(self._say_error)
+        controller.said.connect(self._say)
+        controller.changed.connect(self.showing.show_state)
+        controller.front_wanted.connect(partial(self.showing.show_view, view))
+        self.showing.view_changed.connect(lambda shown: controller.see(shown is view))
+
+    def _connect_pages(self) -> None:
+        """What lies over the views for a while: sheets of paper, a session of 1986."""
+        plotting, session = self.plotting, self.session_1986
+        self._on("plot", plotting.start)
+        plotting.failed.connect(self._say_error)
+        plotting.said.connect(self._say)
+        plotting.front_wanted.connect(self._show_plot)
+        plotting.left.connect(lambda: self.showing.show_view(self.showing.view))
+        self.showing.view_changed.connect(lambda _: plotting.see(False))
+        self._on("session_1986", session.open)
+        session.left.connect(self.window_.views.take_focus)
+        session.taken.connect(self._show_paths)
+
+    def _show_plot(self) -> None:
+        self.window_.views.show_plot()
+        self.showing.show_missing()
+
+    def _show_paths(self) -> None:
+        self.showing.show_view(View.PATHS)
+        self.window_.canvas.fit()
+
+    def _connect_language(self) -> None:
+        control, side = self.language.control, self.window_.side
+        self.language.help.set_theme(self.window_.theme)
+        side.add_page(TEXT_PAGE, control.page, "the drawing in words")
+        theme_children(side, self.window_.theme)
+        side.chosen.connect(self._on_side_page)
+        control.page.editor.left.connect(self.window_.canvas.setFocus)
+        control.tried.connect(self.window_.canvas.show_trial)
+        control.front_wanted.connect(self._show_text)
+        self.showing.view_changed.connect(lambda view: control.see(view in (View.DRAW, View.PATHS)))
+
+    def _on_side_page(self, name: str) -> None:
+        self.showing.writing = name == TEXT_PAGE
+        self.showing.show_missing()
+        self.language.control.see(self.showing.view in (View.DRAW, View.PATHS))
+
+    def _show_text(self) -> None:
+        if self.showing.view not in (View.DRAW, View.PATHS):
+            self.showing.show_view(View.DRAW)
+        self.window_.side.show_page(TEXT_PAGE)
 
     def _on(self, name: str, act: Callable[[], object]) -> None:
         self.window_.actions_[name].triggered.connect(lambda *_: act())
@@ -139,7 +203,7 @@ class Wiring(QObject):
         self._on("export", self.export)
         self._on("frame", files.exporting.start_frame)
         self._on("quit", self.window_.close)
-        for part in (files.opening, files.rereading, self.scenes, self.scene_export):
+        for part in (files.opening, files.rereading):
             part.failed.connect(self._say_error)
         files.exporting.failed.connect(self._say_error)
         files.exporting.show_findings.connect(self._show_worst)
@@ -158,23 +222,28 @@ class Wiring(QObject):
         self._on("scene_cut", scenes.show_cut)
         scenes.nc_wanted.connect(self.nc.show_text)
         scenes.cut_wanted.connect(self._cut_scene)
-        self.window_.closing.connect(scenes.may_close)
+        scenes.document.standing_changed.connect(self.showing.show_titles)
+        scenes.close_wanted.connect(self.window_.close)
+        self.window_.closing.connect(self._ask_scenes)
+        view = self.window_.views.surfaces
+        view.hovered.connect(self.showing.show_hovered)
+        view.cursor_moved.connect(self.window_.status.show_place)
+
+    def _ask_scenes(self) -> None:
+        """Keep the window open while the scene's changes are asked about; those of the drawing come first."""
+        self.window_.may_close = self.window_.may_close and self.scenes.may_close()
 
     def _connect_stages(self) -> None:
         view = self.window_.views.stages
         self.staging.changed.connect(self._show_stages)
-        self.showing.view_changed.connect(lambda shown: self.staging.see(shown is View.STAGES))
         self._on("stages_again", self.staging.again)
         self.picturing.shown.connect(self._show_picture)
         self.picturing.taken.connect(self._on_picture_taken)
-        self.picturing.failed.connect(self._say_error)
         view.hovered.connect(self.showing.show_hovered)
         view.pixels.cursor_moved.connect(self.window_.status.show_place)
 
     def _show_stages(self) -> None:
         self.showing.stages_missing = self.staging.missing
-        self.showing.show_missing()
-        self.showing.show_hovered("")
 
     def _show_picture(self) -> None:
         """Bring the picture to the front when it comes."""
@@ -184,7 +253,7 @@ class Wiring(QObject):
         self.showing.show_missing()
 
     def _on_picture_taken(self, path: Path) -> None:
-        self.window_.settings = self.window_.settings.with_recent_file(path)
+        self.workspace.preferences.add_recent(path)
         self.window_.notice.hide()
         self.showing.show_view(View.STAGES)
         self.window_.canvas.fit()
@@ -208,8 +277,6 @@ class Wiring(QObject):
     def _connect_view(self) -> None:
         canvas, actions = self.window_.canvas, self.window_.actions_
         self._on("cut_picture", self.cut_saving.choose)
-        for part in (self.cut_saving, self.recorder):
-            part.failed.connect(self._say_error)
         self._on("record", self.recorder.ask)
         for view in View:
             self._on(view.value, partial(self.showing.show_view, view))
@@ -231,9 +298,8 @@ class Wiring(QObject):
         actions["log"].setChecked(True)
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
-            self._on(f"theme_{choice.value}", partial(choose_theme, self.window_, choice))
+            self._on(f"theme_{choice.value}", partial(self.window_.choose_theme, choice))
         self._on("keys", lambda: KeysWindow(self.window_, self.shortcuts).show())
-        self._on("session_1986", self.session_1986.open)
         self._on("about", lambda: show_about(self.window_))
 
     def _connect_job(self) -> None:
@@ -253,6 +319,18 @@ class Wiring(QObject):
         computation.failed.connect(self._say_error)
         computation.finished.connect(self._on_computed)
         self.window_.status.cancelled.connect(self.cancel)
+
+    def _connect_programs(self) -> None:
+        """Show what the mouse is over in the NC and Curves views, and do what the NC view has the job do."""
+        views, status, hovered = self.window_.views, self.window_.status, self.showing.show_hovered
+        for path in (views.nc.path, views.curves.path):
+            path.hovered.connect(hovered)
+        views.curves.deviation.hovered.connect(hovered)
+        views.nc.path.cursor_moved.connect(lambda x, y: status.show_place(x, y, views.nc.side.name))
+        views.curves.path.cursor_moved.connect(lambda x, y: status.show_place(x, y, views.curves.side.name))
+        self._on("curves_smooth", self.smoothing.bring_and_smooth)
+        self.nc.export_wanted.connect(self.window_.actions_["export"].trigger)
+        self.nc.compute_wanted.connect(self.window_.actions_["compute"].trigger)
 
     def _connect_canvas(self) -> None:
         canvas, window = self.window_.canvas, self.window_
@@ -343,9 +421,7 @@ class Wiring(QObject):
 
     def cancel(self) -> None:
         """Leave the running job."""
-        self.staging.cancel()
-        if self.language.cancel() or self.window_.worker.busy:
-            self.window_.worker.cancel()
+        if self.window_.activity.cancel():
             self._say("Cancelled; nothing has changed.")
 
     def _on_entered(self, text: str) -> None:

@@ -50,6 +50,8 @@ def _told(program: NcProgram) -> list[tuple[float, ...]]:
 @given(texts, st.sampled_from(Dialect))
 @example(b"F1G2X0R1Y1", Dialect.FANUC)
 @example(b"G20\nG1 F10 X1\nX1 Y.5\n", Dialect.FANUC)
+@example(b"IF [1] THEN #1=1.2.3", Dialect.FANUC)
+@example(b"#1=0\nN1 #1=#1+1\nX#1\nIF [#1 GT 2] THEN #2=[1\nIF [#1 LT 5] GOTO 1\n", Dialect.FANUC)
 def test_random_texts(text: bytes, dialect: Dialect) -> None:
     assert_lane_and_core_agree(text, dialect)
 

@@ -45,7 +45,7 @@ def metal_share(window, view):
 
 def look_closer(window, view):
     """Zoom into a real cut until its cells are fine, and out again."""
-    shown, zooming = real_shown(), Zooming(view, view)
+    shown, zooming = real_shown(), Zooming(view.model, view.painting, view)
     zooming.follow(Followed(shown.cut))
     view.show_cut(shown.picture)
     view.fit()
@@ -54,9 +54,9 @@ def look_closer(window, view):
         view.zoom_by(3.0)
         wait(lambda: view.painting.fine and not zooming.worker.busy)
         assert metal_share(window, view) > 0.7, "metal is missing round the finer part"
-    assert view.detail.pitch < shown.picture.pitch / 10
+    assert view.model.detail.pitch < shown.picture.pitch / 10
     view.fit()
-    wait(lambda: view.painting.fine and view.detail is None)
+    wait(lambda: view.painting.fine and view.model.detail is None)
     zooming.worker.finish()
 
 
@@ -91,10 +91,10 @@ def main():
     view.set_theme(LIGHT)
     window.show()
     view.show_cut(made_up(200))
-    assert view.surface is None, "a surface before the view is shown"
+    assert view.painting.surface is None, "a surface before the view is shown"
     stack.setCurrentWidget(view)
     wait(lambda: view.painting.fine)
-    assert isinstance(view.surface, GlSurface), type(view.surface)
+    assert isinstance(view.painting.surface, GlSurface), type(view.painting.surface)
     assert len(window.findChildren(QOpenGLWidget)) == 1, "more than one surface"
     wait(lambda: 0.3 < metal_share(window, view) < 0.7)
     play(window, view)

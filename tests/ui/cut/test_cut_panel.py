@@ -63,7 +63,7 @@ def test_no_area_too_deep_is_not_red(beside):
 
 
 def _near_the_middle(view, place):
-    x, y, _ = view.camera.project([place], (view.width(), view.height()))[0]
+    x, y, _ = view.model.camera.project([place], (view.width(), view.height()))[0]
     return abs(y - view.height() / 2) < 5 and 0 < x < view.width() - view.legend.width()
 
 
@@ -79,6 +79,6 @@ def test_what_is_said_of_a_place_fits_into_a_small_window(qtbot, beside):
 
 def test_the_metal_that_is_pointed_at_shows_its_line_beside_it(beside):
     panel, view = beside.window_.cut_panel, beside.window_.views.cut
-    motion = int(view.picture.move.max())
+    motion = int(view.model.picture.move.max())
     panel.show_line(motion)
-    assert panel.text.current + 1 == view.picture.moves.line[motion]
+    assert panel.text.current + 1 == view.model.picture.moves.line[motion]

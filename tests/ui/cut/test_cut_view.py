@@ -48,7 +48,7 @@ def pixels(view):
 
 
 def on_screen(view, place):
-    x, y, _ = view.camera.project(np.array([place]), (view.width(), view.height()))[0]
+    x, y, _ = view.model.camera.project(np.array([place]), (view.width(), view.height()))[0]
     return QPoint(round(x), round(y))
 
 
@@ -77,7 +77,7 @@ def drag(qtbot, view, button, by):
 
 def test_without_opengl_in_widgets_a_picture_is_painted_elsewhere(view):
     assert not widgets_have_opengl()
-    assert isinstance(view.surface, ImageSurface)
+    assert isinstance(view.painting.surface, ImageSurface)
     shown = pixels(view)
     middle = on_screen(view, (50.0, 90.0, 0.0))
     assert np.ptp(shown[middle.y(), middle.x()]) < 30
@@ -94,29 +94,29 @@ def test_nothing_is_made_before_there_is_a_cut_to_show(qtbot):
     empty = CutView()
     qtbot.addWidget(empty)
     empty.show()
-    assert empty.surface is None
+    assert empty.painting.surface is None
     assert not empty.legend.isVisible()
 
 
 def test_left_drag_turns_round_the_place_that_is_held(qtbot, view):
-    before, held = view.camera, view.probe(QPointF(300, 300))
+    before, held = view.model.camera, view.hands.probe(QPointF(300, 300))
     drag(qtbot, view, LEFT, QPoint(60, 20))
-    assert view.camera.yaw != before.yaw and view.camera.pitch > before.pitch
+    assert view.model.camera.yaw != before.yaw and view.model.camera.pitch > before.pitch
     now = on_screen(view, held.place)
     assert abs(now.x() - 300) <= 1 and abs(now.y() - 300) <= 1
 
 
 def test_middle_drag_shifts_and_does_not_turn(qtbot, view, picture):
-    before, place = view.camera, (50.0, 50.0, 0.0)
+    before, place = view.model.camera, (50.0, 50.0, 0.0)
     at = on_screen(view, place)
     drag(qtbot, view, MIDDLE, QPoint(40, -30))
-    assert (view.camera.yaw, view.camera.pitch) == (before.yaw, before.pitch)
+    assert (view.model.camera.yaw, view.model.camera.pitch) == (before.yaw, before.pitch)
     assert on_screen(view, place) - at == QPoint(40, -30)
 
 
 def test_wheel_zooms_at_the_mouse(qtbot, view):
     at = QPointF(250, 320)
-    held, scale = view.probe(at), view.camera.scale
+    held, scale = view.hands.probe(at), view.model.camera.scale
     view.wheelEvent(
         QWheelEvent(
             at,
@@ -129,7 +129,7 @@ def test_wheel_zooms_at_the_mouse(qtbot, view):
             False,
         )
     )
-    assert view.camera.scale == pytest.approx(scale * 1.44)
+    assert view.model.camera.scale == pytest.approx(scale * 1.44)
     now = on_screen(view, held.place)
     assert abs(now.x() - 250) <= 1 and abs(now.y() - 320) <= 1
 
@@ -144,34 +144,34 @@ def test_wheel_zooms_at_the_mouse(qtbot, view):
     ],
 )
 def test_digits_are_standard_views(qtbot, view, key, standard):
-    view.camera = view.camera.orbited(0.4, 0.2, np.zeros(3))
+    view.model.camera = view.model.camera.orbited(0.4, 0.2, np.zeros(3))
     qtbot.keyClick(view, key)
-    wanted = view.camera.seen_from(standard).axes
-    qtbot.waitUntil(lambda: np.allclose(view.camera.axes, wanted, atol=1e-6), timeout=5000)
+    wanted = view.model.camera.seen_from(standard).axes
+    qtbot.waitUntil(lambda: np.allclose(view.model.camera.axes, wanted, atol=1e-6), timeout=5000)
 
 
 def test_f_fits_and_a_fitted_view_stays_fitted_when_the_size_changes(qtbot, view):
-    fitted = view.camera
+    fitted = view.model.camera
     view.zoom_by(4.0)
     qtbot.keyClick(view, Qt.Key.Key_F)
-    qtbot.waitUntil(lambda: view.camera.scale == pytest.approx(fitted.scale), timeout=5000)
+    qtbot.waitUntil(lambda: view.model.camera.scale == pytest.approx(fitted.scale), timeout=5000)
     view.resize(1300, 900)
-    assert view.camera.scale > 1.2 * fitted.scale
+    assert view.model.camera.scale > 1.2 * fitted.scale
     view.zoom_by(2.0)
-    scale = view.camera.scale
+    scale = view.model.camera.scale
     view.resize(900, 600)
-    assert view.camera.scale == scale
+    assert view.model.camera.scale == scale
 
 
 def test_probe_tells_place_depth_tool_and_line(qtbot, view, picture):
     told = []
     view.hovered.connect(told.append)
     view.stand(StandardView.TOP)
-    qtbot.waitUntil(lambda: view.camera.pitch == pytest.approx(np.pi / 2), timeout=5000)
+    qtbot.waitUntil(lambda: view.model.camera.pitch == pytest.approx(np.pi / 2), timeout=5000)
     place = (34.25, 50.25)
     hover(view, on_screen(view, (*place, 0.0)))
-    assert view.hit is not None
-    row, column = view.hit.row, view.hit.column
+    assert view.model.hit is not None
+    row, column = view.model.hit.row, view.model.hit.column
     assert (column, row) == (
         pytest.approx(place[0] / picture.pitch, abs=2),
         pytest.approx(place[1] / picture.pitch, abs=2),
@@ -192,7 +192,7 @@ def test_click_picks_the_cell_and_a_drag_does_not(qtbot, view, picture):
     assert not picked
     at = on_screen(view, (34.0, 50.0, -9.0))
     qtbot.mouseClick(view, LEFT, pos=at)
-    hit = view.probe(QPointF(at))
+    hit = view.hands.probe(QPointF(at))
     assert picked == [(*hit.place, int(picture.move[hit.row, hit.column]))]
 
 
@@ -240,23 +240,23 @@ def test_a_cut_that_came_while_the_view_was_hidden_is_painted_finely_too(qtbot, 
 def test_a_section_opens_the_stock_and_the_probe_meets_its_face(qtbot, view):
     qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
     assert view.legend.slider.isVisible()
-    assert view.section.offset == -50.0
-    hit = view.probe(QPointF(on_screen(view, (80.0, 50.0, -15.0))))
+    assert view.model.section.offset == -50.0
+    hit = view.hands.probe(QPointF(on_screen(view, (80.0, 50.0, -15.0))))
     assert hit.place == pytest.approx((80.0, 50.0, -15.0), abs=0.3)
     qtbot.mouseClick(view.legend.side.buttons[Side.X], LEFT)
-    assert view.camera.axes[2, 0] < 0 and view.section.normal == (-1.0, 0.0)
+    assert view.model.camera.axes[2, 0] < 0 and view.model.section.normal == (-1.0, 0.0)
     qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
     view.legend.slider.setValue(250)
-    assert view.section.offset == -25.0
+    assert view.model.section.offset == -25.0
     qtbot.mouseClick(view.legend.side.buttons[Side.WHOLE], LEFT)
-    assert view.section is None
+    assert view.model.section is None
 
 
 def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
     view.zoom_by(2.0)
-    camera = view.camera
+    camera = view.model.camera
     view.show_cut(made_up(100))
-    assert view.camera == camera
+    assert view.model.camera == camera
     view.show_cut(None)
     assert not view.legend.isVisible()
 
@@ -273,16 +273,19 @@ def fails(scene):
 def test_a_surface_that_fails_is_replaced_and_that_is_said_once(qtbot, view):
     said = []
     view.surfacing.said.connect(said.append)
-    old, before = view.surface, pixels(view)
+    old, before = view.painting.surface, pixels(view)
     old._scene.draw = fails
     view.painting.moved()
-    qtbot.waitUntil(lambda: view.surface is not old and view.surface is not None and view.painting.fine, timeout=20_000)
+    qtbot.waitUntil(
+        lambda: view.painting.surface is not old and view.painting.surface is not None and view.painting.fine,
+        timeout=20_000,
+    )
     assert len(said) == 1
     assert "GL_CONTEXT_LOST" in said[0]
     assert np.mean(np.abs(pixels(view) - before) > 3) < 0.001
-    view.surface._scene.draw_in_steps = view.surface._scene.draw = fails
+    view.painting.surface._scene.draw_in_steps = view.painting.surface._scene.draw = fails
     view.painting.moved()
-    qtbot.waitUntil(lambda: bool(view.failure), timeout=20_000)
+    qtbot.waitUntil(lambda: bool(view.surfacing.failure), timeout=20_000)
     assert len(said) == 1
     assert view.sentence.text() == "The cut cannot be shown. The graphics system fails (GL_CONTEXT_LOST)."
     assert not view.legend.isVisible()

@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from app.ui.shell.views import View
 from app.ui.shell.wiring import Wiring
 
@@ -13,8 +13,8 @@ def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: 
     wiring.files.open_sample()
     qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=60_000)
     view = wiring.window_.views.cut
-    qtbot.waitUntil(lambda: view.picture is not None, timeout=60_000)
-    picture = view.picture
+    qtbot.waitUntil(lambda: view.model.picture is not None, timeout=60_000)
+    picture = view.model.picture
     assert picture is not None and picture.moves is not None and picture.move is not None and picture.paths is not None
     assert picture.heights.shape == (1024, 1024)
     assert (float(picture.heights.min()), picture.top, picture.floor) == (-2.0, 0.0, -10.0)
@@ -31,5 +31,5 @@ def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: 
     assert wiring.showing.view is View.NC
     assert wiring.window_.views.nc.pane.text.current + 1 == picture.moves.line[motion]
     wiring.files.new()
-    qtbot.waitUntil(lambda: view.picture is None, timeout=10_000)
+    qtbot.waitUntil(lambda: view.model.picture is None, timeout=10_000)
     assert wiring.window_.views.empty.isVisible() or wiring.showing.view is not View.CUT

@@ -74,7 +74,7 @@ def test_other_tools_and_back_to_the_jobs_own_cut(qtbot, opened):
     window.cut_form.leave.click()
     assert window.cut_panel.isVisible() and wiring.cutting.cut is foreign
     window.cut_panel.back.click()
-    assert wiring.cutting.cut.given is None and wiring.cutting.cut.picture is window.views.cut.picture
+    assert wiring.cutting.cut.given is None and wiring.cutting.cut.picture is window.views.cut.model.picture
 
 
 def test_computing_anew_leaves_the_other_program_where_it_is(qtbot, opened):

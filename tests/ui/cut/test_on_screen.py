@@ -32,7 +32,7 @@ from tests.ui.cut.made_up import made_up
 view = CutView()
 view.show()
 view.show_cut(made_up(50))
-assert view.surface is None and not view.legend.isVisible() and not view.overlay.isVisible()
+assert view.painting.surface is None and not view.legend.isVisible() and not view.overlay.isVisible()
 print(view.sentence.text())
 """
     environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "__EGL_VENDOR_LIBRARY_FILENAMES": "/nowhere.json"}

@@ -42,7 +42,7 @@ def settle(qtbot, page):
 
 def shows(page, motion):
     """Whether the view's metal is, bit for bit, what so many motions leave."""
-    want, picture = from_start(page.player.shown.cut, motion), page.view.picture
+    want, picture = from_start(page.player.shown.cut, motion), page.view.model.picture
     return np.array_equal(picture.heights, want.heights) and np.array_equal(picture.move, want.owner)
 
 
@@ -55,7 +55,7 @@ def test_it_stands_at_its_end_and_shows_no_tool(page):
     assert player.at_end
     assert page.transport.isVisible()
     assert page.view.playing.tool is None
-    assert page.view.picture is player.shown.picture
+    assert page.view.model.picture is player.shown.picture
     assert page.transport.clock.text() == f"{exact_clock(player.timeline.total)} / {exact_clock(player.timeline.total)}"
 
 
@@ -73,7 +73,7 @@ def test_anywhere_at_once(qtbot, page):
         assert page.transport.place.text().endswith(player.shown.texts[0].line(int(line) - 1))
     player.go(10**6)
     settle(qtbot, page)
-    assert np.array_equal(page.view.picture.heights, end)
+    assert np.array_equal(page.view.model.picture.heights, end)
     assert page.view.playing.tool is None
     assert np.array_equal(player.shown.picture.heights, end)
 
@@ -85,7 +85,7 @@ def test_light_and_colours_are_those_of_the_moment(qtbot, page):
         view.set_colour(colour)
         player.go(40 + 20 * len(colour.value))
         settle(qtbot, page)
-        picture = view.picture
+        picture = view.model.picture
         assert np.array_equal(picture.relief, relief(picture.heights, picture.pitch))
         want = values_of(type(picture)(**{**vars_of(picture), "values": {}}), colour, player.shown.picture.span)
         assert np.array_equal(picture.values[colour], want)
@@ -102,10 +102,11 @@ def test_colours_chosen_on_the_way_are_of_the_moment(qtbot, page):
     settle(qtbot, page)
     view.set_colour(CutColour.DEVIATION)
     qtbot.waitUntil(
-        lambda: view.colours.told is CutColour.DEVIATION and CutColour.DEVIATION in view.picture.values, timeout=10_000
+        lambda: view.model.told is CutColour.DEVIATION and CutColour.DEVIATION in view.model.picture.values,
+        timeout=10_000,
     )
     settle(qtbot, page)
-    end, now = player.shown.picture, view.picture
+    end, now = player.shown.picture, view.model.picture
     left = now.heights > end.heights + 0.5
     assert left.sum() > 10_000
     assert np.allclose(now.deviation[left], (end.deviation + now.heights - end.heights)[left])
@@ -182,7 +183,7 @@ def test_within_a_long_move_the_tool_goes_on(qtbot, page):
     player.set_pace(Pace.TIME, 1.0)
     player.go(long)
     settle(qtbot, page)
-    before = page.view.picture.heights.sum()
+    before = page.view.model.picture.heights.sum()
     page.transport.play.click()
     qtbot.waitUntil(lambda: player.at.fraction > 0, timeout=10_000)
     qtbot.wait(300)
@@ -190,7 +191,7 @@ def test_within_a_long_move_the_tool_goes_on(qtbot, page):
     assert not player.playing
     settle(qtbot, page)
     assert player.at.motion == long
-    assert page.view.picture.heights.sum() < before
+    assert page.view.model.picture.heights.sum() < before
     assert not np.allclose(page.view.playing.tip, timeline.place(Moment(long)))
 
 
@@ -214,11 +215,11 @@ def test_a_click_on_the_plot_goes_there(qtbot, page):
 def test_a_place_is_picked_on_the_metal_of_the_moment(qtbot, page):
     player, view = page.player, page.view
     row, column = np.argwhere(player.shown.picture.move == player.shown.picture.move.max())[0].tolist()
-    assert view.picture.height_at(*place_of(view.picture, row, column)) < 0
+    assert view.model.picture.height_at(*place_of(view.model.picture, row, column)) < 0
     player.go(2)
     settle(qtbot, page)
-    assert view.picture.height_at(*place_of(view.picture, row, column)) == 0
-    assert view.picture.move_at(row, column) == -1
+    assert view.model.picture.height_at(*place_of(view.model.picture, row, column)) == 0
+    assert view.model.picture.move_at(row, column) == -1
 
 
 def place_of(picture, row, column):
@@ -229,7 +230,7 @@ def test_another_cut_is_followed_from_its_end(qtbot, computed, page):
     page.player.go(30)
     settle(qtbot, page)
     computed.files.new()
-    qtbot.waitUntil(lambda: page.view.picture is None, timeout=10_000)
+    qtbot.waitUntil(lambda: page.view.model.picture is None, timeout=10_000)
     assert page.player.timeline is None
     assert not page.transport.isVisible()
     assert page.view.playing.tool is None
@@ -252,7 +253,7 @@ def test_times_are_told_to_a_tenth() -> None:
 def test_it_is_recorded(qtbot, computed, page, tmp_path, form):
     page.player.go(50)
     settle(qtbot, page)
-    before = page.view.picture.heights.copy()
+    before = page.view.model.picture.heights.copy()
     computed.recorder.ask()
     assert page.sheet.isVisible()
     page.sheet.plan = RecordPlan(0.6, 10, 200)
@@ -269,7 +270,7 @@ def test_it_is_recorded(qtbot, computed, page, tmp_path, form):
     assert len(frames) == 6
     assert {frame.shape[1] for frame in frames} == {200}
     assert len({frame[..., :3].tobytes() for frame in frames}) >= 4  # at first the tool is changed
-    assert np.array_equal(page.view.picture.heights, before)
+    assert np.array_equal(page.view.model.picture.heights, before)
 
 
 @pytest.mark.exhaustive
@@ -278,15 +279,15 @@ def test_a_rest_is_looked_at_closer_at_its_own_moment(qtbot, computed, page):
     player.go(60)
     settle(qtbot, page)
     x, y, z = view.playing.tip
-    view.look_now(replace(view.camera, target=(x, y, z), scale=12 * view.camera.scale))
-    qtbot.waitUntil(lambda: view.detail is not None, timeout=30_000)
-    low, high = view.detail.low, view.detail.high
-    assert view.detail.pitch < 0.5 * view.picture.pitch
+    view.look_now(replace(view.model.camera, target=(x, y, z), scale=12 * view.model.camera.scale))
+    qtbot.waitUntil(lambda: view.model.detail is not None, timeout=30_000)
+    low, high = view.model.detail.low, view.model.detail.high
+    assert view.model.detail.pitch < 0.5 * view.model.picture.pitch
     options = CutOptions(1024, (low[0], low[1], high[0], high[1]), judge=False, stop=60)
     want = cut_of(player.shown.cut.setup, options).cut.heights
-    assert np.array_equal(view.detail.heights, want)
+    assert np.array_equal(view.model.detail.heights, want)
     finished = cut_of(player.shown.cut.setup, replace(options, stop=None)).cut.heights
-    assert not np.array_equal(view.detail.heights, finished)
+    assert not np.array_equal(view.model.detail.heights, finished)
     player.go(3)
     settle(qtbot, page)
-    assert view.detail is None or not np.array_equal(view.detail.heights, want)
+    assert view.model.detail is None or not np.array_equal(view.model.detail.heights, want)

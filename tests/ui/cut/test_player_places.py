@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.core.errors import HitofudeError
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from app.ui.shell.views import View
 from app.ui.views.cut import player as player_file
 from app.ui.views.cut.player import Pace
@@ -23,12 +23,14 @@ __all__ = ["page"]
 @pytest.mark.exhaustive
 def test_a_cut_that_was_computed_anew_is_looked_at_closer_without_a_nudge(qtbot, computed, page):
     view = page.view
-    view.look_now(replace(view.camera, scale=12 * view.camera.scale))
-    qtbot.waitUntil(lambda: view.detail is not None, timeout=30_000)
-    before = view.picture
+    view.look_now(replace(view.model.camera, scale=12 * view.model.camera.scale))
+    qtbot.waitUntil(lambda: view.model.detail is not None, timeout=30_000)
+    before = view.model.picture
     computed.window_.actions_["compute"].trigger()
-    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT and view.picture is not before, timeout=60_000)
-    qtbot.waitUntil(lambda: view.detail is not None and page.player.timeline is not None, timeout=30_000)
+    qtbot.waitUntil(
+        lambda: computed.computation.state is State.CURRENT and view.model.picture is not before, timeout=60_000
+    )
+    qtbot.waitUntil(lambda: view.model.detail is not None and page.player.timeline is not None, timeout=30_000)
 
 
 @pytest.mark.exhaustive
@@ -43,14 +45,14 @@ def test_what_is_not_seen_is_not_played_and_nothing_piles_up(qtbot, computed, pa
         player.go(motion)
         settle(qtbot, page)
     waiting = page.view.painting._patches
-    assert sum(patch.heights.size for patch in waiting) <= page.view.picture.heights.size
+    assert sum(patch.heights.size for patch in waiting) <= page.view.model.picture.heights.size
     computed.showing.show_view(View.CUT)
     qtbot.waitUntil(lambda: page.view.painting.fine and not waiting, timeout=20_000)
-    shown = page.view.surface._scene._whole
-    data = np.frombuffer(page.view.surface.work(lambda _: shown._heights.read()), np.float32).reshape(
-        page.view.picture.heights.shape
+    shown = page.view.painting.surface._scene._whole
+    data = np.frombuffer(page.view.painting.surface.work(lambda _: shown._heights.read()), np.float32).reshape(
+        page.view.model.picture.heights.shape
     )
-    assert np.array_equal(data, page.view.picture.heights)
+    assert np.array_equal(data, page.view.model.picture.heights)
 
 
 @pytest.mark.exhaustive
@@ -58,10 +60,10 @@ def test_a_new_scene_shows_the_moment_too(qtbot, page):
     page.player.go(30)
     settle(qtbot, page)
     qtbot.waitUntil(lambda: page.view.painting.fine, timeout=20_000)
-    before = page.view.surface.work(lambda scene: scene.pixels().copy())
+    before = page.view.painting.surface.work(lambda scene: scene.pixels().copy())
     page.view.painting.renew()
     qtbot.waitUntil(lambda: page.view.painting.fine and not page.view.painting.due, timeout=20_000)
-    after = page.view.surface.work(lambda scene: scene.pixels().copy())
+    after = page.view.painting.surface.work(lambda scene: scene.pixels().copy())
     assert np.mean(np.any(before != after, axis=2)) < 1e-3
 
 
@@ -84,14 +86,14 @@ def test_the_clock_goes_on_while_the_control_waits_but_not_for_long(qtbot, page)
 
 def test_profile_and_facts_are_those_of_the_moment(qtbot, page):
     view, player = page.view, page.player
-    x0, y0, x1, y1 = *view.picture.low[:2], *view.picture.high[:2]
+    x0, y0, x1, y1 = *view.model.picture.low[:2], *view.model.picture.high[:2]
     view.show_line(((x0, (y0 + y1) / 2, 0.0), (x1, (y0 + y1) / 2, 0.0)))
     end = view.profile.drawn.heights.copy()
     player.go(2)
     settle(qtbot, page)
     assert view.profile.drawn.heights.min() == 0.0
     assert end.min() < 0.0
-    assert view.hit is None
+    assert view.model.hit is None
 
 
 def test_what_cannot_be_played_is_said_once(qtbot, page, monkeypatch):
@@ -152,7 +154,7 @@ def test_the_end_of_the_window_is_the_end_of_playing(qtbot, computed, page):
     page.player.go(0)
     settle(qtbot, page)
     page.player.toggle(1)
-    computed.window_.closed.emit()
+    computed.window_.activity.ended.emit()
     assert not page.player.playing
     assert page.player.timeline is None  # what it kept is let go of
-    assert page.view.picture is None
+    assert page.view.model.picture is None

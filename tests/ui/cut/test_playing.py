@@ -68,7 +68,7 @@ def test_a_tool_that_moves_sixty_times_a_second_is_painted_coarsely_and_finely_o
     view.painting.rested.connect(lambda: rested.append(True))
     view.painting._rest.setInterval(60_000)  # however busy the machine is, it does not rest before it is told to
     paint = view.painting.paint
-    view.surface._paint = lambda scene: (painted.append(view.painting.due), paint(scene))
+    view.painting.surface._paint = lambda scene: (painted.append(view.painting.due), paint(scene))
     for k in range(40):
         for part in (0.0, 0.25, 0.5, 0.75):
             view.playing.show_tool(BALL, (TIP[0] + 0.1 * (k + part), TIP[1], TIP[2]))
@@ -87,30 +87,30 @@ def test_a_tool_that_moves_sixty_times_a_second_is_painted_coarsely_and_finely_o
 
 def test_cells_that_change_are_shown_and_kept(qtbot, view):
     before = rest(qtbot, view)
-    heights, colours = view.picture.heights.copy(), view.picture.values[CutColour.METAL].copy()
+    heights, colours = view.model.picture.heights.copy(), view.model.picture.values[CutColour.METAL].copy()
     place = (slice(10, 30), slice(120, 190))
     heights[place], colours[place] = -6.0, 0
-    view.picture.move[place] = 0
-    view.playing.patch(patch_of(heights, colours, view.picture.pitch, place))
+    view.model.picture.move[place] = 0
+    view.painting.patch(patch_of(heights, colours, view.model.picture.pitch, place))
     after = rest(qtbot, view)
     assert np.any(after != before)
-    assert view.probe(view.rect().center().toPointF()) is not None
-    assert np.array_equal(view.picture.heights, heights)
+    assert view.hands.probe(view.rect().center().toPointF()) is not None
+    assert np.array_equal(view.model.picture.heights, heights)
     view.painting.renew()
     assert np.array_equal(rest(qtbot, view), after)
     view.set_colour(CutColour.DEPTH)
-    qtbot.waitUntil(lambda: view.colours.told in view.picture.values and view.painting.fine, timeout=20_000)
-    assert view.picture.values[CutColour.DEPTH][20, 150] != view.picture.values[CutColour.DEPTH][5, 150]
+    qtbot.waitUntil(lambda: view.model.told in view.model.picture.values and view.painting.fine, timeout=20_000)
+    assert view.model.picture.values[CutColour.DEPTH][20, 150] != view.model.picture.values[CutColour.DEPTH][5, 150]
 
 
 def test_cells_and_colours_that_change_together_are_those_of_the_picture(qtbot, view):
-    heights, colours = view.picture.heights.copy(), view.picture.values[CutColour.METAL].copy()
+    heights, colours = view.model.picture.heights.copy(), view.model.picture.values[CutColour.METAL].copy()
     place = (slice(10, 30), slice(120, 190))
     heights[place], colours[place] = -6.0, 0
-    view.playing.patch(patch_of(heights, colours, view.picture.pitch, place))
-    view.picture.move[place] = 0
+    view.painting.patch(patch_of(heights, colours, view.model.picture.pitch, place))
+    view.model.picture.move[place] = 0
     view.set_colour(CutColour.TOOL)
-    qtbot.waitUntil(lambda: CutColour.TOOL in view.picture.values, timeout=20_000)
+    qtbot.waitUntil(lambda: CutColour.TOOL in view.model.picture.values, timeout=20_000)
     shown = rest(qtbot, view)
     view.painting.renew()
     assert np.array_equal(rest(qtbot, view), shown)
@@ -140,16 +140,16 @@ def test_wedges_have_a_row_for_a_ball_and_are_off_at_first(qtbot, view):
 
 
 def test_a_new_scene_shows_all_of_it_again(qtbot, view):
-    heights, colours = view.picture.heights.copy(), view.picture.values[CutColour.METAL].copy()
+    heights, colours = view.model.picture.heights.copy(), view.model.picture.values[CutColour.METAL].copy()
     place = (slice(10, 30), slice(120, 190))
     heights[place], colours[place] = -6.0, 0
     tips = np.array([[20.0, 30.0, -6.0], [30.0, 32.0, -7.0], TIP])
     view.playing.show_tool(BALL, TIP)
     view.playing.show_wedges(wedges_picture(tips, BALL))
     view.legend.wedges.click()
-    view.playing.patch(patch_of(heights, colours, view.picture.pitch, place))
+    view.painting.patch(patch_of(heights, colours, view.model.picture.pitch, place))
     before = rest(qtbot, view)
-    surface = view.surface
+    surface = view.painting.surface
     with surface._context:
         surface._scene.release()
         surface._scene = CutScene(surface._context)

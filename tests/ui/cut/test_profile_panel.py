@@ -25,17 +25,17 @@ def view(qtbot):
 
 
 def at(view, place):
-    x, y, _ = view.camera.project(np.array([place]), (view.width(), view.height()))[0]
+    x, y, _ = view.model.camera.project(np.array([place]), (view.width(), view.height()))[0]
     return QPoint(round(x), round(y))
 
 
 def test_ctrl_drag_draws_a_line_and_its_profile_and_does_not_turn(qtbot, view):
-    camera, begin, end = view.camera, at(view, (5.0, 50.0, 0.0)), at(view, (95.0, 50.0, 0.0))
+    camera, begin, end = view.model.camera, at(view, (5.0, 50.0, 0.0)), at(view, (95.0, 50.0, 0.0))
     qtbot.mousePress(view, LEFT, CTRL, begin)
     qtbot.mouseMove(view, (begin + end) / 2)
     qtbot.mouseMove(view, end)
     qtbot.mouseRelease(view, LEFT, CTRL, end)
-    assert view.camera == camera
+    assert view.model.camera == camera
     drawn = view.profile.drawn
     assert drawn is not None and drawn.borders[-1] == pytest.approx(90.0, abs=1.5)
     assert (drawn.heights.max(), drawn.heights.min()) == (0.0, pytest.approx(-9.0, abs=0.3))

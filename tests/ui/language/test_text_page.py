@@ -7,7 +7,7 @@ from PySide6.QtGui import QTextCharFormat
 from app.core.resources import resource
 from app.drafting.document import Document
 from app.drafting.language.write import draw_text
-from app.formats.draw import read_draw
+from app.formats.draw.draw import read_draw
 
 CONTROL = Qt.KeyboardModifier.ControlModifier
 SAMPLE = resource("samples", "plate.draw").read_text(encoding="utf-8")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
 
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.core.settings import load_settings
 from app.gcode.interpreter.dialect import Dialect
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from app.ui.shell.views import View
 from app.ui.views.nc.motion_picture import PathColour
 from app.ui.views.nc.motion_shapes import Side
@@ -193,7 +193,7 @@ def test_dropped_program_is_shown_and_in_the_recent_files(qtbot, wiring, data):
     QApplication.sendEvent(wiring.window_, drop)
     qtbot.waitUntil(lambda: nc_of(wiring).shown is not None, timeout=WAIT_MS)
     assert not wiring.window_.views.empty.isVisible()
-    assert wiring.window_.settings.recent_files[0] == str(path)
+    assert wiring.window_.preferences.settings.recent_files[0] == str(path)
     wiring.window_.close()
     assert load_settings().recent_files[0] == str(path)
 

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 
 from app.model.operation import ContourOperation, PocketOperation
-from app.ui.shell.computation import State
+from app.ui.framework.computation import State
 from app.ui.shell.views import View
 from app.ui.views.session1986.questions import Ask
 from tests.ui.conftest import WAIT_MS

@@ -48,7 +48,7 @@ def test_a_scene_that_is_opened_comes_to_the_front(opened):
     assert not window.views.empty.isVisible()
     assert not window.side.isVisible()
     assert window.scene_side.isVisible()
-    assert window.settings.recent_files[0] == str(COMPOUND.absolute())
+    assert window.preferences.settings.recent_files[0] == str(COMPOUND.absolute())
     assert {each.role for each in shown.space.strands} == {Role.PATH, Role.LINK, Role.RAPID, Role.PLUNGE}
     assert f"{len(shown.computed.scene.surfaces)} surfaces" in window.views.surfaces.summary
 

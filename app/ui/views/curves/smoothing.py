@@ -5,60 +5,42 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError
 from ....core.progress import Progress
+from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.log import Log
-from ...shell.main_window import MainWindow
-from ...shell.showing import Showing
-from ...shell.views import View
+from ...framework.workspace import Workspace
 from ..nc.control import NcControl
 from ..nc.motion_picture import MotionPicture
 from ..nc.motion_shapes import Side
 from ..nc.reading import FILTER, Reading, Shown
+from .curves_panel import CurvesPanel
 from .curves_shown import CurvesShown, Layers, layers, smoothed
-from .curves_view import picture_of
+from .curves_view import CurvesView, picture_of
 
 
-class Smoothing(QObject):
-    """Follows the NC view: its program is the one that is smoothed.
+class Smoothing(Controller):
+    """Follows the NC view: its program is the one that is smoothed."""
 
-    Signals:
-        failed(sentence).
-    """
-
-    failed = Signal(str)
-
-    def __init__(self, window: MainWindow, nc: NcControl, showing: Showing, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._nc, self._showing, self._log = window, nc, showing, log
-        self._view, self._panel = window.views.curves, window.curves_panel
+    def __init__(self, view: CurvesView, panel: CurvesPanel, nc: NcControl, workspace: Workspace) -> None:
+        super().__init__(view)
+        self._view, self._panel, self._nc = view, panel, nc
+        self._preferences, self._log = workspace.preferences, workspace.log
         self._followed: Shown | None = None
-        self._filled = False
+        self._filled, self._seen = False, False
         self.reading = Reading(self)
         self.reading.failed.connect(self._on_failed)
-        self.reading.progress.connect(window.status.show_progress)
-        self.reading.busy_changed.connect(self._on_busy)
-        window.status.cancelled.connect(self.reading.worker.cancel)
-        window.actions_["cancel"].triggered.connect(lambda *_: self.reading.worker.cancel())
-        window.closed.connect(self.reading.worker.finish)
+        self.reading.worker.busy_changed.connect(panel.show_busy)
+        workspace.activity.follow(self.reading.worker)
         nc.changed.connect(self._follow)
-        showing.view_changed.connect(self._on_view)
         self._panel.smooth_asked.connect(self.smooth_or_cancel)
         self._panel.save_asked.connect(self.choose_place)
         self._panel.nc_asked.connect(self.open_in_nc)
         self._view.side_wanted.connect(self._draw_side)
-        self._view.path.hovered.connect(showing.show_hovered)
-        self._view.deviation.hovered.connect(showing.show_hovered)
-        self._view.spotted.connect(window.status.show_message)
-        self._view.path.cursor_moved.connect(
-            lambda right, up: window.status.show_place(right, up, self._view.side.name)
-        )
-        window.actions_["curves_smooth"].triggered.connect(lambda *_: self._smooth_from_menu())
+        self._view.spotted.connect(self.said)
 
     def smooth_or_cancel(self) -> None:
         """Smooth the program as the form says; while that is done, leave it."""
@@ -67,7 +49,7 @@ class Smoothing(QObject):
         if self.reading.worker.busy:
             self.reading.worker.cancel()
             return
-        shown = self._window.views.nc.shown
+        shown = self._nc.shown
         if shown is None:
             return
         try:
@@ -83,8 +65,8 @@ class Smoothing(QObject):
         curves = self._view.curves
         if curves is None:
             return
-        start = str(Path(self._window.settings.last_folder or Path.home()) / curves.now.source.name)
-        name, _ = QFileDialog.getSaveFileName(self._window, "Save smoothed program", start, FILTER)
+        start = str(self._preferences.last_folder / curves.now.source.name)
+        name, _ = QFileDialog.getSaveFileName(self._view, "Save smoothed program", start, FILTER)
         if name:
             self.save(Path(name))
 
@@ -99,20 +81,23 @@ class Smoothing(QObject):
             self.failed.emit(str(error))
             return
         self._log.note(f"save {path.name}", f"{counted(len(curves.now.text), 'line')} written to {path}")
-        self._window.status.show_message(f"{path.name} is written.")
+        self.said.emit(f"{path.name} is written.")
 
     def open_in_nc(self) -> None:
         """Show the new text in the NC view; it is in no file yet."""
         if self._view.curves is not None:
             self._nc.show_text(self._view.curves.now.source)
 
-    def _smooth_from_menu(self) -> None:
-        self._showing.show_view(View.CURVES)
+    def bring_and_smooth(self) -> None:
+        """Have the view at the front and smooth, unless that is being done."""
+        self.front_wanted.emit()
         if not self.reading.worker.busy:
             self.smooth_or_cancel()
 
-    def _on_view(self, view: View) -> None:
-        if view is View.CURVES:
+    def see(self, seen: bool) -> None:
+        """Follow the NC view's program while the view is at the front."""
+        self._seen = seen
+        if seen:
             self._fill()
             self._follow()
 
@@ -127,8 +112,8 @@ class Smoothing(QObject):
 
     def _follow(self) -> None:
         """Show the NC view's program when it is another one; curves of the one before are of no use any more."""
-        shown = self._window.views.nc.shown
-        if self._showing.view is not View.CURVES or (shown is self._followed and shown is not None):
+        shown = self._nc.shown
+        if not self._seen or (shown is self._followed and shown is not None):
             return
         self.reading.worker.cancel()
         self._followed = shown
@@ -136,7 +121,7 @@ class Smoothing(QObject):
         self._panel.show_reason("")
         self._panel.show_result(None)
         self._view.show_program(shown)
-        self._showing.show_missing()
+        self.changed.emit()
 
     def _on_smoothed(self, curves: CurvesShown) -> None:
         if curves.was is not self._followed:
@@ -144,17 +129,11 @@ class Smoothing(QObject):
         self._panel.show_result(curves.done)
         self._view.show_curves(curves)
         self._log.note(f"smooth {curves.was.source.name}", self._panel.title.text())
-        self._showing.show_hovered("")
+        self.changed.emit()
 
     def _on_failed(self, sentence: str) -> None:
         self._panel.show_reason(sentence)
         self.failed.emit(sentence)
-
-    def _on_busy(self, busy: bool) -> None:
-        self._panel.show_busy(busy)
-        self._window.actions_["cancel"].setEnabled(busy or self._window.worker.busy)
-        if busy or not self._window.worker.busy:
-            self._window.status.show_progress(0.0 if busy else None)
 
     def _draw_side(self, side: Side) -> None:
         """Have the side prepared that is missing; a job on its way ends first, and what it shows asks again."""

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QObject, Signal
 
 from ....core.progress import Progress
 from ...framework.theme import LIGHT, Theme
 from ...framework.worker import Worker
-from .colouring import Colouring, ColourKey, CutColour, key_of, told, values_of
+from .colouring import Colouring, ColourKey, CutColour, key_of, values_of
+from .cut_model import CutModel
 from .inks import inks_of
 from .picture import CutPicture
-
-if TYPE_CHECKING:
-    from .cut_view import CutView
 
 
 def work_out(pictures: tuple[CutPicture, ...], colour: CutColour, progress: Progress) -> None:
@@ -31,30 +27,24 @@ class Colours(QObject):
         known(): they are those that were asked for.
 
     Attributes:
-        asked: what the colours shall tell. theme: by day or by night.
+        theme: by day or by night.
     """
 
     known = Signal()
 
-    def __init__(self, view: CutView) -> None:
-        super().__init__(view)
-        self._view = view
-        self.asked, self.theme = CutColour.METAL, LIGHT
+    def __init__(self, model: CutModel, parent: QObject) -> None:
+        super().__init__(parent)
+        self._model, self.theme = model, LIGHT
         self.worker = Worker(self, head_start_s=0.0)
         self.worker.done.connect(lambda _: self.refresh())
-        view.destroyed.connect(lambda: self.worker.finish())
-
-    @property
-    def told(self) -> CutColour:
-        """What they tell: METAL where what is asked for is not known."""
-        return told(self._view.picture, self.asked) if self._view.picture is not None else CutColour.METAL
+        parent.destroyed.connect(lambda: self.worker.finish())
 
     def refresh(self) -> None:
         """Tell that the colours are known, or work them out first."""
-        whole, detail = self._view.picture, self._view.detail
+        whole, detail = self._model.picture, self._model.detail
         if whole is None:
             return
-        colour = self.told
+        colour = self._model.told
         pictures = (whole,) if detail is None else (whole, detail)
         if all(colour in picture.values for picture in pictures):
             self.known.emit()
@@ -63,11 +53,11 @@ class Colours(QObject):
 
     def of_whole(self, picture: CutPicture) -> Colouring:
         """Return the colours of the whole cut, once they are known."""
-        return Colouring(picture.values[self.told], self.key(picture))
+        return Colouring(picture.values[self._model.told], self.key(picture))
 
     def key(self, picture: CutPicture) -> ColourKey:
         """Return what they mean."""
-        return key_of(picture, self.told, inks_of(self.theme), picture.span)
+        return key_of(picture, self._model.told, inks_of(self.theme), picture.span)
 
     def set_theme(self, theme: Theme) -> None:
         """Paint by day or by night; what the cells tell stays."""

@@ -84,7 +84,7 @@ class CutPage(QWidget):
         self.sheet.move(self.width() - self.sheet.width() - 12, self.height() - below - self.sheet.height() - 8)
 
     def _prepare(self) -> None:
-        if self.isVisible() and self.view.picture is not None:
+        if self.isVisible() and self.view.model.picture is not None:
             self.player.prepare()
 
     def _on_state(self) -> None:

@@ -17,16 +17,17 @@ from .camera import Camera, StandardView
 from .colouring import CutColour, possible
 from .colours import Colours
 from .cut_legend import CutLegend, Side
+from .cut_model import CutModel
 from .hands import KEYS, Hands
 from .inks import look_of
 from .overlay import CutOverlay, Line, Pin, Probe
 from .overlay_words import facts_of, place_of
 from .painting import Painting
-from .picking import Hit, Section, pick_finest
+from .picking import Hit, Section
 from .picture import CutPicture
 from .profile import profile
 from .profile_panel import HEIGHT, ProfilePanel
-from .surface import GlSurface, ImageSurface, pixel_size
+from .surface import pixel_size
 from .surfacing import Surfacing
 
 _NOTCH, _CROWDED_PX = 1.2, 6.0
@@ -43,12 +44,8 @@ class CutView(QWidget):
         none. hovered(sentence): what is under the mouse, or "". cursor_moved(x, y): the place under the mouse, mm.
 
     Attributes:
-        picture: what is shown; None = nothing. detail: a part of it that was cut again with finer cells; None = there
-            is none.
-        colours: of both. camera: from where they are seen, in the screen's px.
-        playing: the tool at its place, and cells that change. hit: the cell under the mouse. failure: why nothing can
-            be shown here, or "".
-        surfacing: gives it what it is painted on.
+        model: what is shown and from where. colours: of the metal. painting: when it is painted, and on what.
+        playing: the tool at its place. hands: mouse and keys. surfacing: gives it what it is painted on.
     """
 
     cell_picked = Signal(float, float, float, int)
@@ -57,17 +54,10 @@ class CutView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.picture: CutPicture | None = None
-        self.detail: CutPicture | None = None
-        self.camera = Camera()
-        self.section: Section | None = None
-        self.hit: Hit | None = None
-        self.failure = ""
-        self.surface: GlSurface | ImageSurface | None = None
-        self.painting, self.colours, self._hands = Painting(self), Colours(self), Hands(self)
+        self.model = model = CutModel()
+        self.painting, self.colours, self.hands = Painting(model, self), Colours(model, self), Hands(model, self)
         self.playing = self.painting.playing
-        self._shown = frozenset(int(look) for look in Look)
-        self._fitted, self.surfacing = True, Surfacing(self)
+        self._fitted, self.surfacing = True, Surfacing(self.painting, self)
         self._side, self._signs = Side.WHOLE, (1.0, 1.0)
         self.sentence = QLabel()
         self.sentence.setProperty("role", "muted")
@@ -77,7 +67,7 @@ class CutView(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.sentence)
         self.overlay, self.legend, self.profile = CutOverlay(self), CutLegend(self), ProfilePanel(self)
-        self._way = (self.camera, self.camera)
+        self._way = (model.camera, model.camera)
         self._glide = QVariantAnimation(self)
         self._glide.setDuration(GLIDE_MS)
         self._glide.setEasingCurve(QEasingCurve.Type.OutCubic)
@@ -97,16 +87,35 @@ class CutView(QWidget):
         self.legend.section_chosen.connect(self._on_section)
         self.profile.closed.connect(lambda: self.show_line(None))
         self.colours.known.connect(self._show_colours)
+        self.playing.has_wedges.connect(self.legend.show_wedges)
+        self.playing.facet.connect(self.legend.tell_facet)
+        self.surfacing.given_up.connect(self._give_up)
+        self.hands.looked.connect(self.look_now)
+        self.hands.glided.connect(self.glide_to)
+        self.hands.pointed.connect(self.hover)
+        self.hands.held.connect(lambda at: self.show_hit(None, at))
+        self.hands.drew.connect(self.show_line)
+        self.hands.clicked.connect(self._pick)
         self.overlay.hide()
         self.legend.hide()
 
+    def _give_up(self, failure: str) -> None:
+        """Say why nothing can be shown here."""
+        self.sentence.setText(failure)
+        self.overlay.hide()
+        self.legend.hide()
+
+    def _pick(self) -> None:
+        if (hit := self.model.hit) is not None:
+            self.cell_picked.emit(*hit.place, hit.move)
+
     def show_cut(self, picture: CutPicture | None) -> None:
         """Show another cut; the view stays unless the stock is another one."""
-        before, self.picture, self.detail = self.picture, picture, None
+        before, self.model.picture, self.model.detail = self.model.picture, picture, None
         self.overlay.show_probe(None)
         self.overlay.show_pin(None)
         self.show_line(None)
-        self.hit = None
+        self.model.hit = None
         self.overlay.setVisible(picture is not None)
         self.legend.setVisible(picture is not None)
         if picture is None:
@@ -132,15 +141,15 @@ class CutView(QWidget):
         area = float(np.prod((picture.high - picture.low)[:2]))
         for sample in (Sample.POCKET, Sample.CONTOUR):
             length = picture.paths.length(int(_LOOKS[sample])) if picture.paths is not None else 0.0
-            self.legend.rows[sample].setChecked(length * _CROWDED_PX < area * self.camera.scale)
+            self.legend.rows[sample].setChecked(length * _CROWDED_PX < area * self.model.camera.scale)
 
     def show_detail(self, detail: CutPicture | None) -> None:
         """Show a part of the cut in finer cells, or only the whole again."""
-        if self.picture is None or detail is self.detail:
+        if self.model.picture is None or detail is self.model.detail:
             return
-        self.detail = detail
-        colour = self.colours.told
-        self.overlay.show_pitch((detail or self.picture).pitch, finer=detail is not None)
+        self.model.detail = detail
+        colour = self.model.told
+        self.overlay.show_pitch((detail or self.model.picture).pitch, finer=detail is not None)
         if self.overlay.line is not None:
             self.show_line(self.overlay.line)
         if detail is None or colour in detail.values:
@@ -150,12 +159,12 @@ class CutView(QWidget):
 
     @property
     def colour(self) -> CutColour:
-        """What the colours of the metal tell."""
-        return self.colours.asked
+        """What the colours of the metal shall tell."""
+        return self.model.asked
 
     def set_colour(self, colour: CutColour) -> None:
         """Let the colours of the metal tell something else."""
-        self.colours.asked = colour
+        self.model.asked = colour
         self.colours.refresh()
 
     def set_theme(self, theme: Theme) -> None:
@@ -164,7 +173,7 @@ class CutView(QWidget):
 
     def fit(self) -> None:
         """Show the whole stock in the direction that is looked in."""
-        if self.picture is not None:
+        if self.model.picture is not None:
             self.glide_to(self._fitted_camera())
             self._fitted = True
 
@@ -172,12 +181,12 @@ class CutView(QWidget):
         """Zoom; what is seen at a place, by default in the middle, stays there."""
         ratio = self.devicePixelRatioF()
         place = at * ratio if at is not None else QPointF(*pixel_size(self)) / 2
-        self.look_now(self.camera.zoomed(factor, (place.x(), place.y()), pixel_size(self)))
+        self.look_now(self.model.camera.zoomed(factor, (place.x(), place.y()), pixel_size(self)))
 
     def stand(self, view: StandardView) -> None:
         """Look from a standard direction at the whole stock."""
-        if self.picture is not None:
-            self.glide_to(self._fitted_camera(self.camera.seen_from(view)))
+        if self.model.picture is not None:
+            self.glide_to(self._fitted_camera(self.model.camera.seen_from(view)))
             self._fitted = True
 
     def go_to(self, pin: Pin, field: float) -> None:
@@ -186,13 +195,16 @@ class CutView(QWidget):
         Args:
             pin: the place. field: about how much round it should be seen, mm.
         """
-        if self.picture is None:
+        if self.model.picture is None:
             return
         self.overlay.show_pin(pin)
         width, height = pixel_size(self)
-        field = min(field, _MOST_OF_STOCK * float(np.max((self.picture.high - self.picture.low)[:2])))
+        field = min(field, _MOST_OF_STOCK * float(np.max((self.model.picture.high - self.model.picture.low)[:2])))
         towards = replace(
-            self.camera, target=pin.place, pitch=max(self.camera.pitch, _STEEP), scale=min(width, height) / field
+            self.model.camera,
+            target=pin.place,
+            pitch=max(self.model.camera.pitch, _STEEP),
+            scale=min(width, height) / field,
         )
         self._fitted = False
         self.glide_to(towards.panned(-self._covered() / 2, 0.0))
@@ -203,57 +215,44 @@ class CutView(QWidget):
         self._fitted = False
         self._look(camera)
 
-    def probe(self, at: QPointF) -> Hit | None:
-        """Return the cell that is seen at a place of the widget, px; None beside the metal."""
-        if self.picture is None:
-            return None
-        place = at * self.devicePixelRatioF()
-        return pick_finest(
-            self.picture, self.detail, self.camera.ray((place.x(), place.y()), pixel_size(self)), self.section
-        )
-
     def metal_changed(self) -> None:
         """The picture's cells have changed in place: what is told of single ones is told anew, or no more."""
         if self.overlay.line is not None:
             self.show_line(self.overlay.line)
         self.show_hit(None, QPointF())
 
-    def frame_parts(self) -> tuple[Camera, Section | None, frozenset[int]]:
-        """Return what is to be painted: from where, what is taken away, and which paths."""
-        return self.camera, self.section, self._shown
-
     def showEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Make the surface when it is first needed: a window with OpenGL in it costs more to paint."""
-        if self.picture is not None:
+        if self.model.picture is not None:
             self.surfacing.need()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Keep what was fitted fitted."""
-        for widget in (self.surface, self.overlay):
+        for widget in (self.painting.surface, self.overlay):
             if widget is not None:
                 widget.setGeometry(self.rect())
         self.profile.setGeometry(0, self.height() - HEIGHT, self.width(), HEIGHT)
         self._place_legend()
-        if self.picture is not None and self._fitted:
+        if self.model.picture is not None and self._fitted:
             self._look(self._fitted_camera())
         else:
             self.painting.moved()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Hold the stock."""
-        self._hands.press(event)
+        self.hands.press(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Turn or shift what is held; else tell what is under the mouse."""
-        self._hands.move(event)
+        self.hands.move(event)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Let go; a click picks the cell."""
-        self._hands.release(event)
+        self.hands.release(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """The second press of two is a press like any other."""
-        self._hands.press(event)
+        self.hands.press(event)
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Nothing is under the mouse."""
@@ -261,7 +260,7 @@ class CutView(QWidget):
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
         """Zoom at the mouse."""
-        if event.angleDelta().y() and self.picture is not None:
+        if event.angleDelta().y() and self.model.picture is not None:
             self.show_hit(None, event.position())
             self.zoom_by(_NOTCH ** (event.angleDelta().y() / 120), event.position())
         event.accept()
@@ -279,8 +278,19 @@ class CutView(QWidget):
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile."""
-        if not self._hands.key(event):
+        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile and unpins."""
+        key = Qt.Key(event.key())
+        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
+            super().keyPressEvent(event)
+        elif key == Qt.Key.Key_Escape and self.overlay.line is not None:
+            self.show_line(None)
+        elif key == Qt.Key.Key_Escape and self.overlay.pin is not None:
+            self.overlay.show_pin(None)
+        elif key == Qt.Key.Key_F:
+            self.fit()
+        elif key in KEYS:
+            self.stand(KEYS[key])
+        elif not self.hands.turn(event):
             super().keyPressEvent(event)
 
     def show_line(self, line: Line | None) -> None:
@@ -291,19 +301,21 @@ class CutView(QWidget):
         """
         self.overlay.show_line(line)
         self.profile.setVisible(line is not None)
-        if line is not None and self.picture is not None:
-            finer = self.detail is not None and all(self.detail.holds(*end[:2]) for end in line)
-            picture = self.detail if self.detail is not None and finer else self.picture
+        if line is not None and self.model.picture is not None:
+            finer = self.model.detail is not None and all(self.model.detail.holds(*end[:2]) for end in line)
+            picture = self.model.detail if self.model.detail is not None and finer else self.model.picture
             self.profile.show_profile(profile(picture, line[0][:2], line[1][:2]))
 
     def _fitted_camera(self, camera: Camera | None = None) -> Camera:
         """Return the camera that shows the whole stock beside the legend and above the profile."""
-        if self.picture is None:
-            return self.camera
+        if self.model.picture is None:
+            return self.model.camera
         width, height = pixel_size(self)
         free = width - self._covered()
         below = HEIGHT * self.devicePixelRatioF() if self.profile.isVisible() and height > 2 * HEIGHT else 0.0
-        fitted = (camera or self.camera).fitted(self.picture.low, self.picture.high, (free, height - below))
+        fitted = (camera or self.model.camera).fitted(
+            self.model.picture.low, self.model.picture.high, (free, height - below)
+        )
         return fitted.panned((free - width) / 2, -below / 2)
 
     def _covered(self) -> float:
@@ -312,7 +324,7 @@ class CutView(QWidget):
         return covered if covered < 0.45 * pixel_size(self)[0] else 0.0
 
     def _look(self, camera: Camera) -> None:
-        self.camera = camera
+        self.model.camera = camera
         self.overlay.show_camera(camera)
         self.painting.moved()
 
@@ -323,17 +335,17 @@ class CutView(QWidget):
         if not self.isVisible():
             self._look(camera)
             return
-        self._way = (self.camera, camera)
+        self._way = (self.model.camera, camera)
         self._glide.start()
 
     def _show_colours(self) -> None:
         """Paint in other colours, and explain them."""
-        if self.picture is None:
+        if self.model.picture is None:
             return
-        colour, made = self.colours.told, self.colours.of_whole(self.picture)
-        detail = self.detail.values[colour] if self.detail is not None else None
+        colour, made = self.model.told, self.colours.of_whole(self.model.picture)
+        detail = self.model.detail.values[colour] if self.model.detail is not None else None
         self.painting.new_colours(made, detail, look_of(self.colours.theme))
-        self.legend.show_colours(colour, made.key, possible(self.picture))
+        self.legend.show_colours(colour, made.key, possible(self.model.picture))
         self._place_legend()
 
     def _place_legend(self) -> None:
@@ -341,7 +353,7 @@ class CutView(QWidget):
 
     def _on_layer(self, sample: Sample, on: bool) -> None:
         look = int(_LOOKS[sample])
-        self._shown = self._shown | {look} if on else self._shown - {look}
+        self.model.looks = self.model.looks | {look} if on else self.model.looks - {look}
         self.painting.moved()
 
     def _on_section(self, side: Side, share: float) -> None:
@@ -350,27 +362,27 @@ class CutView(QWidget):
         """
         self._place_legend()
         if side is not self._side:
-            self._side, towards = side, self.camera.axes[2]
+            self._side, towards = side, self.model.camera.axes[2]
             self._signs = (1.0 if towards[0] > 0 else -1.0, 1.0 if towards[1] > 0 else -1.0)
-        if self.picture is None or side is Side.WHOLE:
-            self.section = None
+        if self.model.picture is None or side is Side.WHOLE:
+            self.model.section = None
         else:
             axis = 0 if side is Side.X else 1
             sign = self._signs[axis]
-            low, high = self.picture.low[axis], self.picture.high[axis]
+            low, high = self.model.picture.low[axis], self.model.picture.high[axis]
             normal = (sign, 0.0) if axis == 0 else (0.0, sign)
-            self.section = Section(normal, sign * float(low + share * (high - low)))
+            self.model.section = Section(normal, sign * float(low + share * (high - low)))
         self.painting.moved()
 
     def hover(self, at: QPointF) -> None:
         """Tell what is under the mouse."""
-        self.show_hit(self.probe(at), at)
+        self.show_hit(self.hands.probe(at), at)
 
     def show_hit(self, hit: Hit | None, at: QPointF) -> None:
         """Tell what is known of a cell, here and to whoever listens."""
-        if hit is None and self.hit is None:
+        if hit is None and self.model.hit is None:
             return
-        self.hit = hit
+        self.model.hit = hit
         if hit is None:
             self.overlay.show_probe(None)
             self.hovered.emit("")

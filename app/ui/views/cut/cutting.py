@@ -6,21 +6,22 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
-
 from ....core.progress import Progress
+from ...framework.computation import State
+from ...framework.controller import Controller
 from ...framework.verdict import Level, Verdict, verdict
 from ...framework.worker import Answer, Worker
-from ...shell.computation import State
-from ...shell.main_window import MainWindow
+from ...framework.workspace import Workspace
 from ..nc.reading import Source
 from .colouring import CutColour, key_of
-from .cut_panel import colour_of
+from .cut_page import CutPage
+from .cut_panel import CutPanel, colour_of
 from .entries import Entry, EntryColour
 from .foreign import Asked, Foreign, foreign_shown
 from .given import Given
 from .inks import inks_of
 from .overlay import Pin
+from .setup_form import SetupForm
 from .shown_cut import ProgramFile, ShownCut, shown_cut
 from .zooming import Followed, Zooming
 
@@ -42,53 +43,48 @@ def job_shown(made: Made, name: str, colour: CutColour, progress: Progress) -> S
     return shown_cut(made.cut, files, colour, progress)
 
 
-class Cutting(QObject):
+class Cutting(Controller):
     """Follows the computation, and shows the cut of another program when it is asked to.
 
     Its own worker, so that it never holds up computing.
 
     Signals:
-        shown(): the view shows another cut, or none, or something is asked for. failed(sentence).
+        changed(): the view shows another cut, or none, or something is asked for.
 
     Attributes:
         cut: what is shown; None = nothing.
     """
 
-    shown = Signal()
-    failed = Signal(str)
-
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window, self._view, self._computation = window, window.views.cut, window.computation
-        self._panel, self._form = window.cut_panel, window.cut_form
+    def __init__(self, page: CutPage, panel: CutPanel, form: SetupForm, workspace: Workspace) -> None:
+        super().__init__(page)
+        self._view, self._panel, self._form = page.view, panel, form
+        self._document, self._computation, self._activity = (
+            workspace.document,
+            workspace.computation,
+            workspace.activity,
+        )
         self.cut: ShownCut | None = None
         self._own: ShownCut | None = None
         self._foreign: Foreign | None = None
         self._shown_foreign: Foreign | None = None
         self._made: object = None
         self.worker, self.foreign_worker = Worker(self), Worker(self)
-        self.zooming = Zooming(self._view, self)
-        self.player = window.views.cut_page.player
+        self.zooming = Zooming(self._view.model, self._view.painting, self)
+        self.zooming.found.connect(self._view.show_detail)
+        self.player = page.player
         self._connect()
 
     def _connect(self) -> None:
-        window = self._window
+        activity = self._activity
         for worker in (self.worker, self.foreign_worker):
             worker.done.connect(self._on_done)
             worker.failed.connect(self._on_failed)
-            window.status.cancelled.connect(worker.cancel)
-        self.foreign_worker.progress.connect(window.status.show_progress)
-        self.foreign_worker.busy_changed.connect(self._on_busy)
-        window.closed.connect(self.player.pause)
-        for worker in (
-            self.worker,
-            self.foreign_worker,
-            self.zooming.worker,
-            self._view.colours.worker,
-            self.player.worker,
-        ):
-            window.closed.connect(worker.finish)
-        window.closed.connect(self._leave)
+        activity.follow(self.foreign_worker)
+        activity.cancelled.connect(self.worker.cancel)
+        activity.ended.connect(self.player.pause)
+        for worker in (self.worker, self.zooming.worker, self._view.colours.worker, self.player.worker):
+            activity.ended.connect(worker.finish)
+        activity.ended.connect(self._leave)
         self.zooming.failed.connect(self.failed)
         self.player.failed.connect(self.failed)
         self._view.surfacing.said.connect(self.failed)
@@ -112,7 +108,7 @@ class Cutting(QObject):
         """
         before = self._foreign
         given = before.given if before is not None and before.source.bytes() == source.bytes() else Given()
-        made, job = self._computation.made, self._window.document.job
+        made, job = self._computation.made, self._document.job
         part = made.cut.setup.part if made is not None and made.cut is not None else None
         self._foreign = Foreign(source, dialect, given, {tool.number: tool for tool in job.tools}, part, scene)
         self._cut_foreign()
@@ -156,13 +152,13 @@ class Cutting(QObject):
         """Let the user say other tools and another stock."""
         if self._foreign is not None and self.cut is not None and self.cut.given is not None:
             self._form.ask(Asked("Other tools, or another stock, give another cut.", self._foreign, self.cut.given))
-            self.shown.emit()
+            self.changed.emit()
 
     def _leave_form(self) -> None:
         self._form.ask(None)
         if self.cut is None or self.cut.given is None:
             self.back()
-        self.shown.emit()
+        self.changed.emit()
 
     def _show_own(self, cut: ShownCut | None) -> None:
         self._own = cut
@@ -177,7 +173,7 @@ class Cutting(QObject):
         self.player.follow(cut, self._panel.entries)
         self._tell()
         self._show_key()
-        self.shown.emit()
+        self.changed.emit()
 
     def _tell(self) -> None:
         """The job's own cut is headed by the badge's verdict, or by that it is out of date."""
@@ -205,8 +201,8 @@ class Cutting(QObject):
             return
         if (
             entry.colour is not EntryColour.ACCIDENT
-            and self._view.picture is not None
-            and self._view.picture.deviation is not None
+            and self._view.model.picture is not None
+            and self._view.model.picture.deviation is not None
         ):
             self._view.set_colour(CutColour.DEVIATION)
         theme = self._view.colours.theme
@@ -216,7 +212,7 @@ class Cutting(QObject):
         result = answer.value
         if isinstance(result, Asked):
             self._form.ask(result)
-            self.shown.emit()
+            self.changed.emit()
         elif isinstance(result, ShownCut) and result.given is not None:
             self._form.ask(None)
             self._shown_foreign = self._foreign
@@ -236,7 +232,3 @@ class Cutting(QObject):
             self.zooming.follow(None)
         else:
             self.zooming.follow(Followed(cut.cut, None if at is None or self.player.at_end else at.motion))
-
-    def _on_busy(self, busy: bool) -> None:
-        if busy or not self._window.worker.busy:
-            self._window.status.show_progress(0.0 if busy else None)

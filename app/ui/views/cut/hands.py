@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QWidget
 
 from .camera import StandardView
+from .cut_model import CutModel, middle
 from .picking import Hit
-
-if TYPE_CHECKING:
-    from .cut_view import CutView
+from .surface import pixel_size
 
 KEYS = {
     Qt.Key.Key_1: StandardView.TOP,
@@ -34,79 +33,83 @@ class Drag(Enum):
     PROFILE = 3
 
 
-class Hands:
-    """Follows what the user does to a view."""
+class Hands(QObject):
+    """Follows what the user does to a view.
 
-    def __init__(self, view: CutView) -> None:
-        self._view, self._drag = view, Drag.NONE
+    Signals:
+        looked(Camera): from where the cut is to be seen at once. glided(Camera): by and by.
+        pointed(place): the mouse is there, px. held(place): the cut is being moved there.
+        drew(ends): a line over the metal, its two ends, mm. clicked(): the cell under the mouse.
+    """
+
+    looked = Signal(object)
+    glided = Signal(object)
+    pointed = Signal(QPointF)
+    held = Signal(QPointF)
+    drew = Signal(object)
+    clicked = Signal()
+
+    def __init__(self, model: CutModel, widget: QWidget) -> None:
+        super().__init__(widget)
+        self._model, self._widget, self._drag = model, widget, Drag.NONE
         self._pressed, self._last, self._pivot = QPointF(), QPointF(), np.zeros(3)
+
+    def probe(self, at: QPointF) -> Hit | None:
+        """Return the cell that is seen at a place of the widget, px; None beside the metal."""
+        place = at * self._widget.devicePixelRatioF()
+        return self._model.probe(place.x(), place.y(), pixel_size(self._widget))
 
     def press(self, event: QMouseEvent) -> None:
         """Hold the stock: the left button turns it round the place under the mouse, the middle one shifts it.
 
         With Ctrl the left button draws a line over the metal instead.
         """
-        view = self._view
         self._pressed = self._last = event.position()
         pans = event.button() is not Qt.MouseButton.LeftButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
         self._drag = Drag.PAN if pans else Drag.ORBIT
-        hit = view.probe(event.position())
+        hit = self.probe(event.position())
         if hit is not None and not pans and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
             self._drag = Drag.PROFILE
         if hit is not None:
             self._pivot = np.array(hit.place)
-        elif view.picture is not None:
-            self._pivot = (view.picture.low + view.picture.high) / 2
+        elif self._model.picture is not None:
+            self._pivot = middle(self._model.picture)
 
     def move(self, event: QMouseEvent) -> None:
         """Turn or shift what is held; else tell what is under the mouse."""
-        view = self._view
-        step, self._last = event.position() - self._last, event.position()
+        camera, at = self._model.camera, event.position()
+        step, self._last = at - self._last, at
         if self._drag is Drag.NONE:
-            view.hover(event.position())
-        elif (event.position() - self._pressed).manhattanLength() >= _CLICK_PX or not view.overlay.probe:
-            view.show_hit(None, event.position())
+            self.pointed.emit(at)
+        elif (at - self._pressed).manhattanLength() >= _CLICK_PX or self._model.hit is None:
+            self.held.emit(at)
             if self._drag is Drag.PROFILE:
-                self._draw_line(view.probe(event.position()))
+                self._draw_line(self.probe(at))
             elif self._drag is Drag.ORBIT:
-                view.look_now(view.camera.orbited(-step.x() * _TURN, step.y() * _TURN, self._pivot))
+                self.looked.emit(camera.orbited(-step.x() * _TURN, step.y() * _TURN, self._pivot))
             else:
-                ratio = view.devicePixelRatioF()
-                view.look_now(view.camera.panned(step.x() * ratio, step.y() * ratio))
+                ratio = self._widget.devicePixelRatioF()
+                self.looked.emit(camera.panned(step.x() * ratio, step.y() * ratio))
 
     def release(self, event: QMouseEvent) -> None:
         """Let go; a click picks the cell."""
-        view = self._view
         clicked = self._drag is Drag.ORBIT and (event.position() - self._pressed).manhattanLength() < _CLICK_PX
         self._drag = Drag.NONE
-        view.hover(event.position())
-        if clicked and view.hit is not None:
-            view.cell_picked.emit(*view.hit.place, view.hit.move)
+        self.pointed.emit(event.position())
+        if clicked:
+            self.clicked.emit()
 
-    def key(self, event: QKeyEvent) -> bool:
-        """F fits, 1 to 4 are the standard views, arrows turn, Escape ends the profile and unpins; return whether it was
-        one of these.
-        """
-        view, key = self._view, Qt.Key(event.key())
-        if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
+    def turn(self, event: QKeyEvent) -> bool:
+        """Turn by an arrow; return whether it was one."""
+        key, picture = Qt.Key(event.key()), self._model.picture
+        if key not in _ARROWS or picture is None:
             return False
-        if key == Qt.Key.Key_Escape and view.overlay.line is not None:
-            view.show_line(None)
-        elif key == Qt.Key.Key_Escape and view.overlay.pin is not None:
-            view.overlay.show_pin(None)
-        elif key == Qt.Key.Key_F:
-            view.fit()
-        elif key in KEYS:
-            view.stand(KEYS[key])
-        elif key in _ARROWS and view.picture is not None:
-            yaw, pitch = _ARROWS[key]
-            view.glide_to(view.camera.orbited(yaw * _STEP, pitch * _STEP, (view.picture.low + view.picture.high) / 2))
-        else:
-            return False
+        yaw, pitch = _ARROWS[key]
+        self.glided.emit(self._model.camera.orbited(yaw * _STEP, pitch * _STEP, middle(picture)))
         return True
 
     def _draw_line(self, hit: Hit | None) -> None:
         """Draw a line from where the metal was pressed."""
         x, y, z = (float(value) for value in self._pivot)
         if hit is not None and (x, y) != hit.place[:2]:
-            self._view.show_line(((x, y, z), hit.place))
+            self.drew.emit(((x, y, z), hit.place))

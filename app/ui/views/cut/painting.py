@@ -5,21 +5,19 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QWidget
 
 from .colouring import Colouring
+from .cut_model import CutModel
 from .frame import Frame
 from .patch import Patch
 from .playing import Playing
 from .relief import Bytes
 from .scene import CutScene
 from .stage import CutLook
-from .surface import pixel_size
-
-if TYPE_CHECKING:
-    from .cut_view import CutView
+from .surface import GlSurface, ImageSurface, pixel_size
 
 REST_MS = 140
 """After so long without a movement the fine picture is begun."""
@@ -38,22 +36,25 @@ class Painting(QObject):
         budget: squares that a picture of the moving cut is painted with; it follows the time that painting takes.
         frame_ms: how long the last coarse picture took, ms.
         fine: whether the fine picture is shown. due: whether the coarse one is still to be painted.
-        playing: what lies over the cut while it is played.
+        playing: what lies over the cut while it is played. surface: on which it is painted; None until there is one.
     """
 
     stirred = Signal()
     rested = Signal()
 
-    def __init__(self, view: CutView) -> None:
-        super().__init__(view)
-        self._view = view
+    def __init__(self, model: CutModel, widget: QWidget) -> None:
+        """Make one; `widget` is what the surface covers."""
+        super().__init__(widget)
+        self._model, self._widget = model, widget
+        self.surface: GlSurface | ImageSurface | None = None
         self.budget, self.frame_ms, self.fine = 2 * _LEAST_BUDGET, 0.0, False
         self._colours: Colouring | None = None
         self._detail_values: Bytes | None = None
         self._look = CutLook((0.0,) * 3, (0.5,) * 3, (0.5,) * 3, ((0.5, 0.5, 0.5, 1.0),) * 4)
         self._picture_due = self._colours_due = self._detail_due = self.due = False
         self._patches: list[Patch] = []
-        self.playing = Playing(view, self)
+        self.playing = Playing(model, self)
+        self.playing.stirred.connect(self.stir)
         self._steps: Iterator[None] | None = None
         self._rest = QTimer(self, singleShot=True, interval=REST_MS)
         self._rest.timeout.connect(self._on_rest)
@@ -70,6 +71,16 @@ class Painting(QObject):
         """Whether nothing has moved for a while."""
         return not self._rest.isActive()
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of what is painted, px."""
+        return pixel_size(self._widget)
+
+    @property
+    def visible(self) -> bool:
+        """Whether anybody sees it."""
+        return self._widget.isVisible()
+
     def new_picture(self) -> None:
         """The view shows another cut; it is painted once its colours are known."""
         self._picture_due = True
@@ -77,12 +88,16 @@ class Painting(QObject):
         self.stir()
 
     def patch(self, patch: Patch) -> None:
-        """Cells of the cut have changed, in the view's picture too: only they are handed over, unless so many wait that
-        all are less.
+        """Show cells that have changed: only they are handed over, unless so many wait that all are less.
+
+        The picture is changed in place, so its arrays must be nobody else's.
         """
+        picture = self._model.picture
+        if picture is None:
+            return
+        patch.write_to(picture, self._model.told)
         self._patches.append(patch)
-        picture = self._view.picture
-        if picture is not None and sum(each.heights.size for each in self._patches) > picture.heights.size:
+        if sum(each.heights.size for each in self._patches) > picture.heights.size:
             self._patches.clear()
             self._picture_due = self._colours_due = True
         self.stir()
@@ -128,12 +143,12 @@ class Painting(QObject):
         self._steps, self.due, self.fine = None, True, False
         self._next.stop()
         self._rest.start()
-        if self._view.surface is not None:
-            self._view.surface.update()
+        if self.surface is not None:
+            self.surface.update()
 
     def paint(self, scene: CutScene) -> None:
         """Paint what is due, with the scene's context current."""
-        if scene.picture is None and self._view.picture is not None:
+        if scene.picture is None and self._model.picture is not None:
             self._picture_due = self._colours_due = True
         if not self.due:
             return
@@ -150,7 +165,7 @@ class Painting(QObject):
 
     def _upload(self, scene: CutScene) -> bool:
         """Hand over what is new; return whether something was. Heights wait for their colours."""
-        picture, colours = self._view.picture, self._colours
+        picture, colours = self._model.picture, self._colours
         self.playing.hand_over(scene)
         if picture is None or colours is None or colours.values.shape != picture.heights.shape:
             return False
@@ -164,7 +179,7 @@ class Painting(QObject):
         if self._colours_due:
             scene.show_colours(colours)
         if self._detail_due or self._picture_due:
-            scene.show_detail(self._view.detail, self._detail_values)
+            scene.show_detail(self._model.detail, self._detail_values)
         for patch in self._patches:
             scene.patch(patch)
         self._patches.clear()
@@ -172,8 +187,8 @@ class Painting(QObject):
         return new
 
     def _frame(self, budget: int) -> Frame:
-        camera, section, shown = self._view.frame_parts()
-        return Frame(camera, pixel_size(self._view), self._look, budget, section, shown)
+        seen = self._model
+        return Frame(seen.camera, self.size, self._look, budget, seen.section, seen.looks)
 
     def _learn(self) -> None:
         """Paint the next moving picture finer where there is time for it, coarser where there is not."""
@@ -187,8 +202,8 @@ class Painting(QObject):
         self.rested.emit()
 
     def _begin_fine(self) -> None:
-        surface = self._view.surface
-        if surface is None or self.due or not self._view.isVisible():
+        surface = self.surface
+        if surface is None or self.due or not self.visible:
             return
         surface.work(self._upload)
         self.fine = False
@@ -197,7 +212,7 @@ class Painting(QObject):
 
     def _go_on(self) -> None:
         """Paint the next piece of the fine picture."""
-        surface, steps = self._view.surface, self._steps
+        surface, steps = self.surface, self._steps
         if surface is None or steps is None:
             return
         if surface.work(lambda _: next(steps, _DONE)) is None:

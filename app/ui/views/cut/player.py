@@ -15,13 +15,13 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from ....core.progress import Progress
 from ...framework.worker import Answer, Worker
+from .cut_view import CutView
 from .entries import Entry, EntryColour
 from .live_cells import LiveCells, LiveFrame, Wish, live_copy
 from .picture import CutPicture
 
 if TYPE_CHECKING:
     from ....usecases.timeline import Moment, Timeline
-    from .cut_view import CutView
     from .shown_cut import ShownCut
 
 TICK_MS = 16
@@ -88,7 +88,7 @@ class Player(QObject):
 
     def __init__(self, view: CutView, parent: QObject) -> None:
         super().__init__(parent)
-        self._view = view
+        self._view, self._model = view, view.model
         self.shown: ShownCut | None = None
         self.timeline: Timeline | None = None
         self.marks: tuple[Mark, ...] = ()
@@ -293,7 +293,7 @@ class Player(QObject):
         """Have a moment shown as soon as the one that is being made ready is."""
         view = self._view
         all_cells = all_cells or (self._wanted is not None and self._wanted.all_cells)
-        self._wanted = Wish(moment, view.colours.told, view.playing.wedges_on, all_cells)
+        self._wanted = Wish(moment, self._model.told, view.playing.wedges_on, all_cells)
         if not self.worker.busy:
             self._begin()
 
@@ -323,17 +323,17 @@ class Player(QObject):
     def _show(self, frame: LiveFrame) -> None:
         """Let the view show a moment."""
         view, shown = self._view, self.shown
-        if shown is None or view.picture is None:
+        if shown is None or self._model.picture is None:
             return
         if self._live is None:
-            self._live = view.picture = live_copy(shown.picture)
-            if view.colours.told in self._live.values:
-                view.painting.adopt(self._live.values[view.colours.told])
-        if frame.colour is not view.colours.told and self._wanted is None:
-            self._wanted = Wish(frame.moment, view.colours.told, view.playing.wedges_on, True)
-        if frame.cells is not None and frame.patch is not None and frame.colour is view.colours.told:
+            self._live = self._model.picture = live_copy(shown.picture)
+            if self._model.told in self._live.values:
+                view.painting.adopt(self._live.values[self._model.told])
+        if frame.colour is not self._model.told and self._wanted is None:
+            self._wanted = Wish(frame.moment, self._model.told, view.playing.wedges_on, True)
+        if frame.cells is not None and frame.patch is not None and frame.colour is self._model.told:
             frame.cells.write_to(self._live)
-            view.playing.patch(frame.patch)
+            view.painting.patch(frame.patch)
         self.at = frame.moment
         view.playing.show_tool(None if self.at_end else frame.tool, frame.tip)
         view.playing.show_wedges(frame.wedges)

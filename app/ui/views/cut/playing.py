@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from PySide6.QtCore import QObject, Signal
 
 from ....exhibits.wedges_picture import WedgesPicture, has_wedges
 from ....model.tool import Tool
-from .patch import Patch
+from .cut_model import CutModel
 from .picture import CutPicture
 from .scene import CutScene
 from .tool_body import Place
 from .tool_outline import DrawnTool, outline_of
 
-if TYPE_CHECKING:
-    from .cut_view import CutView
-    from .painting import Painting
 
-
-class Playing:
+class Playing(QObject):
     """Keeps tool and facets until the scene's context is current.
+
+    Signals:
+        stirred(): something is to be painted anew. has_wedges(bool): another tool is shown; whether there are facets of
+            its sweep. facet(mm): how wide they are.
 
     Attributes:
         tool: what is shown; None = none. tip: where its tip is, mm.
@@ -26,8 +26,13 @@ class Playing:
         tool_due, wedges_due: whether they are still to be handed over.
     """
 
-    def __init__(self, view: CutView, painting: Painting) -> None:
-        self._view, self._painting = view, painting
+    stirred = Signal()
+    has_wedges = Signal(bool)
+    facet = Signal(float)
+
+    def __init__(self, model: CutModel, parent: QObject) -> None:
+        super().__init__(parent)
+        self._model = model
         self.tool: Tool | None = None
         self.tip: Place = (0.0, 0.0, 0.0)
         self.wedges: WedgesPicture | None = None
@@ -42,21 +47,15 @@ class Playing:
             return
         if tool != self.tool:
             self.tool, self.tool_due = tool, True
-            self._view.legend.show_wedges(tool is not None and has_wedges(tool))
+            self.has_wedges.emit(tool is not None and has_wedges(tool))
         self.tip = tip or self.tip
-        self._painting.stir()
-
-    def patch(self, patch: Patch) -> None:
-        """Show cells that have changed. The view's picture is changed in place, so its arrays must be nobody else's."""
-        if self._view.picture is not None:
-            patch.write_to(self._view.picture, self._view.colours.told)
-            self._painting.patch(patch)
+        self.stirred.emit()
 
     def show_wedges(self, wedges: WedgesPicture | None) -> None:
         """Have other facets, or none; they are seen where the legend has them switched on."""
         self.wedges = wedges
         if wedges is not None:
-            self._view.legend.tell_facet(wedges.facet)
+            self.facet.emit(wedges.facet)
         if self.wedges_on:
             self._renew_wedges()
 
@@ -68,7 +67,7 @@ class Playing:
     def hand_over(self, scene: CutScene) -> None:
         """Hand over what is new, with the scene's context current."""
         if self.tool_due:
-            scene.show_tool(drawn_tool(self.tool, self._view.picture))
+            scene.show_tool(drawn_tool(self.tool, self._model.picture))
         if self.wedges_due:
             scene.show_wedges(self.wedges if self.wedges_on else None)
         scene.place_tool(self.tip)
@@ -76,7 +75,7 @@ class Playing:
 
     def _renew_wedges(self) -> None:
         self.wedges_due = True
-        self._painting.stir()
+        self.stirred.emit()
 
 
 def drawn_tool(tool: Tool | None, picture: CutPicture | None) -> DrawnTool | None:

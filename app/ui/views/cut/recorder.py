@@ -8,15 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.progress import Progress
 from ....model.tool import Tool
-from ...framework.log import Log
+from ...framework.controller import Controller
 from ...framework.worker import Answer, Worker
-from ...shell.main_window import MainWindow
-from ...shell.memory import remember
+from ...framework.workspace import Workspace
 from .colouring import CutColour, Inks, colouring
 from .cut_page import CutPage
 from .frame import Frame
@@ -99,27 +97,17 @@ def _drawn(tool: Tool | None, shown: ShownCut, drawn: dict[int, DrawnTool | None
     return drawn[tool.number]
 
 
-class Recorder(QObject):
-    """Asks how and where to, and records.
+class Recorder(Controller):
+    """Asks how and where to, and records."""
 
-    Signals:
-        failed(sentence).
-    """
-
-    failed = Signal(str)
-
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._log = window, log
-        self._page: CutPage = window.views.cut_page
-        self._sheet = self._page.sheet
+    def __init__(self, page: CutPage, workspace: Workspace) -> None:
+        super().__init__(page)
+        self._page, self._sheet = page, page.sheet
+        self._preferences, self._log = workspace.preferences, workspace.log
         self.worker = Worker(self)
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
-        self.worker.progress.connect(window.status.show_progress)
-        self.worker.busy_changed.connect(self._on_busy)
-        window.status.cancelled.connect(self.worker.cancel)
-        window.closed.connect(self.worker.finish)
+        workspace.activity.follow(self.worker)
         self._page.transport.record_wanted.connect(self.ask)
         self._sheet.wanted.connect(self.choose)
 
@@ -132,20 +120,18 @@ class Recorder(QObject):
         if player.shown is None:
             self.failed.emit("There is nothing to record yet; press F5, then open the Cut view.")
             return
-        self._window.actions_["view_cut"].trigger()
+        self.front_wanted.emit()
         player.pause()
         self._page.open_sheet()
 
     def choose(self, form: RecordForm) -> None:
         """Ask for a file or a folder, and record."""
-        folder = Path(self._window.settings.last_folder or Path.home())
+        folder = self._preferences.last_folder
         if form is RecordForm.GIF:
-            name, _ = QFileDialog.getSaveFileName(
-                self._window, "Record the cut", str(folder / "cut.gif"), "GIF (*.gif)"
-            )
+            name, _ = QFileDialog.getSaveFileName(self._page, "Record the cut", str(folder / "cut.gif"), "GIF (*.gif)")
         else:
             name, _ = QFileDialog.getSaveFileName(
-                self._window, "New folder for the pictures", str(folder / "cut"), "Folder (*)"
+                self._page, "New folder for the pictures", str(folder / "cut"), "Folder (*)"
             )
         if name:
             path = Path(name)
@@ -159,28 +145,24 @@ class Recorder(QObject):
         if shown is None or self.worker.busy:
             return
         self._page.close_sheet()
-        self._window.settings = replace(self._window.settings, last_folder=str(target.absolute().parent))
-        remember(self._window)  # before it begins: should the program be killed, the next start knows where to sweep
+        # before it begins: should the program be killed, the next start knows where to sweep
+        self._preferences.keep(replace(self._preferences.settings, last_folder=str(target.absolute().parent)))
         plan, view_size = self._sheet.plan, pixel_size(view)
         size = plan.size(view_size)
-        camera, section, paths = view.frame_parts()
-        camera = replace(camera, scale=camera.scale * size[0] / view_size[0])
-        frame = Frame(camera, size, view.painting.look, 0, section, paths)
+        seen = view.model
+        camera = replace(seen.camera, scale=seen.camera.scale * size[0] / view_size[0])
+        frame = Frame(camera, size, view.painting.look, 0, seen.section, seen.looks)
         wanted = Recording(
             shown,
             frame,
             plan,
             self._page.player.pace,
-            view.colours.told,
+            seen.told,
             inks_of(view.colours.theme),
             view.playing.wedges_on,
             target,
         )
         self.worker.start(lambda progress: write_recording(wanted, progress), 0)
-
-    def _on_busy(self, busy: bool) -> None:
-        if busy or not self._window.worker.busy:
-            self._window.status.show_progress(0.0 if busy else None)
 
     def _on_done(self, answer: Answer) -> None:
         done = answer.value

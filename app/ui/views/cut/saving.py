@@ -4,38 +4,33 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QObject, Signal
+from PySide6.QtCore import QBuffer, QIODevice
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_atomically
 from ....core.errors import HitofudeError
-from ...framework.log import Log
-from ...shell.main_window import MainWindow
+from ...framework.controller import Controller
+from ...framework.workspace import Workspace
+from .cut_view import CutView
 
 _FILTER = "Pictures (*.png)"
 _NO_CUT = "There is no cut to take a picture of; press F5, then open the Cut view."
 
 
-class CutSaving(QObject):
-    """Asks where to, and writes.
+class CutSaving(Controller):
+    """Asks where to, and writes."""
 
-    Signals:
-        failed(sentence).
-    """
-
-    failed = Signal(str)
-
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._log, self._view = window, log, window.views.cut
+    def __init__(self, view: CutView, workspace: Workspace) -> None:
+        super().__init__(view)
+        self._view, self._preferences, self._log = view, workspace.preferences, workspace.log
 
     def choose(self) -> None:
         """Ask for a file and write the picture to it."""
-        if self._view.surface is None or not self._view.isVisible():
+        if self._view.painting.surface is None or not self._view.isVisible():
             self.failed.emit(_NO_CUT)
             return
-        start = str(Path(self._window.settings.last_folder or Path.home()) / "cut.png")
-        name, _ = QFileDialog.getSaveFileName(self._window, "Save picture of the cut", start, _FILTER)
+        start = str(self._preferences.last_folder / "cut.png")
+        name, _ = QFileDialog.getSaveFileName(self._view, "Save picture of the cut", start, _FILTER)
         if name:
             self.save(Path(name))
 

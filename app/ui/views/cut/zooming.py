@@ -10,14 +10,14 @@ from PySide6.QtCore import QObject, Signal
 from ....core.progress import Progress
 from ...framework.worker import Answer, Worker
 from .colouring import CutColour, prepare
+from .cut_model import CutModel
+from .painting import Painting
 from .picture import CutPicture
 from .shown_cut import picture_of
-from .surface import pixel_size
 from .window import Sighted, serves, wanted
 
 if TYPE_CHECKING:
     from ....usecases.cut import CutProgram
-    from .cut_view import CutView
 
 MOST_LOOKS = 5
 """A finer look shows better what is seen, and so may ask for another one; so often at most."""
@@ -74,31 +74,33 @@ class Zooming(QObject):
     """Follows a view; its own worker, so that a look never holds up anything else.
 
     Signals:
-        looked(): the view shows the cells that it should. failed(sentence).
+        found(CutPicture | None): the finer cells to be shown, or none. looked(): they are those that should be.
+        failed(sentence).
     """
 
+    found = Signal(object)
     looked = Signal()
     failed = Signal(str)
 
-    def __init__(self, view: CutView, parent: QObject) -> None:
+    def __init__(self, model: CutModel, painting: Painting, parent: QObject) -> None:
         super().__init__(parent)
-        self._view = view
+        self._model, self._painting = model, painting
         self._followed: Followed | None = None
         self._job_id: int | None = None
         self._looks = 0
         self.worker = Worker(self, head_start_s=0.0)
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
-        view.painting.stirred.connect(self._on_stirred)
-        view.painting.rested.connect(self._look)
+        painting.stirred.connect(self._on_stirred)
+        painting.rested.connect(self._look)
 
     def follow(self, followed: Followed | None) -> None:
         """Look closer at another program, or another moment of it, from now on; None: at nothing."""
         if followed != self._followed:
             self.worker.cancel()
             self._followed, self._looks = followed, 0
-            self._view.show_detail(None)
-            if self._view.painting.resting:
+            self.found.emit(None)
+            if self._painting.resting:
                 self._look()
 
     def _on_stirred(self) -> None:
@@ -107,26 +109,23 @@ class Zooming(QObject):
             self.worker.cancel()
 
     def _look(self) -> None:
-        view, followed = self._view, self._followed
-        if followed is None or view.picture is None or not view.isVisible() or self._looks >= MOST_LOOKS:
+        model, followed = self._model, self._followed
+        if followed is None or model.picture is None or not self._painting.visible or self._looks >= MOST_LOOKS:
             return
-        sight, colour = (
-            Sighted(view.picture, view.detail, view.camera, pixel_size(view), view.section),
-            view.colours.told,
-        )
+        sight, colour = model.sighted(model.picture, self._painting.size), model.told
         self._looks += 1
         self._job_id = self.worker.start(lambda progress: look_closer(followed, sight, colour, progress), 0)
 
     def _on_done(self, answer: Answer) -> None:
         """Show what was found; with it, more of what is seen may be known, so look again until nothing changes."""
-        look, view = answer.value, self._view
-        if answer.job_id != self._job_id or not isinstance(look, Look) or look.sight.picture is not view.picture:
+        look, model = answer.value, self._model
+        if answer.job_id != self._job_id or not isinstance(look, Look) or look.sight.picture is not model.picture:
             return
-        if look.detail is view.detail:
+        if look.detail is model.detail:
             self.looked.emit()
             return
-        view.show_detail(look.detail)
-        if look.detail is not None and view.painting.resting:
+        self.found.emit(look.detail)
+        if look.detail is not None and self._painting.resting:
             self._look()
         else:
             self.looked.emit()

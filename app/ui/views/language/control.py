@@ -7,7 +7,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import read_whole, write_atomically
@@ -16,51 +16,49 @@ from ....core.resources import resource
 from ....drafting.difference import Difference
 from ....drafting.document import Change
 from ....drafting.language.write import draw_text
+from ...framework.commands import Commands
+from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.section import theme_children
-from ...shell.help_window import HelpWindow
-from ...shell.main_window import MainWindow
-from ...shell.running_lines import RunningLines
-from ...shell.showing import Showing
-from ...shell.views import View
+from ...framework.workspace import Workspace
 from .page import TextPage
+from .running_lines import RunningLines
 from .trying import Problem, Trial, Trying
 
-PAGE = "Text"
 FILTER = "Shape language (*.draw);;All files (*)"
 _MOST_BYTES = 20_000_000
 
 
-class TextControl(QObject):
+class TextControl(Controller):
     """Connects the page of the text with the document.
+
+    Signals:
+        tried(Difference): what the text would change, to be shown over the drawing.
 
     Attributes:
         page: the widgets.
     """
 
-    def __init__(self, window: MainWindow, showing: Showing, lines: RunningLines, help_window: HelpWindow) -> None:
-        super().__init__(window)
-        self._window, self._document, self._showing, self._lines = window, window.document, showing, lines
-        self.page, self.trying = TextPage(), Trying(self)
+    tried = Signal(Difference)
+
+    def __init__(self, page: TextPage, lines: RunningLines, workspace: Workspace, commands: Commands) -> None:
+        super().__init__(page)
+        self._document, self._lines, self._commands = workspace.document, lines, commands
+        self._preferences = workspace.preferences
+        self.page, self.trying = page, Trying(self)
+        self._seen = False
         self._kept: dict[Path | None, tuple[str, bool]] = {}
         self._path = self._document.path
         self._done = ""
         self._running = ""
-        window.side.add_page(PAGE, self.page, "the drawing in words")
-        theme_children(window.side, window.theme)
         self._fill_menu()
         self.page.editor.names = self._names
-        self.page.editor.help_asked.connect(help_window.show_word)
         self.page.edited.connect(self._ask)
         self.page.way_chosen.connect(self._ask)
         self.page.run_asked.connect(self.run)
         self.trying.answered.connect(self._show)
         self.trying.progress.connect(lambda fraction, _: self.page.verdict.say(f"Trying … {100 * fraction:.0f} %"))
         lines.ran.connect(self._on_ran)
-        window.side.chosen.connect(self._on_page)
-        showing.view_changed.connect(lambda _: self._ask())
-        window.actions_["text"].triggered.connect(lambda *_: self.open())
-        window.closed.connect(self.trying.leave)
+        workspace.activity.ended.connect(self.trying.leave)
         self._unsubscribe = self._document.subscribe(self._follow)
 
     @property
@@ -79,9 +77,7 @@ class TextControl(QObject):
 
     def open(self) -> None:
         """Bring the page to the front, with the cursor in it."""
-        if self._showing.view not in (View.DRAW, View.PATHS):
-            self._showing.show_view(View.DRAW)
-        self._window.side.show_page(PAGE)
+        self.front_wanted.emit()
         self.page.editor.setFocus()
 
     def run(self) -> None:
@@ -94,7 +90,7 @@ class TextControl(QObject):
         elif not self._lines.busy:
             self._running = text
             self.trying.leave()
-            self._window.canvas.show_trial(Difference())
+            self.tried.emit(Difference())
             self._lines.run(f"clear\n{text}" if self.page.replaces else text)
 
     def fill_from_drawing(self) -> None:
@@ -149,17 +145,17 @@ class TextControl(QObject):
             samples.addAction(path.stem.replace("-", " ").capitalize(), partial(self.open_file, path))
         menu.addSeparator()
         menu.addAction("&Remark, or not\tCtrl+/", self.page.editor.switch_remarks)
-        menu.addAction(self._window.actions_["help_language"])
+        menu.addAction(self._commands["help_language"])
 
     def _choose_file(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(self._window, "Open text", self._window.settings.last_folder, FILTER)
+        name, _ = QFileDialog.getOpenFileName(self.page, "Open text", self._preferences.settings.last_folder, FILTER)
         if name:
             self.open_file(Path(name))
 
     def _choose_place(self) -> None:
         stem = self._document.path.stem if self._document.path else self._document.part.name
-        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}.draw")
-        name, _ = QFileDialog.getSaveFileName(self._window, "Save text", start, FILTER)
+        start = str(self._preferences.last_folder / f"{stem}.draw")
+        name, _ = QFileDialog.getSaveFileName(self.page, "Save text", start, FILTER)
         if name:
             self.save_file(Path(name))
 
@@ -176,11 +172,11 @@ class TextControl(QObject):
 
     @property
     def _in_front(self) -> bool:
-        return self.page.isVisible() and self._showing.view in (View.DRAW, View.PATHS)
+        return self.page.isVisible() and self._seen
 
-    def _on_page(self, name: str) -> None:
-        self._showing.writing = name == PAGE
-        self._showing.show_missing()
+    def see(self, seen: bool) -> None:
+        """Try the text while what it draws can be seen."""
+        self._seen = seen
         self._ask()
 
     def _ask(self) -> None:
@@ -188,7 +184,7 @@ class TextControl(QObject):
         text = self.page.text
         self.page.show_problem(None)
         if not self._in_front or not text.strip() or text == self._done:
-            self._window.canvas.show_trial(Difference())
+            self.tried.emit(Difference())
             self.trying.leave()
             self.page.verdict.say("This is drawn." if text == self._done and text.strip() else "")
             return
@@ -198,7 +194,7 @@ class TextControl(QObject):
         if isinstance(answer, Problem):
             self.page.show_problem(answer)
             return
-        self._window.canvas.show_trial(answer.change)
+        self.tried.emit(answer.change)
         come, go = len(answer.change.added), len(answer.change.gone)
         words = [f"{counted(come, 'curve')} would come"] * bool(come) + [f"{counted(go, 'curve')} would go"] * bool(go)
         self.page.verdict.say(f"{', '.join(words)}; Ctrl+Enter draws." if words else "Nothing would change.")
@@ -222,5 +218,5 @@ class TextControl(QObject):
         self._path = self._document.path
         if Change.PART in change and not self._running:
             self._done = ""
-            self._window.canvas.show_trial(Difference())
+            self.tried.emit(Difference())
             self._ask()

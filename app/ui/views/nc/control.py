@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_atomically
@@ -15,13 +15,13 @@ from ....core.errors import HitofudeError
 from ....gcode.interpreter.dialect import Dialect
 from ....gcode.interpreter.options import ToolOffset
 from ....gcode.interpreter.program import Severity
+from ...framework.computation import State
+from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.log import Log
-from ...shell.computation import State
-from ...shell.main_window import MainWindow
-from ...shell.views import View
+from ...framework.workspace import Workspace
 from .jobs import Drawn, compared, drawn, framed, restarted
 from .motion_shapes import Side
+from .nc_view import NcView
 from .places import Compared, difference_places
 from .program_text import program_text
 from .reading import FILTER, Reading, Shown, Source
@@ -30,22 +30,24 @@ if TYPE_CHECKING:
     from ....usecases.make import Made
 
 
-class NcControl(QObject):
+class NcControl(Controller):
     """Decides what the NC view shows; the drawing and its job are never touched from here.
 
     Signals:
-        changed(): another program, or none, is shown. failed(sentence). cut_wanted(Shown | None): the cut of another
-            program than the job's shall be shown; None = the job's.
+        changed(): another program, or none, is shown. cut_wanted(Shown | None): the cut of another program than the
+            job's shall be shown; None = the job's. export_wanted(): of the job. compute_wanted(): the job.
     """
 
-    changed = Signal()
     cut_wanted = Signal(object)
-    failed = Signal(str)
+    export_wanted = Signal()
+    compute_wanted = Signal()
 
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._log, self._view = window, log, window.views.nc
-        self._computation = window.computation
+    def __init__(self, view: NcView, workspace: Workspace) -> None:
+        super().__init__(view)
+        self._view, self._workspace, self._log = view, workspace, workspace.log
+        self._document, self._computation = workspace.document, workspace.computation
+        self._preferences = workspace.preferences
+        self._seen = False
         self._own: tuple[Source, ...] = ()
         self._own_at = 0
         self._foreign: Source | None = None
@@ -53,10 +55,7 @@ class NcControl(QObject):
         self._picked: int | None = None
         self.reading = Reading(self)
         self.reading.failed.connect(self.failed)
-        self.reading.progress.connect(window.status.show_progress)
-        self.reading.busy_changed.connect(self._on_busy)
-        window.status.cancelled.connect(self.reading.worker.cancel)
-        window.closed.connect(self.reading.worker.finish)
+        workspace.activity.follow(self.reading.worker)
         self._computation.changed.connect(self._follow)
         self._view.side_wanted.connect(self._draw_side)
         self._view.comparison_closed.connect(self.stop_comparing)
@@ -70,6 +69,20 @@ class NcControl(QObject):
         return self._foreign or (self._own[self._own_at] if self._own else None)
 
     @property
+    def shown(self) -> Shown | None:
+        """The program that is shown, once it is read."""
+        return self._view.shown
+
+    def see(self, seen: bool) -> None:
+        """Remember whether the view is at the front."""
+        self._seen = seen
+
+    def bring(self) -> None:
+        """Have the view at the front, if it is not."""
+        if not self._seen:
+            self.front_wanted.emit()
+
+    @property
     def foreign(self) -> bool:
         """Whether another program than the job's is shown."""
         return self._foreign is not None
@@ -81,7 +94,7 @@ class NcControl(QObject):
     def choose(self) -> None:
         """Ask for a program and open it."""
         name, _ = QFileDialog.getOpenFileName(
-            self._window, "Open NC program", self._window.settings.last_folder, FILTER
+            self._view, "Open NC program", self._preferences.settings.last_folder, FILTER
         )
         if name:
             self.open(Path(name))
@@ -94,7 +107,7 @@ class NcControl(QObject):
         """Make a program that leads in to the picked line and goes on from there, and show it."""
         shown, row = self._view.shown, self._view.pane.text.selection[0]
         if shown is None or row < 0:
-            self._window.status.show_message("Pick the line to start from first.")
+            self.said.emit("Pick the line to start from first.")
         else:
             self.reading.start(partial(restarted, shown, row + 1, self._view.side), partial(self._on_foreign, False))
 
@@ -109,7 +122,7 @@ class NcControl(QObject):
         """Show the program that goes round the job's cuts at clearance height."""
         made = self._computation.made
         if made is None or not made.files:
-            self._window.status.show_message("There is no program to go round yet; compute the paths first.")
+            self.said.emit("There is no program to go round yet; compute the paths first.")
         else:
             whole = self._own_name(made)
             name = f"{whole.stem}_frame{whole.suffix}"
@@ -117,7 +130,9 @@ class NcControl(QObject):
 
     def choose_to_compare(self) -> None:
         """Ask for a second program and compare it with the one that is shown."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Compare with", self._window.settings.last_folder, FILTER)
+        name, _ = QFileDialog.getOpenFileName(
+            self._view, "Compare with", self._preferences.settings.last_folder, FILTER
+        )
         if name:
             self.compare(Path(name))
 
@@ -141,7 +156,7 @@ class NcControl(QObject):
         title = difference_places(both.differences)[0]
         self._log.note(f"compare {both.other.source.name}", title)
         self._view.other.head.show_dialect(both.other.guessed, both.other.source.dialect, free=False)
-        self._window.actions_[View.NC.value].trigger()
+        self.front_wanted.emit()
         self._view.show_comparison(both)
         self.changed.emit()
 
@@ -154,10 +169,10 @@ class NcControl(QObject):
     def save_as(self) -> None:
         """Write the shown text to a file; the job's program is exported, with its findings."""
         if self._foreign is None:
-            self._window.actions_["export"].trigger()
+            self.export_wanted.emit()
             return
-        start = str(Path(self._window.settings.last_folder or Path.home()) / self._foreign.name)
-        name, _ = QFileDialog.getSaveFileName(self._window, "Save NC program", start, FILTER)
+        start = str(self._preferences.last_folder / self._foreign.name)
+        name, _ = QFileDialog.getSaveFileName(self._view, "Save NC program", start, FILTER)
         if name:
             self.save(Path(name))
 
@@ -172,27 +187,27 @@ class NcControl(QObject):
             self.failed.emit(str(error))
             return
         self._log.note(f"save {path.name}", f"{counted(len(shown.text), 'line')} written to {path}")
-        self._window.status.show_message(f"{path.name} is written.")
+        self.said.emit(f"{path.name} is written.")
 
     def _read(self, source: Source, remember: bool = False) -> None:
         self.reading.read(replace(source, tools=self._tools()), self._view.side, partial(self._on_foreign, remember))
 
     def _tools(self) -> dict[int, ToolOffset]:
         """Return the job's tools as the tool table that programs are read with."""
-        return {tool.number: ToolOffset(diameter=tool.diameter) for tool in self._window.document.job.tools}
+        return {tool.number: ToolOffset(diameter=tool.diameter) for tool in self._document.job.tools}
 
     def _on_foreign(self, remember: bool, shown: Shown) -> None:
-        source, window = shown.source, self._window
+        source = shown.source
         again = self._foreign is not None and self._foreign.path == source.path and self._foreign.name == source.name
         self._foreign = source
         if remember and source.path is not None:
-            window.settings = window.settings.with_recent_file(source.path)
+            self._preferences.add_recent(source.path)
         self._view.show_program(shown)
         self._show_heads(shown.guessed)
         if not again:
-            window.notice.hide()
+            self._workspace.notice.hide()
             self._log.note(f"open {source.name}", _sentence(shown), error=shown.program.error is not None)
-            window.actions_[View.NC.value].trigger()
+            self.front_wanted.emit()
             self._view.setFocus()
         self.changed.emit()
 
@@ -222,7 +237,7 @@ class NcControl(QObject):
     def _own_name(self, made: Made) -> Path:
         from ....gcode.posts.posts import load_post
 
-        path = self._window.document.path
+        path = self._document.path
         return Path(f"{path.stem if path else made.job.part.name}{load_post(made.job.post).extension}")
 
     def _show_file(self, index: int) -> None:
@@ -281,7 +296,7 @@ class NcControl(QObject):
         if self.foreign:
             self.back()
         else:
-            self._window.actions_["compute"].trigger()
+            self.compute_wanted.emit()
 
     def _draw_side(self, side: Side) -> None:
         """Have the side painted that is missing; a job on its way ends first, and what it shows asks again."""
@@ -292,10 +307,6 @@ class NcControl(QObject):
     def _on_drawn(self, pictures: Drawn) -> None:
         pictures.keep()
         self._view.set_side(self._view.side)
-
-    def _on_busy(self, busy: bool) -> None:
-        if busy or not self._window.worker.busy:
-            self._window.status.show_progress(0.0 if busy else None)
 
 
 def _sentence(shown: Shown) -> str:

@@ -125,12 +125,10 @@ class Reading(QObject):
     """Runs one job for the NC view at a time; a newer one takes its place, and its answer goes to whoever asked last.
 
     Signals:
-        failed(sentence). busy_changed(bool). progress(fraction, text).
+        failed(sentence).
     """
 
     failed = Signal(str)
-    busy_changed = Signal(bool)
-    progress = Signal(float, str)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -139,8 +137,6 @@ class Reading(QObject):
         self._job = 0
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
-        self.worker.busy_changed.connect(self.busy_changed)
-        self.worker.progress.connect(self.progress)
 
     def start(self, function: Callable[[Progress], object], then: Callable[[Any], None]) -> None:
         """Run `function(progress)` on another thread, then call `then(answer)` on this one."""

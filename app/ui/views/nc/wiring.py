@@ -8,11 +8,11 @@ from functools import partial
 from PySide6.QtCore import QObject, QPoint
 from PySide6.QtWidgets import QMenu
 
-from ...shell.main_window import MainWindow
-from ...shell.showing import Showing
-from ...shell.views import View
+from ...framework.commands import Commands, on_trigger
+from ...framework.computation import Computation
 from .control import NcControl
 from .motion_shapes import Side
+from .nc_view import NcView
 
 _CONTEXT = ("nc_cut", "nc_restart", "", "nc_find", "nc_line", "", "nc_compare", "nc_save", "nc_back")
 _SIDES = {"nc_xy": Side.XY, "nc_xz": Side.XZ, "nc_yz": Side.YZ}
@@ -21,13 +21,12 @@ _SIDES = {"nc_xy": Side.XY, "nc_xz": Side.XZ, "nc_yz": Side.YZ}
 class NcWiring(QObject):
     """Connects the NC menu and the NC view."""
 
-    def __init__(self, window: MainWindow, control: NcControl, showing: Showing) -> None:
-        super().__init__(window)
-        self._window, self._control, self._showing, self._view = window, control, showing, window.views.nc
+    def __init__(self, view: NcView, control: NcControl, computation: Computation, commands: Commands) -> None:
+        super().__init__(view)
+        self._view, self._control, self._computation, self._commands = view, control, computation, commands
         self._on("nc_open", control.choose)
         self._on("nc_back", control.back)
         self._on("nc_save", control.save_as)
-        view = self._view
         self._in_view("nc_find", lambda: view.active.begin_find())
         self._in_view("nc_line", lambda: view.active.begin_find(":"))
         self._in_view("nc_find_next", lambda: view.active.find_next())
@@ -36,7 +35,7 @@ class NcWiring(QObject):
         self._in_view("nc_problem_before", lambda: view.active.panel.step(-1))
         self._on("nc_frame", control.show_frame)
         self._on("nc_cut", control.show_cut)
-        view.path_head.cut_asked.connect(window.actions_["nc_cut"].trigger)
+        view.path_head.cut_asked.connect(commands["nc_cut"].trigger)
         self._in_view("nc_restart", control.restart_here)
         self._on("nc_compare", control.choose_to_compare)
         self._on("nc_compare_end", control.stop_comparing)
@@ -45,32 +44,29 @@ class NcWiring(QObject):
         for name, side in _SIDES.items():
             self._in_view(name, partial(view.set_side, side))
         view.menu_asked.connect(self._open_menu)
-        view.path.hovered.connect(showing.show_hovered)
-        view.path.cursor_moved.connect(lambda right, up: window.status.show_place(right, up, view.side.name))
         control.changed.connect(self._refresh)
-        window.computation.changed.connect(self._offer_frame)
+        computation.changed.connect(self._offer_frame)
         self._refresh()
 
     def _on(self, name: str, act: Callable[[], object]) -> None:
-        self._window.actions_[name].triggered.connect(lambda *_: act())
+        on_trigger(self._commands, name, act)
 
     def _in_view(self, name: str, act: Callable[[], object]) -> None:
         """Do something in the NC view, which comes to the front."""
 
         def bring_and_act() -> None:
-            if self._showing.view is not View.NC:
-                self._showing.show_view(View.NC)
+            self._control.bring()
             act()
 
         self._on(name, bring_and_act)
 
     def _offer_frame(self) -> None:
-        made = self._window.computation.made
-        self._window.actions_["nc_frame"].setEnabled(made is not None and bool(made.files))
+        made = self._computation.made
+        self._commands["nc_frame"].setEnabled(made is not None and bool(made.files))
 
     def _refresh(self) -> None:
         self._offer_frame()
-        actions, control = self._window.actions_, self._control
+        actions, control = self._commands, self._control
         actions["nc_back"].setEnabled(control.foreign)
         for name in ("nc_save", "nc_find", "nc_find_next", "nc_find_before", "nc_line"):
             actions[name].setEnabled(control.source is not None)
@@ -82,14 +78,12 @@ class NcWiring(QObject):
         self._view.path_head.cut.setEnabled(self._view.shown is not None)
         for name in ("nc_problem", "nc_problem_before"):
             actions[name].setEnabled(bool(self._view.pane.problems or (comparing and self._view.other.problems)))
-        self._showing.show_missing()
-        self._showing.show_hovered("")
 
     def _open_menu(self, at: QPoint) -> None:
         menu = QMenu(self._view)
         for name in _CONTEXT:
             if name:
-                menu.addAction(self._window.actions_[name])
+                menu.addAction(self._commands[name])
             else:
                 menu.addSeparator()
         menu.popup(at)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
-from PySide6.QtCore import QMarginsF, QObject, QSizeF, Signal
+from PySide6.QtCore import QMarginsF, QSizeF, Signal
 from PySide6.QtGui import QPageLayout, QPageSize, QPainter
 from PySide6.QtWidgets import QFileDialog
 
@@ -17,12 +17,13 @@ from ....core.progress import Progress
 from ....drafting.document import Change
 from ....formats.plot.content import Shown
 from ....formats.plot.layout import PlotOptions, lay_out
+from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.log import Log
 from ...framework.worker import Answer, Worker
-from ...shell.main_window import MainWindow
-from ...shell.showing import Showing
+from ...framework.workspace import Workspace
 from .painting import Sheet, sheets
+from .panel import PlotPanel
+from .preview import PlotPreview
 from .writing import FILTER, FORMATS, paint_all, plot_files
 
 
@@ -61,22 +62,24 @@ def _write(path: Path, those: tuple[Sheet, ...], name: str) -> Kept:
     return Kept(tuple(files), len(those))
 
 
-class Plotting(QObject):
+class Plotting(Controller):
     """Brings the page preview to the front and takes it away again.
 
     Signals:
-        failed(sentence).
+        left(): what was at the front before shall come back.
 
     Attributes:
         ready: the sheets of the drawing as it is now; None while they are being made or cannot be.
     """
 
-    failed = Signal(str)
+    left = Signal()
 
-    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._showing, self._log = window, showing, log
-        self._panel, self._preview = window.plot_panel, window.views.plot
+    def __init__(self, preview: PlotPreview, panel: PlotPanel, workspace: Workspace) -> None:
+        super().__init__(preview)
+        self._preview, self._panel = preview, panel
+        self._document, self._computation = workspace.document, workspace.computation
+        self._preferences, self._log = workspace.preferences, workspace.log
+        self._seen = False
         self._today = date.today().isoformat
         self.ready: Ready | None = None
         self.worker = Worker(self, head_start_s=0.0)
@@ -86,25 +89,24 @@ class Plotting(QObject):
         self.writer.done.connect(self._on_written)
         self.writer.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
         for worker in (self.worker, self.writer):
-            window.closed.connect(worker.finish)
-        window.actions_["plot"].triggered.connect(self.start)
-        window.computation.changed.connect(self.refresh)
+            workspace.activity.ended.connect(worker.finish)
+        self._computation.changed.connect(self.refresh)
         self._panel.changed.connect(lambda _: self.refresh())
         self._panel.save_wanted.connect(self.choose_place)
         self._panel.print_wanted.connect(self.choose_printer)
         for leaving in (self._panel.left, self._preview.left):
-            leaving.connect(self.leave)
-        self._unsubscribe = window.document.subscribe(self._on_change)
+            leaving.connect(self.left)
+        self._unsubscribe = self._document.subscribe(self._on_change)
 
     def start(self) -> None:
         """Show the drawing on paper."""
-        self._window.views.show_plot()
-        self._showing.show_missing()
+        self.see(True)
+        self.front_wanted.emit()
         self.refresh()
 
-    def leave(self) -> None:
-        """Go back to the view that was there before."""
-        self._showing.show_view(self._showing.view)
+    def see(self, seen: bool) -> None:
+        """Keep the sheets in step with the drawing only while they are seen."""
+        self._seen = seen
 
     def _on_change(self, change: Change) -> None:
         if change & Change.PART:
@@ -112,18 +114,18 @@ class Plotting(QObject):
 
     def refresh(self) -> None:
         """Lay the drawing out anew, if it is looked at."""
-        if not self._window.views.plotting:
+        if not self._seen:
             return
-        wish, program = self._panel.wish, self._window.computation.program
-        current = program is not None and not self._window.computation.outdated
+        wish, program = self._panel.wish, self._computation.program
+        current = program is not None and not self._computation.outdated
         self._panel.show_paths_there(current)
         moves = program.moves if program is not None and current and wish.paths else None
         shown, layout, today = (
-            Shown(self._window.document.part, moves, wish.notes, wish.black),
+            Shown(self._document.part, moves, wish.notes, wish.black),
             wish.layout,
             self._today(),
         )
-        self.worker.start(lambda progress: _made_ready(shown, layout, today, progress), self._window.document.revision)
+        self.worker.start(lambda progress: _made_ready(shown, layout, today, progress), self._document.revision)
 
     def _on_done(self, answer: Answer) -> None:
         assert isinstance(answer.value, Ready)
@@ -138,9 +140,9 @@ class Plotting(QObject):
 
     def choose_place(self) -> None:
         """Ask for a file and write the sheets."""
-        stem = self._window.document.path.stem if self._window.document.path else self._window.document.part.name
-        start = str(Path(self._window.settings.last_folder or Path.home()) / f"{stem}.pdf")
-        name, chosen = QFileDialog.getSaveFileName(self._window, "Save plot", start, FILTER)
+        stem = self._document.path.stem if self._document.path else self._document.part.name
+        start = str(self._preferences.last_folder / f"{stem}.pdf")
+        name, chosen = QFileDialog.getSaveFileName(self._preview, "Save plot", start, FILTER)
         if name:
             path = Path(name)
             suffix = next((each for each in FORMATS if f"*{each}" in chosen), ".pdf")
@@ -150,8 +152,8 @@ class Plotting(QObject):
         """Write the sheets in the format that the name ends in: every file, or none."""
         if self.ready is None:
             return
-        sheets, name = self.ready.sheets, self._window.document.part.name
-        self._window.status.show_message(f"Writing {path.name}")
+        sheets, name = self.ready.sheets, self._document.part.name
+        self.said.emit(f"Writing {path.name}")
         self.writer.start(lambda progress: _write(path, sheets, name), 0)
 
     def _on_written(self, answer: Answer) -> None:
@@ -159,7 +161,7 @@ class Plotting(QObject):
         paths, count = answer.value.paths, answer.value.sheets
         names = paths[0].name if len(paths) == 1 else f"{paths[0].name} … {paths[-1].name}"
         self._log.note(f"plot {names}", f"{counted(count, 'sheet')} written to {paths[0].parent}")
-        self._window.status.show_message(f"{names} {'is' if len(paths) == 1 else 'are'} written.")
+        self.said.emit(f"{names} {'is' if len(paths) == 1 else 'are'} written.")
 
     def choose_printer(self) -> None:
         """Ask for a printer and print the sheets at true size."""
@@ -173,12 +175,12 @@ class Plotting(QObject):
             return
         page = self.ready.sheets[0].page
         printer = QPrinter(QPrinter.PrinterMode.HighResolution)
-        printer.setDocName(self._window.document.part.name)
+        printer.setDocName(self._document.part.name)
         size = QPageSize(QSizeF(min(page.width, page.height), max(page.width, page.height)), QPageSize.Unit.Millimeter)
         lies = QPageLayout.Orientation.Landscape if page.width > page.height else QPageLayout.Orientation.Portrait
         printer.setPageLayout(QPageLayout(size, lies, QMarginsF()))
         printer.setFullPage(True)
-        if QPrintDialog(printer, self._window).exec():
+        if QPrintDialog(printer, self._preview).exec():
             painter = QPainter(printer)
             paint_all(painter, self.ready.sheets, printer)
             painter.end()

@@ -13,12 +13,12 @@ import numpy as np
 
 from ....core.errors import GeometryError
 from ....core.progress import NO_PROGRESS, Progress
+from ....core.resources import resource
 from ....model.finding import Finding
 from ....model.job import Job
 from ....raster.frame import POINTS, Frame
 from ....raster.steps import Stage
 from ....usecases.bitmap_options import MARGIN_PX, BitmapSize
-from ...shell.opening import sample_path
 from .answers import Offsets, job_of
 from .screen import BOTTOM, TOP
 from .stills import Still, still_of, stills_of
@@ -99,7 +99,7 @@ def sample_job(before: Job, progress: Progress = NO_PROGRESS) -> Job:
     """Return a job with the drawing of figure 2 and the tools of another."""
     from ....formats.readers import read_drawing
 
-    path = sample_path()
+    path = resource("samples", "fig2.dxf")
     progress.step(0.1, "Reading the sample")
     return replace(before, part=read_drawing(path.name, path.read_bytes(), None, ()).part, layer_names=())
 

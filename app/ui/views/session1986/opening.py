@@ -3,43 +3,56 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QWidget
 
 from ....core.settings import Phosphor
 from ....model.job import Job
-from ...framework.log import Log
-from ...shell.main_window import MainWindow
-from ...shell.memory import remember
-from ...shell.showing import Showing
-from ...shell.views import View
-from .questions import Ask
-from .session import Session
-from .tube import Tube
+from ...framework.controller import Controller
+from ...framework.workspace import Workspace
+
+if TYPE_CHECKING:
+    from .session import Session
+    from .tube import Tube
 
 
-class SessionOpening(QObject):
+class SessionOpening(Controller):
     """One session at a time; left in the middle, it is there again when it is opened the next time.
+
+    Nothing of it is loaded before it is opened.
+
+    Signals:
+        left(): the session is left. taken(): what was made in it is the document's job.
 
     Attributes:
         session: the one that was begun last; None before the first. tube: what shows it.
     """
 
-    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._showing, self._log = window, showing, log
+    left = Signal()
+    taken = Signal()
+
+    def __init__(self, over: QWidget, workspace: Workspace) -> None:
+        """Make one; the session covers the whole of the widget `over`."""
+        super().__init__(over)
+        self._over, self._workspace = over, workspace
         self.session: Session | None = None
         self.tube: Tube | None = None
 
     def open(self) -> None:
         """Show the session, from where it was left."""
+        from .questions import Ask
+        from .session import Session
+        from .tube import Tube
+
         if self.tube is None:
-            self.session = Session(lambda: self._window.document.job, self)
-            self.tube = Tube(self.session, self._window, self._window.settings.phosphor)
+            self.session = Session(lambda: self._workspace.document.job, self)
+            self.tube = Tube(self.session, self._over, self._workspace.preferences.settings.phosphor)
             self.tube.left.connect(self.leave)
             self.tube.phosphor_changed.connect(self._keep_phosphor)
             self.session.handed.connect(self._take)
-            self._window.closed.connect(self.session.finish)
+            self._workspace.activity.ended.connect(self.session.finish)
         elif self.session is not None and self.session.ask is Ask.SHAPE:
             self.session.begin()
         self.tube.show()
@@ -49,24 +62,24 @@ class SessionOpening(QObject):
         if self.session is not None and self.tube is not None:
             self.session.rest()
             self.tube.hide()
-            self._window.views.take_focus()
+            self.left.emit()
 
     def _keep_phosphor(self, phosphor: Phosphor) -> None:
         """Have the next session begin with this light."""
-        self._window.settings = replace(self._window.settings, phosphor=phosphor)
-        remember(self._window)
+        preferences = self._workspace.preferences
+        preferences.keep(replace(preferences.settings, phosphor=phosphor))
 
     def _take(self, job: Job) -> None:
         """Make the session's job the document's, by a change that can be undone, and compute it exactly."""
-        other = job.part is not self._window.document.part
+        document = self._workspace.document
+        other = job.part is not document.part
         self.leave()
-        self._window.document.change_job("1986 session", job)
+        document.change_job("1986 session", job)
         if other:
-            self._window.computation.forget()
+            self._workspace.computation.forget()
         tools = ", ".join(
             f"T{job.tool(each.cut.tool).number} {job.tool(each.cut.tool).label}" for each in job.operations
         )
-        self._log.note("1986 session", f"{tools}; undo takes it back.")
-        self._showing.show_view(View.PATHS)
-        self._window.canvas.fit()
-        self._window.computation.start()
+        self._workspace.log.note("1986 session", f"{tools}; undo takes it back.")
+        self.taken.emit()
+        self._workspace.computation.start()

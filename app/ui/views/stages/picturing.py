@@ -6,23 +6,24 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QTimer, Signal
 
 from ....core.errors import HitofudeError
 from ....drafting.document import Change
 from ....model.part import Part
 from ....raster.codes import PixelCode
+from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.log import Log
 from ...framework.theme import Theme
 from ...framework.worker import Answer, Worker
-from ...shell.main_window import MainWindow
+from ...framework.workspace import Workspace
 from . import inks
 from .code_key import CodeRow
-from .import_panel import See
+from .import_panel import ImportPanel, See
 from .pixel_paint import Pixels
 from .pixel_view import Mark
 from .preview import Preview, Reading, open_picture, part_of, preview_of
+from .stages_view import StagesView
 
 if TYPE_CHECKING:
     from ....usecases.bitmap_job import BitmapJob
@@ -31,11 +32,11 @@ _REST_MS = 60
 _WORDS = {PixelCode.EMPTY: "paper", PixelCode.CONTOUR: "lines of ink", PixelCode.INSIDE: "to be machined"}
 
 
-class Picturing(QObject):
+class Picturing(Controller):
     """One picture at a time, from its file to the part.
 
     Signals:
-        shown(): a preview came, changed or went. taken(path): it is the part now. failed(sentence).
+        shown(): a preview came, changed or went. taken(path): it is the part now.
 
     Attributes:
         preview: how it is read; None = there is none.
@@ -43,12 +44,11 @@ class Picturing(QObject):
 
     shown = Signal()
     taken = Signal(Path)
-    failed = Signal(str)
 
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._log = window, log
-        self._view, self._panel = window.views.stages, window.import_panel
+    def __init__(self, view: StagesView, panel: ImportPanel, workspace: Workspace) -> None:
+        super().__init__(view)
+        self._view, self._panel, self._workspace = view, panel, workspace
+        self._document, self._log = workspace.document, workspace.log
         self.worker = Worker(self)
         self.preview: Preview | None = None
         self._see, self._chosen = See.READING, -1
@@ -57,13 +57,10 @@ class Picturing(QObject):
         self._connect()
 
     def _connect(self) -> None:
-        panel, worker, window = self._panel, self.worker, self._window
+        panel, worker = self._panel, self.worker
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
-        worker.progress.connect(window.status.show_progress)
-        worker.busy_changed.connect(self._on_busy)
-        window.status.cancelled.connect(worker.cancel)
-        window.closed.connect(worker.finish)
+        self._workspace.activity.follow(worker)
         self._rest.timeout.connect(self._read)
         panel.wanted.connect(self._want)
         panel.see_chosen.connect(self._choose_see)
@@ -71,7 +68,7 @@ class Picturing(QObject):
         panel.accepted.connect(self._take)
         panel.left.connect(self.leave)
         self._view.preview_clicked.connect(self._point)
-        self._unsubscribe = window.document.subscribe(self._on_change)
+        self._unsubscribe = self._document.subscribe(self._on_change)
         self._view.theme_changed.connect(lambda _: self._show())
 
     def open(self, path: Path) -> None:
@@ -92,7 +89,7 @@ class Picturing(QObject):
             self._taken = None
             if self.preview is not None:
                 self.leave()
-        elif change & Change.PART and self._taken is not None and self._window.document.part is not self._taken:
+        elif change & Change.PART and self._taken is not None and self._document.part is not self._taken:
             self._taken = None
             self._log.note(
                 "picture",
@@ -101,7 +98,7 @@ class Picturing(QObject):
             )
 
     def _start(self, function: Callable[..., object]) -> None:
-        self.worker.start(function, self._window.document.revision)
+        self.worker.start(function, self._document.revision)
 
     def _want(self, reading: Reading) -> None:
         """Read it otherwise, when the field rests for a moment."""
@@ -114,7 +111,7 @@ class Picturing(QObject):
 
     def _take(self) -> None:
         """Make the picture the part; what is still to be read is read first."""
-        reading, preview, before = self._panel.reading, self.preview, self._window.document.job
+        reading, preview, before = self._panel.reading, self.preview, self._document.job
         if reading is None or preview is None:
             return
         self._rest.stop()
@@ -135,7 +132,7 @@ class Picturing(QObject):
             if fresh or self._panel.reading is None:
                 self._see = See.READING
                 self._panel.begin(answer.value)
-                self._window.notice.dismiss()
+                self._workspace.notice.dismiss()
             else:
                 self._panel.show_preview(answer.value)
             self._show()
@@ -144,10 +141,10 @@ class Picturing(QObject):
             self._load(answer.value, self.preview)  # type: ignore[arg-type]  # the job of `part_of`
 
     def _load(self, ready: BitmapJob, preview: Preview) -> None:
-        path, computation = preview.reading.path, self._window.computation
+        path, computation = preview.reading.path, self._workspace.computation
         computation.pixels = (ready.job.part, ready.part)
         self.leave()
-        self._window.document.load(ready.job, path)
+        self._document.load(ready.job, path)
         self._taken = ready.job.part
         computation.forget(ready.findings)
         frame = ready.part.frame
@@ -168,10 +165,6 @@ class Picturing(QObject):
             self.shown.emit()
         else:
             self.failed.emit(sentence)
-
-    def _on_busy(self, busy: bool) -> None:
-        if busy or not self._window.worker.busy:
-            self._window.status.show_progress(0.0 if busy else None)
 
     def _choose_see(self, see: See) -> None:
         self._see = see

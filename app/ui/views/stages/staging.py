@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from enum import Enum
 
-from PySide6.QtCore import QObject, Signal
-
 from ....drafting.document import Change
 from ....usecases.bitmap_options import BitmapSize
+from ...framework.controller import Controller
+from ...framework.missing import NOTHING, Missing
 from ...framework.worker import Answer, Worker
-from ...shell.main_window import MainWindow
-from ...shell.showing import NOTHING, Missing
+from ...framework.workspace import Workspace
 from .reel import Reel, Wish, reel_of
-from .stages_panel import Rules
+from .stages_panel import Rules, StagesPanel
+from .stages_view import StagesView
 
 
 class StagesState(Enum):
@@ -24,41 +24,33 @@ class StagesState(Enum):
     FAILED = "The stages could not be computed"
 
 
-class Staging(QObject):
+class Staging(Controller):
     """Follows the document while the view is at the front.
 
     Its own worker, so that it never holds up computing.
-
-    Signals:
-        changed(): state or film changed. failed(sentence).
 
     Attributes:
         reel: what is shown; None = nothing. error: why the last run failed, or "".
     """
 
-    changed = Signal()
-    failed = Signal(str)
-
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window, self._document = window, window.document
-        self._view, self._panel = window.views.stages, window.stages_panel
+    def __init__(self, view: StagesView, panel: StagesPanel, workspace: Workspace) -> None:
+        super().__init__(view)
+        self._document, self._computation = workspace.document, workspace.computation
+        self._view, self._panel = view, panel
         self.worker = Worker(self)
         self.reel: Reel | None = None
         self.error = ""
         self._size, self._published, self._seen = BitmapSize(), False, False
         self._asked: Wish | None = None
+        workspace.activity.follow(self.worker)
         self._connect()
 
     def _connect(self) -> None:
-        window, worker = self._window, self.worker
+        worker = self.worker
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
         worker.cancelled.connect(lambda _: self._on_cancelled())
-        worker.progress.connect(window.status.show_progress)
-        worker.busy_changed.connect(self._on_busy)
-        window.status.cancelled.connect(worker.cancel)
-        window.closed.connect(worker.finish)
+        worker.busy_changed.connect(lambda _: self.changed.emit())
         self._view.shown.connect(lambda: self._panel.show_still(self._view.still))
         self._view.chain_picked.connect(self._panel.chains.choose)
         self._panel.chain_picked.connect(self._view.light_chain)
@@ -101,13 +93,9 @@ class Staging(QObject):
         self._asked = None
         self._follow()
 
-    def cancel(self) -> None:
-        """Leave the running computation."""
-        self.worker.cancel()
-
     def _wish(self) -> Wish:
         job = self._document.job
-        return Wish(job, self._size, self._window.computation.pixels_of(job.part), self._published)
+        return Wish(job, self._size, self._computation.pixels_of(job.part), self._published)
 
     def _follow(self) -> None:
         """Compute what is to be seen, unless it is there, on its way, or was asked for and failed."""
@@ -160,13 +148,6 @@ class Staging(QObject):
         """Show no stages rather than those of an earlier job."""
         if not self.worker.busy and self.reel is not None and not _alike(self.reel.wish, self._wish()):
             self._show(None)
-        self.changed.emit()
-
-    def _on_busy(self, busy: bool) -> None:
-        other = self._window.worker.busy
-        if busy or not other:
-            self._window.status.show_progress(0.0 if busy else None)
-        self._window.actions_["cancel"].setEnabled(busy or other)
         self.changed.emit()
 
 

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_atomically
@@ -16,18 +16,17 @@ from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
 from ....formats.scene.edit import line_of, with_table
 from ....model.scene import Scene
+from ...framework.controller import Controller
 from ...framework.figures import counted
-from ...framework.log import Log
-from ...shell.main_window import MainWindow
-from ...shell.memory import remember
-from ...shell.showing import Showing
-from ...shell.views import View
+from ...framework.workspace import Workspace
 from ..nc.reading import Source
 from .asks import SHAPES
 from .fresh import NEW_SCENE, Table, free_name, fresh_passes, fresh_surface, fresh_tool, surface_from_curves
-from .scene_side import POINTS, TEXT
+from .scene_document import SceneDocument
+from .scene_side import POINTS, TEXT, SceneSide
 from .scene_work import SceneState, SceneWork
 from .shown_scene import ShownScene, read_file
+from .surfaces_view import SurfacesView
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
@@ -50,25 +49,26 @@ class SceneProgram:
     files: int
 
 
-class SceneControl(QObject):
+class SceneControl(Controller):
     """Everything between a scene, its view and its files.
 
     Signals:
-        failed(sentence). nc_wanted(Source): to be shown in the NC view. cut_wanted(SceneProgram): in the Cut view.
+        nc_wanted(Source): to be shown in the NC view. cut_wanted(SceneProgram): in the Cut view.
+        close_wanted(): the user has answered, and the window may close.
 
     Attributes:
         work: reads and computes. choose_file: asks for a path to save to, given a first choice; choose_mesh: for one to
             read.
     """
 
-    failed = Signal(str)
     nc_wanted = Signal(object)
     cut_wanted = Signal(object)
+    close_wanted = Signal()
 
-    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._showing, self._log = window, showing, log
-        self._view, self._side, self.document = window.views.surfaces, window.scene_side, window.scene
+    def __init__(self, view: SurfacesView, side: SceneSide, document: SceneDocument, workspace: Workspace) -> None:
+        super().__init__(view)
+        self._view, self._side, self.document, self._workspace = view, side, document, workspace
+        self._preferences, self._log = workspace.preferences, workspace.log
         self.work = SceneWork(self.document, self)
         self._given_up = False
         self.choose_file: Callable[[Path], Path | None] = self._choose_file
@@ -77,17 +77,14 @@ class SceneControl(QObject):
         self._connect_side()
 
     def _connect_work(self) -> None:
-        work, window = self.work, self._window
+        work, activity = self.work, self._workspace.activity
         work.read.connect(self._on_read)
         work.wrong.connect(self._on_wrong)
         work.computed.connect(self._on_computed)
         work.failed.connect(self.failed)
         work.stands.connect(self._on_stands)
-        work.reading.progress.connect(window.status.show_progress)
-        window.status.cancelled.connect(work.cancel)
-        window.actions_["cancel"].triggered.connect(lambda *_: work.cancel())
-        window.closed.connect(work.reading.worker.finish)
-        self.document.standing_changed.connect(self._showing.show_titles)
+        activity.cancelled.connect(work.cancel)
+        activity.follow(work.reading.worker)
 
     def _connect_side(self) -> None:
         panel, side = self._side.panel, self._side
@@ -104,8 +101,6 @@ class SceneControl(QObject):
         side.points.chosen.connect(self._view.show_point)
         self._view.point_picked.connect(self._on_point_picked)
         self._view.surface_picked.connect(lambda number: panel.choose(("surface", number)))
-        self._view.hovered.connect(self._showing.show_hovered)
-        self._view.cursor_moved.connect(self._window.status.show_place)
 
     def open(self, path: Path) -> None:
         """Open a scene file, after asking when changes to another one would be lost."""
@@ -146,7 +141,7 @@ class SceneControl(QObject):
 
     def save_as(self, then: Callable[[], None] | None = None) -> None:
         """Ask for a file, and save to that from now on."""
-        folder = Path(self._window.settings.last_folder or Path.home())
+        folder = self._preferences.last_folder
         path = self.document.path
         first = (
             folder / self.document.name
@@ -162,7 +157,7 @@ class SceneControl(QObject):
         if not self.document.modified:
             act()
             return
-        self._window.notice.ask(
+        self._workspace.notice.ask(
             f"{question} The changes to the scene {self.document.name} are not saved.",
             [
                 ("Save", lambda: self.save(lambda: self.leave(question, act))),
@@ -172,11 +167,12 @@ class SceneControl(QObject):
             stays=True,
         )
 
-    def may_close(self) -> None:
-        """Ask before the window closes and changes are lost."""
-        if self._window.may_close and self.document.modified and not self._given_up:
-            self._window.may_close = False
-            self.leave("Close?", self._close_anyway)
+    def may_close(self) -> bool:
+        """Return whether the window may close; ask when changes would be lost, and emit `close_wanted` later."""
+        if not self.document.modified or self._given_up:
+            return True
+        self.leave("Close?", self._close_anyway)
+        return False
 
     def show_nc(self) -> None:
         """Show the scene's program in the NC view."""
@@ -199,7 +195,7 @@ class SceneControl(QObject):
         """Add a surface made of the curves that are selected in the drawing, in the order in which they were drawn."""
         from ....usecases.drawn_sections import drawn_sections
 
-        document = self._window.document
+        document = self._workspace.document
         wanted = {"loft": 2, "ruled": 2, "revolved": 1, "swept": 2}[kind]
         curves = drawn_sections(document.part, document.selection)
         if len(curves) < wanted:
@@ -238,12 +234,12 @@ class SceneControl(QObject):
         except HitofudeError as error:
             self.failed.emit(str(error))
             return
-        self._window.settings = self._window.settings.with_recent_file(path)
+        self._preferences.add_recent(path)
         self._begin(text, path)
 
     def _begin(self, text: str, path: Path | None) -> None:
-        self._window.notice.hide()
-        self._showing.show_view(View.SURFACES)
+        self._workspace.notice.hide()
+        self.front_wanted.emit()
         self._side.panel.subject = ("scene", 0)
         self.work.begin(text, path)
         if self.work.state is SceneState.WRONG:
@@ -257,10 +253,10 @@ class SceneControl(QObject):
             return
         moved = self.document.path is not None and self.document.path.parent != path.parent
         self.document.mark_saved(path)
-        self._window.settings = self._window.settings.with_recent_file(path)
-        remember(self._window)
+        self._preferences.add_recent(path)
+        self._preferences.save()
         self._log.note(f"save {path.name}", f"Saved to {path.parent}.")
-        self._window.status.show_message(f"{path.name} is saved.")
+        self.said.emit(f"{path.name} is saved.")
         if moved:
             self.work.compute()  # files that it names are looked for beside it
         if then is not None:
@@ -268,7 +264,7 @@ class SceneControl(QObject):
 
     def _close_anyway(self) -> None:
         self._given_up = True
-        self._window.close()
+        self.close_wanted.emit()
 
     def _change(self, change: Callable[[str], str]) -> None:
         try:
@@ -300,13 +296,13 @@ class SceneControl(QObject):
         self._side.panel.show_posts(tuple(post_titles().items()))
         self._side.panel.show_scene(scene)
         self._side.text.show_right(_made_of(scene))
-        self._showing.show_missing()
+        self.changed.emit()
 
     def _on_wrong(self, line: int, sentence: str) -> None:
         self._side.text.show_problem(line, sentence)
         if self.work.scene is None:
             self._side.show_page(TEXT)
-        self._showing.show_missing()
+        self.changed.emit()
 
     def _on_computed(self, shown: ShownScene, again: bool) -> None:
         from ....usecases.surface_picture import boundary_points
@@ -317,15 +313,11 @@ class SceneControl(QObject):
         self._side.points.show_points(points)
         if not again:
             self._log.note(f"open {shown.path.name}", self._view.summary)
-        self._showing.show_view(self._showing.view)
+        self.changed.emit()
 
     def _on_stands(self) -> None:
-        work, window = self.work, self._window
-        self._view.show_standing(work.state, work.verdict, work.findings)
-        window.actions_["cancel"].setEnabled(work.busy or window.worker.busy)
-        if work.busy or not window.worker.busy:
-            window.status.show_progress(0.0 if work.busy else None)
-        self._showing.show_scene()
+        self._view.show_standing(self.work.state, self.work.verdict, self.work.findings)
+        self.changed.emit()
 
     def _program(self) -> SceneProgram | None:
         proven, shown = self.work.proven, self.work.shown
@@ -347,12 +339,12 @@ class SceneControl(QObject):
         return SceneProgram(source, written.post.dialect, part, len(written.files))
 
     def _choose_file(self, first: Path) -> Path | None:
-        name, _ = QFileDialog.getSaveFileName(self._window, "Save scene", str(first), FILTER)
+        name, _ = QFileDialog.getSaveFileName(self._view, "Save scene", str(first), FILTER)
         return Path(name) if name else None
 
     def _choose_mesh(self) -> Path | None:
         name, _ = QFileDialog.getOpenFileName(
-            self._window, "Add a surface from a file", self._window.settings.last_folder, _SOLIDS
+            self._view, "Add a surface from a file", self._preferences.settings.last_folder, _SOLIDS
         )
         return Path(name) if name else None
 

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_together
 from ....core.progress import Progress
 from ....model.finding import FindingKind
+from ...framework.controller import Controller
 from ...framework.figures import counted, grouped
-from ...framework.log import Log
 from ...framework.worker import Answer, Worker
-from ...shell.main_window import MainWindow
+from ...framework.workspace import Workspace
 from .scene_work import Proven
 from .shown_scene import ShownScene
-from .surfaces_view import Look
+from .surfaces_view import Look, SurfacesView
 
 FORMATS: Mapping[str, str] = {
     "NC program (*.ngc)": ".ngc",
@@ -51,32 +51,31 @@ class _Exported:
     remarks: tuple[str, ...]
 
 
-class SceneExport(QObject):
+class SceneExport(Controller):
     """Writes what was made of the scene that is shown.
 
     Signals:
-        written(path), failed(sentence).
+        written(path).
 
     Attributes:
         choose_file: asks the user for a path, given a first choice; None = he changed his mind.
     """
 
     written = Signal(Path)
-    failed = Signal(str)
 
-    def __init__(self, window: MainWindow, log: Log, proven: Callable[[], Proven | None]) -> None:
+    def __init__(self, view: SurfacesView, proven: Callable[[], Proven | None], workspace: Workspace) -> None:
         """Make one; `proven` tells what the scene that is shown came to as NC, None while nobody knows."""
-        super().__init__(window)
-        self._window, self._log, self._proven = window, log, proven
-        self._worker = Worker(window)
+        super().__init__(view)
+        self._view, self._proven, self._log, self._notice = view, proven, workspace.log, workspace.notice
+        self._worker = Worker(self)
         self.choose_file: Callable[[Path], Path | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(lambda answer: self.failed.emit(f"{answer.error} Nothing was written."))
-        window.closed.connect(lambda: self._worker.finish(10.0))
+        workspace.activity.ended.connect(lambda: self._worker.finish(10.0))
 
     def start(self) -> None:
         """Ask for a file and write it."""
-        view = self._window.views.surfaces
+        view = self._view
         if view.shown is None:
             self.failed.emit("No scene is computed yet, so there is nothing to export.")
             return
@@ -85,7 +84,7 @@ class SceneExport(QObject):
             self._worker.start(partial(_export, _Wish(view.shown, self._proven(), _VIEWS[view.look]), chosen), 0)
 
     def _choose(self, first: Path) -> Path | None:
-        dialog = QFileDialog(self._window, "Export scene", str(first), ";;".join(FORMATS))
+        dialog = QFileDialog(self._view, "Export scene", str(first), ";;".join(FORMATS))
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("ngc")
         dialog.filterSelected.connect(lambda name: dialog.setDefaultSuffix(FORMATS[name][1:]))
@@ -98,9 +97,9 @@ class SceneExport(QObject):
         self._log.note(
             f"export {first.name}", f"{grouped(exported.size / 1000, 1)} kB written to {first.parent}. {said}".strip()
         )
-        self._window.status.show_message(f"{first.name} is written.")
+        self.said.emit(f"{first.name} is written.")
         if exported.remarks:
-            self._window.notice.ask(f"{first.name} is written. {said}")
+            self._notice.ask(f"{first.name} is written. {said}")
         self.written.emit(first)
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import PurePath
 
-from ..core.errors import InputError
-from ..drafting.document import drawn
-from ..model.part import Layer, Part, Units
-from .drawing import Drawing
-from .drawing_account import on_layers, other_units, switched_off
+from ...core.errors import InputError
+from ...drafting.document import drawn
+from ...model.part import Layer, Part, Units
+from ..drawing import Drawing
+from ..drawing_account import on_layers, other_units, switched_off
 
 MOST_BYTES = 20_000_000
 

@@ -9,12 +9,12 @@ from collections import deque
 
 from PySide6.QtCore import QObject, Signal
 
-from ...core.errors import Cancelled, InputError
-from ...core.progress import Progress
-from ...drafting.document import Document, evaluated
-from ...drafting.language.interpret import Outcome
-from ..framework.worker import Answer, Worker
-from ..views.canvas.trials import keeps_the_window
+from ....core.errors import Cancelled, InputError
+from ....core.progress import Progress
+from ....drafting.document import Document, evaluated
+from ....drafting.language.interpret import Outcome
+from ...framework.worker import Answer, Worker
+from ..canvas.trials import keeps_the_window
 
 AT_ONCE_S = 0.03
 """A line may keep the window for so long; what takes longer begins again on a thread."""
@@ -30,12 +30,9 @@ class RunningLines(QObject):
     the drawing as it is.
 
     Signals:
-        progress(fraction, text): of the line on its way. busy_changed(busy). ran(line, well): it was carried out, or
-        refused.
+        ran(line, well): it was carried out, or refused.
     """
 
-    progress = Signal(float, str)
-    busy_changed = Signal(bool)
     ran = Signal(str, bool)
 
     def __init__(self, document: Document, parent: QObject | None = None) -> None:
@@ -44,8 +41,6 @@ class RunningLines(QObject):
         self.worker = Worker(self, head_start_s=0.0)
         self._waiting: deque[str] = deque()
         self._line = ""
-        self.worker.progress.connect(self.progress)
-        self.worker.busy_changed.connect(self.busy_changed)
         self.worker.done.connect(self._on_done)
         self.worker.failed.connect(self._on_failed)
 

@@ -4,6 +4,7 @@ date.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
@@ -16,8 +17,7 @@ from ...model.finding import Finding
 from ...model.job import Job
 from ...model.moves import Program
 from ...model.part import Part
-from ..framework.worker import Answer, Worker
-from ..views.canvas.program_picture import ProgramPicture
+from .worker import Answer, Worker
 
 if TYPE_CHECKING:
     from ...usecases.bitmap_part import BitmapPart
@@ -41,23 +41,18 @@ class Computed:
     """
 
     made: Made
-    picture: ProgramPicture
+    picture: object
 
 
-def _compute(
-    job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress
-) -> Computed:
+def _make(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> Made:
     from ...usecases.make import export, finish  # imports the engines: never on the window's thread
 
     if pixels is None:
-        made = export(job, progress.part(0.0, 0.95), drawing_findings)
-    else:
-        from ...usecases.bitmap_way import compute_on_bitmap
+        return export(job, progress.part(0.0, 0.95), drawing_findings)
+    from ...usecases.bitmap_way import compute_on_bitmap
 
-        program = compute_on_bitmap(job, pixels, progress.part(0.0, 0.5)).program
-        made = finish(program, job, progress.part(0.5, 0.95), drawing_findings)
-    progress.step(0.95, "Preparing the picture")
-    return Computed(made, ProgramPicture(made.program, made.coverage.places))
+    program = compute_on_bitmap(job, pixels, progress.part(0.0, 0.5)).program
+    return finish(program, job, progress.part(0.5, 0.95), drawing_findings)
 
 
 class Computation(QObject):
@@ -68,7 +63,7 @@ class Computation(QObject):
 
     Attributes:
         made: the last result of this document, also when it is out of date; None before the first.
-        picture: its moves, prepared for painting.
+        picture: its moves as `prepare` has made them ready for painting.
         error: why the last run failed, or "".
         drawing_findings: what reading the drawing had to say.
         pixels: a part that came from a picture, and its pixels: it is computed on these; None = there was no picture.
@@ -78,14 +73,15 @@ class Computation(QObject):
     finished = Signal()
     failed = Signal(str)
 
-    def __init__(self, document: Document, worker: Worker) -> None:
+    def __init__(self, document: Document, worker: Worker, prepare: Callable[[Made], object]) -> None:
+        """Make one; `prepare` makes a result ready for painting, on the worker's thread."""
         super().__init__()
-        self._document, self._worker = document, worker
+        self._document, self._worker, self._prepare = document, worker, prepare
         self._job_id: int | None = None
         self._snapshot: Job | None = None
         self._made_for: Job | None = None
         self.made: Made | None = None
-        self.picture: ProgramPicture | None = None
+        self.picture: object = None
         self.error = ""
         self.drawing_findings: tuple[Finding, ...] = ()
         self.pixels: tuple[Part, BitmapPart] | None = None
@@ -122,9 +118,16 @@ class Computation(QObject):
         self.error = ""
         self._snapshot = job
         self._job_id = self._worker.start(
-            lambda progress: _compute(job, pixels, findings, progress), self._document.revision
+            lambda progress: self._compute(job, pixels, findings, progress), self._document.revision
         )
         self.changed.emit()
+
+    def _compute(
+        self, job: Job, pixels: BitmapPart | None, findings: tuple[Finding, ...], progress: Progress
+    ) -> Computed:
+        made = _make(job, pixels, findings, progress)
+        progress.step(0.95, "Preparing the picture")
+        return Computed(made, self._prepare(made))
 
     def pixels_of(self, part: Part) -> BitmapPart | None:
         """Return the pixels of a part that is a picture's and was not drawn in since, else None."""

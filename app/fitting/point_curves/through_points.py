@@ -1,0 +1,97 @@
+"""What lies between the points that method D goes by: cubic splines through them, as points close to one another.
+
+Effective points lie on the true shape, the chords between them do not: these are what the facets have made of it. A
+curve that is held to the chords comes back to the facets, so it is held to a spline through the points, of the second
+order of smoothness and off a smooth shape by the fourth power of their distances (C. de Boor, A Practical Guide to
+Splines, chapter V). What nobody can tell from the points stays a chord: a side much longer than what is beside it, and
+one that the spline would leave by more than the tolerance has left.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...model.motion import Floats
+
+Flags = NDArray[np.bool_]
+
+_SIDE = 6.0
+"""A chord longer than so many times both its neighbours is a side of the true shape."""
+_LOOKED_AT = 8
+"""Places a chord at which it is seen how far the spline leaves it."""
+_LEAST = 4
+"""Parts of a chord that is no side, at least: fewer would be no evidence of an arc."""
+
+
+def through_points(points: Floats, corners: NDArray[np.int64], fine: float, between: float) -> Floats:
+    """Return points (m, 3) of splines through points, those themselves among them, mm.
+
+    Args:
+        points: (n, 3) mm, n >= 2, no two in a row alike.
+        corners: numbers of the points at which splines end, rising, the first and the last among them.
+        fine: how far the spline may be from the chords of what is returned, mm, > 0.
+        between: how far the spline may leave the chord of two points, mm, >= 0; else the chord stays.
+    """
+    closed = len(corners) == 2 and len(points) > 3 and bool(np.all(points[0] == points[-1])) and _goes_on(points)
+    parts = [points[:1]]
+    for a, b in pairwise(corners.tolist()):
+        parts.append(_between_corners(points[a : b + 1], closed, fine, between)[1:])
+    return np.concatenate(parts)
+
+
+def _goes_on(points: Floats) -> bool:
+    """Tell whether a closed path turns at its seam by no more than it does elsewhere."""
+    ways = np.diff(points, axis=0)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    cosines = np.einsum("ij,ij->i", ways[:-1], ways[1:])
+    return bool(ways[-1] @ ways[0] >= cosines.min() - 1e-9)
+
+
+def _between_corners(points: Floats, closed: bool, fine: float, between: float) -> Floats:
+    size = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    beside = np.concatenate([size[:1] if len(size) == 1 else size[1:2], size, size[-2:-1]])
+    straight = size > _SIDE * np.maximum(beside[:-2], beside[2:])
+    while True:
+        filled, off = _filled(points, straight, closed, fine)
+        wide = (off > between) & ~straight
+        if not wide.any():
+            return filled
+        straight |= wide
+
+
+def _filled(points: Floats, straight: Flags, closed: bool, fine: float) -> tuple[Floats, Floats]:
+    """Return points of splines over the chords that are not straight, and how far each chord is left, mm."""
+    parts, off = [points[:1]], np.zeros(len(straight))
+    edges = [0, *(np.flatnonzero(np.diff(straight)) + 1).tolist(), len(straight)]
+    for a, b in pairwise(edges):
+        if straight[a] or b - a < 2:
+            parts.append(points[a + 1 : b + 1])
+            continue
+        part, off[a:b] = _run(points[a : b + 1], closed and b - a == len(straight), fine)
+        parts.append(part)
+    return np.concatenate(parts), off
+
+
+def _run(points: Floats, closed: bool, fine: float) -> tuple[Floats, Floats]:
+    """Return points of one spline behind the first of its points, and how far it leaves each chord, mm."""
+    from scipy.interpolate import CubicSpline
+
+    chords = np.diff(points, axis=0)
+    size = np.linalg.norm(chords, axis=1)
+    along = np.concatenate([[0.0], np.cumsum(size)])
+    curve = CubicSpline(along, points, bc_type="periodic" if closed else "not-a-knot")
+    share = (np.arange(_LOOKED_AT) + 0.5) / _LOOKED_AT
+    seen = curve(along[:-1, None] + size[:, None] * share) - points[:-1, None]
+    ahead = np.einsum("ijk,ik->ij", seen, chords / size[:, None])
+    squares = np.einsum("ijk,ijk->ij", seen, seen) - ahead**2
+    off = np.sqrt(np.maximum(squares.max(axis=1), 0.0))
+    # a chord of a curve that is left by d is left by d / n² where it is one of n
+    count = np.where(off > fine, np.maximum(np.ceil(np.sqrt(off / fine)), _LEAST), 1).astype(np.int64)
+    chord = np.repeat(np.arange(len(size)), count)
+    step = np.arange(1, len(chord) + 1) - np.repeat(np.cumsum(count) - count, count)
+    made: Floats = curve(along[chord] + size[chord] * step / count[chord])
+    made[np.cumsum(count) - 1] = points[1:]
+    return made, off

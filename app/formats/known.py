@@ -1,0 +1,14 @@
+"""The formats of drawings that come with the program, in the order in which they are offered: importing this registers
+them.
+"""
+
+from __future__ import annotations
+
+from .draw import DRAW
+from .dxf import DXF
+from .project import PROJECT
+from .registry import register
+from .svg import SVG
+
+for _format in (PROJECT, DXF, SVG, DRAW):
+    register(_format)

@@ -1,0 +1,97 @@
+"""Closed forms of the engaged angle of a cutter that goes round a centre.
+
+A point of the rim's front half, theta from the direction away from the centre, has the distance t from the centre with
+t^2 = rho^2 + r^2 + 2 rho r cos theta, which falls as theta rises (rho: radius of the path, r: of the cutter). So where
+all ground within s of the centre is clear, nothing beyond the theta of t = s is engaged, anywhere along the path.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+_FINENESS = 4e-4
+"""mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC program
+move path and disc at most, both together."""
+
+_SPARE = math.radians(0.05)
+"""Radians that the limit is not used by, so that a proof by bounds has an end."""
+
+_LEAST_CENTRE = 0.002
+"""mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What a cutter may be engaged.
+
+    Attributes:
+        radius: of the cutter, mm, > 0.
+        angle: of its rim that may be in metal, radians, in (0, pi / 2].
+        coarser: how many times coarser than 0.0001 mm the digits of the program are.
+    """
+
+    radius: float
+    angle: float
+    coarser: float = 1.0
+
+    @property
+    def slack(self) -> float:
+        """By how much less than it is a clear disc is taken to be, mm."""
+        return _FINENESS * self.coarser
+
+    @property
+    def planned(self) -> float:
+        """The angle that paths are planned with, radians."""
+        return self.angle - _SPARE
+
+    @property
+    def depth(self) -> float:
+        """Radial depth of a straight cut along a side that is engaged by as much, mm."""
+        return self.radius * (1 - math.cos(self.planned))
+
+    @property
+    def scallop(self) -> float:
+        """Height of the scallops that may stand along walls before the last way round, mm."""
+        return 0.4 * self.depth
+
+    @property
+    def least_turn(self) -> float:
+        """The least radius of a path that goes round a centre, mm: below, digits move the angle too much."""
+        return max(_LEAST_CENTRE * self.coarser, 3.5 * self.slack / (1 - math.cos(self.planned)))
+
+    def clear_needed(self, turn: float) -> float:
+        """Return how far round its centre ground must be clear for a path round it, mm, the slack counted.
+
+        Args:
+            turn: radius of the path, mm.
+        """
+        r, cosine = self.radius, math.cos(self.planned)
+        return math.sqrt(turn * turn + r * r + 2 * turn * r * cosine) + self.slack
+
+    def growth(self, turn: float) -> float:
+        """Return by how much the radius may grow from one half turn of a spiral to the next, mm; 0 where it cannot.
+
+        With e so much, the half turn goes round a centre e beside that of the one before, and finds (radius of the
+        ground cleared so far - e) clear.
+        """
+        low, high = 0.0, turn + self.radius
+        for _ in range(60):
+            middle = (low + high) / 2
+            if turn + self.radius - middle >= self.clear_needed(turn + middle):
+                low = middle
+            else:
+                high = middle
+        return low
+
+
+def engaged_angle(turn: float, radius: float, clear: float) -> float:
+    """Return a bound of the engaged angle along a path round a centre, radians, in [0, pi].
+
+    Args:
+        turn: radius of the path, mm, > 0.
+        radius: of the cutter, mm.
+        clear: so far round the centre there is no metal, mm.
+    """
+    cosine = (clear * clear - turn * turn - radius * radius) / (2 * turn * radius)
+    return math.acos(min(1.0, max(-1.0, cosine)))

@@ -1,0 +1,216 @@
+"""The path of one pass: for each connected part a spiral, discs along the axis, and the way along the walls."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ...core.progress import NO_PROGRESS, Progress
+from ...geometry.distance import DistanceField
+from ...geometry.offset.offset import Level, Ring, offset_levels
+from ...geometry.primitives import Primitives, Rows, sample
+from .axis import Axis, medial_axis
+from .ground import Disc, Discs, Point, Room
+from .limit import Limit
+from .ring import Proof, rounded, sharp_corners
+from .spiral import spiral
+from .walk import Stop, Tree, Walk, trees
+from .way import Run, Way
+
+Floats = NDArray[np.float64]
+
+_SPACING = 0.12
+"""Radii of the cutter between points along the walls from which the axis is made."""
+
+_TURN = 0.05
+"""mm; the least radius of a path round a centre, but for the tips of corners."""
+
+_SHARP = 0.1
+"""Radians; a corner of the way along the walls that turns by less needs no arc of its own."""
+
+_SLIVER = 0.008
+"""mm; as much may stand in a corner: less than counts as left."""
+
+_CHORD = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """The path of a connected part.
+
+    Attributes:
+        runs: in the order of cutting; at the beginning of the first one the cutter comes down into metal, at those of
+            the others onto clear ground.
+        region: number of the region.
+        stops: where the area goes on, but too narrow to keep the limit in it.
+        unproven: places along the walls that are not gone along: the limit could not be kept there.
+    """
+
+    runs: tuple[Run, ...]
+    region: int
+    stops: tuple[Stop, ...] = ()
+    unproven: tuple[Point, ...] = ()
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be cleared.
+
+    Attributes:
+        walls: closed contours, the area to the left.
+        leave: stock to leave on them, mm.
+        farthest: mm that the cutter goes over clear ground rather than through the air.
+    """
+
+    walls: Primitives
+    leave: float
+    farthest: float
+
+
+def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Part, ...]:
+    """Return the paths of all connected parts in which a cutter keeps its limit, counter-clockwise along the walls.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    least = least_turn(limit)
+    inner = task.leave + limit.radius
+    (frame,) = offset_levels(task.walls, [inner + limit.least_turn], progress.part(0.0, 0.1))
+    _, turns = sharp_corners(frame.rings, _SHARP)
+    tip = _tip(turns, limit, least)
+    levels = [inner + tip] if tip == least else [inner + tip, inner + least]
+    fine, *more = offset_levels(task.walls, levels, progress.part(0.1, 0.2))
+    coarse = more[0] if more else fine
+    corners, _ = sharp_corners(fine.rings, _SHARP)
+    field = DistanceField.of(task.walls.rows)
+    room = Room(field, task.leave, limit.radius + least)
+    axis = medial_axis(task.walls, room, corners, _SPACING * limit.radius, progress.part(0.2, 0.4))
+    axis = _complete(axis, coarse, room)
+    parts, found = [], trees(axis)
+    for k, tree in enumerate(found):
+        if axis.reach[tree.root] < limit.radius + least - 1e-9:
+            continue
+        part = progress.part(0.4 + 0.6 * k / len(found), 0.4 + 0.6 * (k + 1) / len(found))
+        parts.append(_part(_Area(room, axis, (fine, coarse), (tip, least), task), tree, limit, part))
+    return tuple(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class _Area:
+    room: Room
+    axis: Axis
+    levels: tuple[Level, Level]
+    turns: tuple[float, float]
+    task: Task
+
+
+def least_turn(limit: Limit) -> float:
+    """Return the least radius of a path round a centre, mm, but for the tips of corners."""
+    return max(_TURN * limit.coarser, limit.least_turn)
+
+
+def _tip(turns: Floats, limit: Limit, least: float) -> float:
+    """Return the radius of the arcs in corners, mm: small enough that next to nothing stands in the sharpest of them."""
+    if not len(turns):
+        return least
+    sine = math.sin((math.pi - float(turns.max())) / 2)
+    return max(min(least, _SLIVER * sine / max(1e-9, 1 - sine)), limit.least_turn)
+
+
+def _complete(axis: Axis, level: Level, room: Room) -> Axis:
+    """Return the axis with a point in each part that has none, such as the middle of a circle."""
+    points, reach = [axis.points], [axis.reach]
+    for ring in level.rings:
+        if ring.area <= 0:
+            continue
+        outline = shapely.Polygon(sample(ring.rows, _CHORD)).buffer(_CHORD)
+        if len(axis.points) and shapely.contains_xy(outline, axis.points[:, 0], axis.points[:, 1]).any():
+            continue
+        x, y = ring.rows[0, :2].tolist()
+        centre, wide = room.to_axis((x, y))
+        points.append(np.array([centre]))
+        reach.append(np.array([wide]))
+    made = np.concatenate(points)
+    lone = np.arange(len(axis.points), len(made))
+    return Axis(made, np.concatenate(reach), np.concatenate([axis.edges, np.column_stack([lone, lone])]))
+
+
+def _part(area: _Area, tree: Tree, limit: Limit, progress: Progress) -> Part:
+    walk = Walk(limit, area.room, area.axis)
+    walk.along(tree, progress.part(0.0, 0.5))
+    discs = walk.discs
+    paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
+    first = discs.each[0]
+    way = Way(limit, discs, area.task.farthest)
+    way.begin(spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1])))
+    for number in range(1, len(discs)):
+        way.slice(number)
+    unproven += [_begin(path) for path in paths if not way.ring(path)]
+    region = int(area.task.walls.region[area.room.distances.nearest(np.array([first.centre]))[1][0]])
+    return Part(tuple(way.done()), region, tuple(walk.stops), tuple(unproven))
+
+
+def _begin(path: Rows) -> Point:
+    x, y = path[0, :2].tolist()
+    return x, y
+
+
+def _rings(area: _Area, discs: Discs, limit: Limit, progress: Progress) -> tuple[list[Rows], list[Point]]:
+    """Return the ways along the walls of a part, each proven; the coarse one where the fine one is not."""
+    proof = Proof(limit, area.room, discs)
+    done: list[Rows] = []
+    for level, turn in zip(area.levels, area.turns, strict=True):
+        proof.unproven.clear()
+        paths = [rounded(ring, turn) for ring in level.rings if _beside(ring, discs, limit)]
+        done = [path for path in paths if proof.holds(path, progress)]
+        if len(done) == len(paths):
+            break
+    return done, list(proof.unproven)
+
+
+def _beside(ring: Ring, discs: Discs, limit: Limit) -> bool:
+    """Tell whether a ring lies along walls that discs of this part touch."""
+    table = discs.table
+    places = ring.rows[:, :2]
+    for x, y in places[:: max(1, len(places) // 50)]:
+        if (np.hypot(table[:, 0] - x, table[:, 1] - y) <= table[:, 2] - limit.radius + 2 * limit.scallop).any():
+            return True
+    return False
+
+
+def mirrored(walls: Primitives) -> Primitives:
+    """Return walls in a mirror: x changes its sign, and the area is to the left again."""
+    rows = walls.rows[::-1].copy()
+    rows[:, [0, 1, 2, 3]] = rows[:, [2, 3, 0, 1]]
+    rows[:, [0, 2, 4]] *= -1
+    count = len(rows)
+    following = np.empty(count, np.int64)
+    following[walls.previous] = np.arange(count)
+    return Primitives(np.ascontiguousarray(rows), count - 1 - following[::-1], walls.region[::-1].copy())
+
+
+def mirrored_part(part: Part) -> Part:
+    """Return the path of a part as it is outside of the mirror."""
+    return replace(
+        part,
+        runs=tuple(Run(mirrored_rows(run.rows), run.clear) for run in part.runs),
+        stops=tuple(Stop((-stop.place[0], stop.place[1]), stop.width) for stop in part.stops),
+        unproven=tuple((-x, y) for x, y in part.unproven),
+    )
+
+
+def mirrored_rows(rows: Rows) -> Rows:
+    """Return a path in a mirror, travelled as before."""
+    out = rows.copy()
+    out[:, [0, 2, 4, 7]] *= -1
+    return out
+
+
+def narrow(parts: Sequence[Part]) -> list[Stop]:
+    """Return where the area is too narrow for the limit."""
+    return [stop for part in parts for stop in part.stops]

@@ -1,0 +1,181 @@
+"""How much of a cutter's rim may be in metal, bounded from above along whole lines and arcs, not looked at in places.
+
+What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,
+ny, h, mx, my, k), points p with |p - c| <= radius, n.p <= h and m.p <= k, mm; a half plane that is none has n = 0, h =
+inf. Every circle meets such a shape in at most three intervals, in closed form, so at one place of a cutter the rim that
+no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than half the piece's length
+from where it is in the middle, so what shapes that are so much smaller cover there is covered all along: the rest is a
+bound. A piece of which the bound is too large is halved.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...core.jit import kernel
+
+_SHAPES = "float64[:, ::1]"
+_HALF, _TURN = math.pi / 2, 2 * math.pi
+_STACK = 64
+
+
+@kernel(f"boolean({_SHAPES}, int64, float64, float64, float64)", counts=False)
+def _holds(shapes, k, x, y, less):
+    """Tell whether shape k, smaller by `less` mm all round, holds a point."""
+    reach = shapes[k, 2] - less
+    dx, dy = x - shapes[k, 0], y - shapes[k, 1]
+    if reach < 0.0 or dx * dx + dy * dy > reach * reach:
+        return False
+    return (
+        shapes[k, 3] * x + shapes[k, 4] * y <= shapes[k, 5] - less
+        and shapes[k, 6] * x + shapes[k, 7] * y <= shapes[k, 8] - less
+    )
+
+
+@kernel(f"int64({_SHAPES}, int64, UniTuple(float64, 3), float64, float64[::1])", counts=False)
+def _borders(shapes, k, circle, less, out):
+    """Put the angles at which a circle (x, y, radius) crosses the border of shape k into `out`; return how many."""
+    x, y, radius = circle
+    count, reach = 0, shapes[k, 2] - less
+    dx, dy = shapes[k, 0] - x, shapes[k, 1] - y
+    far = math.sqrt(dx * dx + dy * dy)
+    if reach > 0.0 and far > 0.0 and abs(reach - radius) < far < reach + radius:
+        ahead = math.atan2(dy, dx)
+        half = math.acos(max(-1.0, min(1.0, (far * far + radius * radius - reach * reach) / (2.0 * far * radius))))
+        out[0], out[1] = ahead - half, ahead + half
+        count = 2
+    for j in (3, 6):
+        nx, ny = shapes[k, j], shapes[k, j + 1]
+        if nx == 0.0 and ny == 0.0:
+            continue
+        share = (shapes[k, j + 2] - less - nx * x - ny * y) / radius
+        if -1.0 < share < 1.0:
+            ahead, half = math.atan2(ny, nx), math.acos(share)
+            out[count], out[count + 1] = ahead - half, ahead + half
+            count += 2
+    return count
+
+
+@kernel(f"float64({_SHAPES}, UniTuple(float64, 3), float64, UniTuple(float64, 2))")
+def uncovered(shapes, circle, less, window):
+    """Return how much of a part of a circle no shape covers, radians.
+
+    Args:
+        circle: x, y, radius, mm.
+        less: so much smaller are all shapes taken to be, mm.
+        window: angle at which the part begins, and its size, at most a full turn, radians.
+    """
+    first, size = window
+    angles, own, count = np.empty(6 * len(shapes) + 2), np.empty(6), 2
+    angles[0], angles[1] = 0.0, size
+    for k in range(len(shapes)):
+        for j in range(_borders(shapes, k, circle, less, own)):
+            angle = (own[j] - first) % _TURN
+            if angle < size:
+                angles[count] = angle
+                count += 1
+    angles = np.sort(angles[:count])
+    bare = 0.0
+    for i in range(count - 1):
+        wide = angles[i + 1] - angles[i]
+        if wide <= 0.0:
+            continue
+        middle = first + angles[i] + wide / 2
+        x, y = circle[0] + circle[2] * math.cos(middle), circle[1] + circle[2] * math.sin(middle)
+        held = False
+        for k in range(len(shapes)):
+            if _holds(shapes, k, x, y, less):
+                held = True
+                break
+        if not held:
+            bare += wide
+    return bare
+
+
+@kernel(f"float64({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 2))")
+def _piece(shapes, row, radius, sweep, span):
+    """Return a bound of the engaged angle along a piece of a row; `sweep`: of the row, signed, and its length."""
+    middle, long = (span[0] + span[1]) / 2, sweep[1] * (span[1] - span[0])
+    if row[7] == 0.0:
+        dx, dy = row[2] - row[0], row[3] - row[1]
+        x, y, ahead, turn = row[0] + dx * middle, row[1] + dy * middle, math.atan2(dy, dx), 0.0
+    else:
+        angle = math.atan2(row[1] - row[5], row[0] - row[4]) + sweep[0] * middle
+        x, y = row[4] + row[6] * math.cos(angle), row[5] + row[6] * math.sin(angle)
+        ahead, turn = angle + (_HALF if sweep[0] > 0.0 else -_HALF), abs(sweep[0]) * (span[1] - span[0]) / 2
+    wide = min(_TURN, math.pi + 2 * turn)
+    return uncovered(shapes, (x, y, radius), long / 2, (ahead - wide / 2, wide))
+
+
+@kernel(f"UniTuple(float64, 2)({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 3))")
+def bound_along(shapes, row, radius, sweep, limits):
+    """Return a bound of the engaged angle all along a row (8,), radians, and the fraction of it where it is that large.
+
+    Args:
+        shapes: (n, 9) what is clear, see the module.
+        radius: of the cutter, mm.
+        sweep: signed sweep of an arc, radians, 0 for lines, and the length of the row, mm.
+        limits: an angle that is small enough, radians; lengths of the first pieces, and of pieces that are not halved,
+            mm: whatever bound these have is the answer.
+    """
+    enough, coarse, finest = limits
+    most, where = 0.0, 0.0
+    count = max(1, math.ceil(sweep[1] / coarse))
+    low, high = np.empty(_STACK), np.empty(_STACK)
+    for piece in range(count):
+        low[0], high[0], depth = piece / count, (piece + 1) / count, 1
+        while depth > 0:
+            depth -= 1
+            a, b = low[depth], high[depth]
+            found = _piece(shapes, row, radius, sweep, (a, b))
+            if found <= max(enough, most) or (b - a) * sweep[1] <= finest or depth + 2 > _STACK:
+                if found > most:
+                    most, where = found, (a + b) / 2
+                if found > enough and (b - a) * sweep[1] <= finest:
+                    return most, where
+                continue
+            middle = (a + b) / 2
+            low[depth], high[depth] = middle, b
+            low[depth + 1], high[depth + 1] = a, middle
+            depth += 2
+    return most, where
+
+
+@kernel(f"float64({_SHAPES}, UniTuple(float64, 3))")
+def clear_radius(shapes, place):
+    """Return the radius of a disc round a place that is clear for certain, mm, at most `place[2]`; 0 where there is none.
+
+    Only shapes that hold the place count: seen from it each reaches from there to its border without a gap, so a circle
+    that is covered all round has nothing but clear ground within.
+    """
+    x, y, most = place
+    inner, count = np.empty_like(shapes), 0
+    for k in range(len(shapes)):
+        if _holds(shapes, k, x, y, 0.0):
+            inner[count] = shapes[k]
+            count += 1
+    if count == 0:
+        return 0.0
+    held = inner[:count]
+    low = 0.0
+    for k in range(count):
+        dx, dy = x - held[k, 0], y - held[k, 1]
+        gap = held[k, 2] - math.sqrt(dx * dx + dy * dy)
+        for j in (3, 6):
+            if held[k, j] != 0.0 or held[k, j + 1] != 0.0:
+                gap = min(gap, held[k, j + 2] - held[k, j] * x - held[k, j + 1] * y)
+        low = max(low, gap)
+    high = most
+    if low >= high:
+        return high
+    if uncovered(held, (x, y, high), 0.0, (0.0, _TURN)) == 0.0:
+        return high
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        if uncovered(held, (x, y, middle), 0.0, (0.0, _TURN)) == 0.0:
+            low = middle
+        else:
+            high = middle
+    return low

@@ -1,0 +1,17 @@
+"""What a view says in place of a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """What a view lacks: a sentence, and the button (with the name of its action) that makes it."""
+
+    sentence: str = ""
+    button: str = ""
+    action: str = "open"
+
+
+NOTHING = Missing()

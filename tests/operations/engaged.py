@@ -1,0 +1,81 @@
+"""The engaged angle of a cutter along a path, looked at in many places: plain distances from all that was cut before.
+
+Shares nothing with the program: no discs, no bounds, no kernels. A point of the rim is metal if no earlier part of the
+path has come within the cutter's radius of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def distances(points: Floats, row: Floats) -> Floats:
+    """Return how far points (n, 2) are from a line or an arc of any sweep (x0, y0, x1, y1, cx, cy, r, turn)."""
+    if row[7] == 0:
+        along = row[2:4] - row[:2]
+        share = np.clip(((points - row[:2]) @ along) / max(float(along @ along), 1e-300), 0, 1)
+        return np.hypot(*(points - row[:2] - share[:, None] * along).T)
+    arm = points - row[4:6]
+    first = math.atan2(row[1] - row[5], row[0] - row[4])
+    angle = ((np.arctan2(arm[:, 1], arm[:, 0]) - first) * row[7]) % math.tau
+    ends = np.minimum(np.hypot(*(points - row[:2]).T), np.hypot(*(points - row[2:4]).T))
+    return np.where(angle <= sweep(row), np.abs(np.hypot(*arm.T) - row[6]), ends)
+
+
+def sweep(row: Floats) -> float:
+    """Return the sweep of an arc, radians, > 0."""
+    a, b = (math.atan2(row[k + 1] - row[5], row[k] - row[4]) for k in (0, 2))
+    turn: float = ((b - a) * row[7]) % math.tau
+    return turn if turn > 1e-9 else math.tau
+
+
+def at(row: Floats, share: Floats) -> tuple[Floats, Floats]:
+    """Return places (n, 2) of a row and the directions of travel there."""
+    if row[7] == 0:
+        along = row[2:4] - row[:2]
+        return row[:2] + share[:, None] * along, np.full(len(share), math.atan2(along[1], along[0]))
+    angle = math.atan2(row[1] - row[5], row[0] - row[4]) + row[7] * sweep(row) * share
+    return row[4:6] + row[6] * np.column_stack([np.cos(angle), np.sin(angle)]), angle + row[7] * math.pi / 2
+
+
+def size(row: Floats) -> float:
+    """Return the length of a row, mm."""
+    return math.dist(row[:2], row[2:4]) if row[7] == 0 else float(row[6]) * sweep(row)
+
+
+def engaged(rows: Floats, radius: float, *, step: float = 0.1, rim: int = 180, hair: float = 1e-6) -> list[Floats]:
+    """Return, row by row, the engaged angle at places not farther apart than `step` mm, radians.
+
+    Args:
+        rows: the whole path in the order of cutting; at its beginning the cutter stands in a hole of its own size.
+        rim: points of the front half of the rim.
+        hair: mm; thinner metal than this is none.
+    """
+    boxes = np.array([[r[:4:2].min(), r[1:4:2].min(), r[:4:2].max(), r[1:4:2].max()] for r in rows])
+    arcs = rows[:, 7] != 0
+    boxes[arcs, :2] = rows[arcs, 4:6] - rows[arcs, 6:7]
+    boxes[arcs, 2:] = rows[arcs, 4:6] + rows[arcs, 6:7]
+    front = (np.arange(rim) + 0.5) / rim * math.pi - math.pi / 2
+    found = []
+    for k, row in enumerate(rows):
+        count = max(1, math.ceil(size(row) / step))
+        share = (np.arange(count) + 0.5) / count
+        places, ahead = at(row, share)
+        angle = ahead[:, None] + front
+        points = places[:, None] + radius * np.stack([np.cos(angle), np.sin(angle)], -1)
+        metal = np.hypot(*(points - rows[0, :2]).reshape(-1, 2).T) > radius + hair
+        flat = points.reshape(-1, 2)
+        low, high = flat.min(axis=0) - radius, flat.max(axis=0) + radius
+        near = np.flatnonzero((boxes[:k, :2] <= high).all(axis=1) & (boxes[:k, 2:] >= low).all(axis=1))
+        for j in near[::-1].tolist():
+            left = np.flatnonzero(metal)
+            if not len(left):
+                break
+            metal[left[distances(flat[left], rows[j]) <= radius - hair]] = False
+        found.append(metal.reshape(count, rim).sum(axis=1) * math.pi / rim)
+    return found

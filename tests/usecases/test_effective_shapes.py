@@ -1,0 +1,178 @@
+"""Method D on its purpose: a program made from facets goes, written anew, along the shape that the facets stood for.
+
+The written text is evaluated by `written_curves`, which knows none of our reader and curves, and held against the shape
+itself; beside it the same program smoothed by all of its points, and a plain spline through the facets' ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.interpolate import BSpline, CubicSpline
+from scipy.spatial import cKDTree
+
+from app.core.errors import InputError
+from app.fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
+from app.fitting.point_curves.effective_points import EffectiveOptions
+from app.usecases.smooth import Form, Smoothed, SmoothOptions, smooth
+from app.usecases.smooth_report import report
+from tests.usecases.written_curves import Floats, moves_of
+
+Shape = Callable[[Floats], Floats]
+INNER = 4
+"""Points within each facet."""
+DIGIT = 1e-4
+"""mm; of a program for LinuxCNC."""
+
+
+def circle(t: Floats) -> Floats:
+    return 50 * np.column_stack([np.cos(math.pi * t), np.sin(math.pi * t)])
+
+
+def ellipse(t: Floats) -> Floats:
+    return np.column_stack([40 * np.cos(math.pi * t), 25 * np.sin(math.pi * t)])
+
+
+def offset_spline(t: Floats) -> Floats:
+    """A cubic spline's parallel, 5 mm to its left."""
+    control = np.array([[0, 0], [15, 0], [30, 18], [55, 20], [75, 2], [95, 6], [110, 30.0]])
+    knots = np.concatenate([np.zeros(4), [0.25, 0.5, 0.75], np.ones(4)])
+    curve = BSpline(knots, control, 3)
+    way = curve.derivative()(t)
+    return curve(t) + 5 * np.column_stack([-way[:, 1], way[:, 0]]) / np.linalg.norm(way, axis=1)[:, None]
+
+
+def torus_section(t: Floats) -> Floats:
+    """Half of where a plane 18 mm off its axis cuts a torus of 40 and 15 mm."""
+    angle = math.pi * (0.1 + 0.8 * t)
+    across = 40 + 15 * np.cos(angle)
+    return np.column_stack([np.sqrt(across**2 - 18**2), 15 * np.sin(angle)])
+
+
+SHAPES: dict[str, Shape] = {"circle": circle, "ellipse": ellipse, "offset": offset_spline, "torus": torus_section}
+
+
+@cache
+def facet_ends(shape: str, sag: float) -> Floats:
+    """Ends of facets that are all about so far off the shape in their middles, at most 20 % farther."""
+    t = np.linspace(0, 1, 200_001)
+    places = SHAPES[shape](t)
+    way = np.gradient(places, t, axis=0)
+    turn = np.gradient(np.unwrap(np.arctan2(way[:, 1], way[:, 0])), t)
+    speed = np.linalg.norm(way, axis=1)
+    density = np.sqrt(np.maximum(np.abs(turn) * speed, 0.05 * (np.abs(turn) * speed).max()) / (8 * sag))
+    total = np.concatenate([[0], np.cumsum((density[1:] + density[:-1]) / 2 * np.diff(t))])
+    count = math.ceil(total[-1])
+    return SHAPES[shape](np.interp(np.linspace(0, total[-1], count + 1), total, t))
+
+
+def faceted(shape: str, sag: float) -> bytes:
+    """A program along the facets, with points within each."""
+    ends = facet_ends(shape, sag)
+    share = np.arange(1, INNER + 2) / (INNER + 1)
+    points = (ends[:-1, None] + (ends[1:] - ends[:-1])[:, None] * share[None, :, None]).reshape(-1, 2)
+    first = "G21 G90 G17 G94\nG0 X{:.4f} Y{:.4f} Z5\nG1 Z-1 F200\nF900\n".format(*ends[0])
+    return (first + "".join(f"G1 X{x:.4f} Y{y:.4f}\n" for x, y in points) + "G0 Z5\nM2\n").encode()
+
+
+@cache
+def written(shape: str, sag: float, form: Form, method: int) -> Smoothed:
+    choose = EffectiveOptions(max(sag / 10, 2 * DIGIT))
+    effective = [None, EffectiveMethod(choose), EffectiveMethod(choose, second_embodiment())][method]
+    options = SmoothOptions(2.5 * sag + 5 * DIGIT, form, effective=effective)
+    return smooth("facets.ngc", faceted(shape, sag), options)
+
+
+def off(shape: str, places: Floats) -> float:
+    """How far places are from the shape at most: from the tangent at the nearest of many places of it."""
+    t = np.linspace(-0.002, 1.002, 400_001) if shape in ("circle", "ellipse") else np.linspace(0, 1, 400_001)
+    line = SHAPES[shape](t)
+    near = np.clip(cKDTree(line).query(places)[1], 1, len(line) - 2)
+    way = line[near + 1] - line[near - 1]
+    apart = places - line[near]
+    return float(np.max(np.abs(apart[:, 0] * way[:, 1] - apart[:, 1] * way[:, 0]) / np.linalg.norm(way, axis=1)))
+
+
+def cut(done: Smoothed) -> Floats:
+    """Places of all that the written text cuts at its depth."""
+    moves = [move for move in moves_of(done.data.decode()) if not move.rapid and move.start[2] == move.end[2] == -1]
+    return np.vstack([move.at(np.linspace(0, 1, 400))[:, :2] for move in moves])
+
+
+def plain_spline(shape: str, sag: float) -> float:
+    """How far a spline through the facets' ends, as the program has them, is from the shape."""
+    ends = np.round(facet_ends(shape, sag), 4)
+    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(ends, axis=0), axis=1))])
+    return off(shape, CubicSpline(along, ends)(np.linspace(0, along[-1], 100_000)))
+
+
+FAMILY = [(shape, sag) for shape in SHAPES for sag in (0.002, 0.01, 0.05)]
+FAST = {("ellipse", 0.01), ("circle", 0.05)}
+
+
+@pytest.mark.parametrize("form", [Form.ARCS, Form.NURBS], ids=lambda form: form.value)
+@pytest.mark.parametrize(
+    ("shape", "sag"),
+    [
+        pytest.param(*each, marks=[] if each in FAST else pytest.mark.exhaustive, id=f"{each[0]}-{each[1]}")
+        for each in FAMILY
+    ],
+)
+def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag: float, form: Form) -> None:
+    """No farther from it than twice the plain spline through the points and what they and the blocks are rounded by."""
+    by_points, by_all = (off(shape, cut(written(shape, sag, form, method))) for method in (1, 0))
+    done = written(shape, sag, form, 1)
+    assert done.nearness is not None
+    assert by_points <= 2 * plain_spline(shape, sag) + done.nearness
+    assert by_points <= max(by_all / 10, 2 * DIGIT + done.nearness)
+    assert all(not piece.kept for piece in done.pieces)
+
+
+@pytest.mark.parametrize("form", [Form.ARCS, Form.NURBS], ids=lambda form: form.value)
+@pytest.mark.parametrize(
+    ("shape", "sag"),
+    [
+        pytest.param(*each, marks=[] if each in FAST else pytest.mark.exhaustive, id=f"{each[0]}-{each[1]}")
+        for each in FAMILY
+    ],
+)
+def test_corrected_points_lead_nearer_to_the_shape_than_all_points(shape: str, sag: float, form: Form) -> None:
+    corrected, by_all = (off(shape, cut(written(shape, sag, form, method))) for method in (2, 0))
+    assert corrected <= max(by_all / 3, 6 * DIGIT)
+
+
+def test_the_certificate_states_both_limits_and_each_point() -> None:
+    done = written("ellipse", 0.01, Form.ARCS, 1)
+    told = report(done)
+    ends = len(facet_ends("ellipse", 0.01))
+    assert told["points"]["effective"] == ends and told["points"]["left_out"] == INNER * (ends - 1)
+    assert told["points"]["farthest_mm"] <= told["points"]["nearness_mm"] == done.nearness == 4 * DIGIT
+    assert told["tolerance"]["proven_mm"] <= told["tolerance"]["asked_mm"]
+    (stretch,) = told["stretches"]["listed"]
+    assert [each["first"] for each in stretch["ranges"]] == list(range(0, (INNER + 1) * (ends - 1), INNER + 1))
+    assert [each["is"] for each in stretch["points"][: INNER + 2]] == ["effective", *["invalid"] * INNER, "effective"]
+    assert f"nearness {done.nearness:g} mm to them" in done.data.decode()
+
+
+def test_a_nearness_that_is_asked_for_is_kept() -> None:
+    method = EffectiveMethod(EffectiveOptions(0.005), nearness=0.004)
+    wide = smooth("facets.ngc", faceted("ellipse", 0.01), SmoothOptions(0.03, effective=method))
+    assert wide.nearness == 0.004
+    assert sum(piece.blocks[1] for piece in wide.pieces) < 0.7 * sum(
+        piece.blocks[1] for piece in written("ellipse", 0.01, Form.ARCS, 1).pieces
+    )
+    ends = facet_ends("ellipse", 0.01)
+    places = cut(wide)
+    apart = np.linalg.norm(np.diff(places, axis=0), axis=1).max()
+    assert cKDTree(places).query(ends)[0].max() < math.hypot(0.004 + 1e-4, apart / 2)
+    assert off("ellipse", places) < 0.0045
+
+
+def test_a_nearness_below_the_digits_is_refused() -> None:
+    method = EffectiveMethod(EffectiveOptions(0.005), nearness=1e-4)
+    with pytest.raises(InputError, match=r"nearness of 0.0001 mm is too near to the last decimal"):
+        smooth("facets.ngc", faceted("ellipse", 0.01), SmoothOptions(0.03, effective=method))
