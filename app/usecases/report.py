@@ -96,11 +96,12 @@ class Report:
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
         data = self.data
+        beyond = out_of_reach(data["left"])
         minutes, seconds = divmod(round(data["time_s"]), 60)
         length = sum(data["length_mm"].values())
         return (
             f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
-            f"reach, {out_of_reach(data['left'])}{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
+            f"reach, {beyond}{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
             f"{data['retracts']} retracts, {length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
             f"{data['check']['largest_distance_mm']:.4f} mm"
         )

@@ -154,8 +154,8 @@ def _sentence(finding: Finding) -> str:
 
 
 def figures(data: Mapping[str, Any]) -> str:
-    """Return the measured figures of a report: "0 gouge · 0 left · 15 places out of reach · 4:12". What was not measured is not
-    said.
+    """Return the measured figures of a report: "0 gouge · 0 left · 15 places out of reach · 2 strokes · 4:12". What was
+    not measured is not said.
     """
     parts = []
     gouge, left = data.get("gouge"), data.get("left")
