@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.progress import Progress
-from ...geometry.primitives import Primitives, lengths, points_at
+from ...geometry.primitives import Primitives, Rows, lengths, points_at
 from .ground import Room
 
 Floats = NDArray[np.float64]

@@ -15,7 +15,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
 from .axis import Axis, medial_axis
-from .ground import Discs, Point, Room
+from .ground import Disc, Discs, Point, Room
 from .limit import Limit
 from .ring import Proof, rounded, sharp_corners
 from .spiral import spiral
