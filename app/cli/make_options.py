@@ -13,6 +13,7 @@ from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
+from ..usecases.proposal.propose import Proposing
 from .parser import MACHINE_HELP, OptionParser, join_tolerance, machine_named, number, typed, with_equals
 from .reading_options import add_reading_options, reading
 
@@ -60,6 +61,7 @@ def make_parser() -> OptionParser:
         help=f"the drawing or project, {' '.join(offered_suffixes())}, or a picture, .png .jpg .bmp",
     )
     _file_options(parser.add_argument_group("files"))
+    _proposal_options(parser.add_argument_group("proposed operations"))
     _tool_options(parser.add_argument_group("tools and cutting"))
     add_machining_options(
         parser.add_argument_group("how it is cut"), parser.add_argument_group("copies, tabs and clamps")
@@ -101,6 +103,31 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
         "--exact-path", action="store_true", help="tell the control to stop at corners rather than blend (G61)"
     )
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def _proposal_options(group: argparse._ArgumentGroup) -> None:
+    group.add_argument(
+        "--propose",
+        action="store_true",
+        help="operations from how the curves lie in one another: outlines are cut out, with tabs, what lies in them is "
+        "a pocket, circles are holes, open lines are engraved; --depth is that of the pockets",
+    )
+    group.add_argument(
+        "--tools",
+        metavar="FILE",
+        type=Path,
+        help="tools to choose from, .toml, .csv or .tbl (default: those of the job, else the mills and drills that "
+        "come with the program)",
+    )
+    group.add_argument(
+        "--thickness",
+        metavar="MM",
+        type=number("thickness", least=LEAST_LENGTH),
+        help="of the stock, through which outlines and holes go (default: the job's, else 10)",
+    )
+    group.add_argument(
+        "--write-job", metavar="J.toml", type=Path, help="the job as a job file: its tools, operations and their curves"
+    )
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
@@ -200,12 +227,18 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
     """Return what was asked for, but for the job file, which is yet to be read.
 
     Raises:
-        HitofudeError: options of the bitmap that go neither with one another nor with the drawing.
+        HitofudeError: options of the bitmap that go neither with one another nor with the drawing, or an option without
+            the one that it belongs to.
     """
     from .bitmap_options import asked_bitmap
     from .machining_options import machining
 
     bitmap = asked_bitmap(arguments)
+    if not arguments.propose and (arguments.tools is not None or arguments.thickness is not None):
+        option = "tools" if arguments.tools is not None else "thickness"
+        raise InputError(f"--{option} has no effect without --propose; add that, or leave it away")
+    if arguments.propose and bitmap is not None:
+        raise InputError("--propose has no effect on pixels, where all is pockets; leave it away, or --bitmap")
     origin_xy, origin_z = arguments.origin or (None, None)
     return MakeOptions(
         contour_diameter=arguments.contour_tool,
@@ -229,4 +262,5 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         bitmap=bitmap,
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
+        propose=Proposing(thickness=arguments.thickness) if arguments.propose else None,
     )

@@ -36,10 +36,12 @@ class Stock:
     Attributes:
         margin: how far it reaches beyond the part's extent on every side, mm, >= 0.
         thickness: mm, > 0.
+        under: thickness of the waste that it lies on, mm, >= 0: so far below it may tools cut, as points of drills do.
     """
 
     margin: float = 0.0
     thickness: float = 10.0
+    under: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0 <= self.margin < 1e5 or not 0 < self.thickness < 1e5:
@@ -47,6 +49,8 @@ class Stock:
                 f"Stock margin is {self.margin:g} mm and thickness {self.thickness:g} mm; "
                 "the margin must be 0 or more and the thickness greater than 0."
             )
+        if not 0 <= self.under < 1e5:
+            raise ParameterError(f"Waste under the stock is {self.under:g} mm thick; it must be 0 or more.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from ..model.part import Contour, Region
 from ..model.tool import Tool, ToolKind
 from .coverage.flat import region_shapes
 from .drawn import Drawn
+from .selected import selected
 
 ALIKE = 0.1
 """mm; circles whose diameter is this near to a drill's are its own."""
@@ -64,12 +65,9 @@ def circle_of(contour: Contour) -> Hole | None:
 
 def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:
     """Return the circles of a drill operation, in the order of the drawing."""
-    tool, layers = job.tool(operation.cut.tool), frozenset(operation.cut.layers)
+    tool = job.tool(operation.cut.tool)
     circles = [
-        hole
-        for contour in drawn.closed
-        if not layers or contour.layer in layers
-        if (hole := circle_of(contour)) is not None
+        hole for contour in selected(drawn, operation.cut.curves).closed if (hole := circle_of(contour)) is not None
     ]
     least, most = _asked(operation, tool)
     asked = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]

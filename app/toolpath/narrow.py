@@ -78,7 +78,7 @@ def finest(job: Job, operation: Operation) -> float:
         for each in job.operations
         if each.cut.enabled
         and each.wall_side is operation.wall_side
-        and each.cut.layers == operation.cut.layers
+        and set(each.cut.curves) == set(operation.cut.curves)
         and each.cut.floor >= operation.cut.floor
     ]
     return min((2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike), default=math.inf)

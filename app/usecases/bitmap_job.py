@@ -88,6 +88,11 @@ def drawn_job(job: Job, size: BitmapSize, findings: tuple[Finding, ...] = ()) ->
         raise ParameterError(
             "Paths made from pixels do not know clamps; compute the drawing exactly, or take the keep-out layers away."
         )
+    if any(operation.cut.curves for operation in job.operations if operation.cut.enabled):
+        raise ParameterError(
+            "Paths made from pixels machine all that is drawn; compute the drawing exactly, or take curves out of the "
+            "operations."
+        )
     regions, own = regions_of(job)
     if not regions:
         raise GeometryError(

@@ -272,10 +272,9 @@ class _Run:
         """Return a program as it was cut; `done` motions were before it."""
         metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
         header = self.setup.programs[k].header
-        rates = {} if header is None else dict(header.plunge_rates)
-        return Stage(
-            self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row), rates
-        )
+        rates, under = ({}, 0.0) if header is None else (dict(header.plunge_rates), header.under)
+        where = lambda row: self.setup.where(done + row)  # noqa: E731 (a place of this program)
+        return Stage(self.courses[k], before, after, metal, self.setup.tools, where, rates, under)
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""

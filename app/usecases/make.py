@@ -44,6 +44,8 @@ from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
 from .plausible import read_for
+from .proposal.into_job import with_proposal
+from .proposal.propose import Proposal
 from .report import Measured, Report, make_report, rings_in_words
 from .written import write_and_check
 
@@ -69,6 +71,7 @@ class Made:
         findings: everything there is to say, what counts first.
         coverage: what is left on the floor, with outlines.
         cut: the files cut out of the stock and compared with the drawing; None when no move was made.
+        proposal: that the operations are of; None where none was asked for.
     """
 
     job: Job
@@ -79,6 +82,7 @@ class Made:
     findings: tuple[Finding, ...]
     coverage: Coverage
     cut: CutProgram | None
+    proposal: Proposal | None = None
 
     @property
     def nc(self) -> NcText:
@@ -132,8 +136,12 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     if options.bitmap is not None or is_picture(name):
         return _make_on_bitmap(name, data, options, progress)
     drawing = read_for(name, data, options)
+    options, proposal = with_proposal(drawing.part, options, progress.part(0.05, 0.1))
     job = job_from_drawing(drawing, options)
-    made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
+    told = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
+    made = export(job, progress.part(0.1, 1.0), told, options.machine)
+    if proposal is not None:
+        made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
     if not len(made.program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made

@@ -92,17 +92,28 @@ class Report:
         """Return it with the wall time of each stage of the job, s, in their order."""
         return Report({**self.data, "timings_s": dict(seconds)})
 
+    def with_proposal(self, proposal: Json) -> Report:
+        """Return it with what was proposed, and why."""
+        return Report({**self.data, "proposal": proposal})
+
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
         data = self.data
+        beyond = out_of_reach(data["left"])
         minutes, seconds = divmod(round(data["time_s"]), 60)
         length = sum(data["length_mm"].values())
         return (
             f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
-            f"reach, {len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
+            f"reach, {beyond}{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
             f"{data['retracts']} retracts, {length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
             f"{data['check']['largest_distance_mm']:.4f} mm"
         )
+
+
+def out_of_reach(left: Json) -> str:
+    """Return how many places are out of reach of every tool, with a comma behind; nothing where there is none."""
+    count = left["out_of_reach_places"]
+    return "" if not count else "1 place out of reach, " if count == 1 else f"{count} places out of reach, "
 
 
 def make_report(measured: Measured) -> Report:
@@ -121,6 +132,7 @@ def make_report(measured: Measured) -> Report:
                 "method": COVERAGE_METHOD,
                 "places": [_place(place) for place in measured.coverage.places[:100]],
                 "places_count": len(measured.coverage.places),
+                "out_of_reach_places": sum(not place.reachable for place in measured.coverage.places),
                 **({"given_up_mm2": measured.coverage.given_up_mm2} if program.given_up_mm is not None else {}),
             },
             "rapids_in_material": [

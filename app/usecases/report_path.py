@@ -124,6 +124,8 @@ def _suffix(placed: Placed) -> str:
 def _plain(placed: Placed, value: Any) -> Any:
     if isinstance(value, Enum):
         return value.value
+    if placed.parameter.unit is Unit.CURVES:
+        return [each.text for each in value]
     if isinstance(value, tuple):
         return [list(each) if isinstance(each, tuple) else each for each in value]
     return placed.parameter.shown(value) if placed.parameter.unit is Unit.ANGLE and value is not None else value

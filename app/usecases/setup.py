@@ -396,7 +396,8 @@ def _job_stock(
         thickness = note.size[2]
     else:
         thickness = max([base.stock.thickness, *(each.cut.depth for each in operations)])
-    return replace(base.stock, thickness=thickness)
+    told = (each.program.header.under for each in programs if each.program.header is not None)
+    return replace(base.stock, thickness=thickness, under=max([base.stock.under, *told]))
 
 
 def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Operation, ...]:

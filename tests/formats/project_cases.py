@@ -10,6 +10,7 @@ from app.drafting.expressions.values import Curves
 from app.drafting.history import State
 from app.formats.project.beside import Beside
 from app.formats.project.project import Look, Project
+from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, Selector, on_layers
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
@@ -124,6 +125,17 @@ def tools(draw: st.DrawFn, number: int) -> Tool:
     )
 
 
+def selectors() -> st.SearchStrategy[tuple[Selector, ...]]:
+    """Return what operations may say of their curves."""
+    circles = st.tuples(floats(0.01, 99), floats(0.01, 99)).map(
+        lambda ends: CirclesOf(*(round(e, 9) for e in sorted(ends)))
+    )
+    others = st.one_of(st.integers(1, 10**9 - 1).map(CurveNumber), circles, st.sampled_from(ContourKind))
+    return st.tuples(NAMES.map(on_layers), st.lists(others, unique=True, max_size=3)).map(
+        lambda two: (*two[0], *two[1])
+    )
+
+
 @st.composite
 def operations(draw: st.DrawFn) -> ContourOperation | PocketOperation | RestOperation | DrillOperation:
     entry = Entry(draw(st.sampled_from(EntryKind)), draw(floats(1e-3, math.pi / 4)))
@@ -138,7 +150,7 @@ def operations(draw: st.DrawFn) -> ContourOperation | PocketOperation | RestOper
         draw(floats(0, 0.2)),
         draw(floats(0, 0.5)),
         entry,
-        tuple(draw(NAMES)),
+        draw(selectors()),
     )
     maybe = st.one_of(st.none(), floats(0.1, 50))
     share = floats(0.05, 1)

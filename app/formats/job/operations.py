@@ -5,9 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ...model.curve_selectors import Selector, on_layers, read_selectors
 from ...model.fields import Placed, Unit, built, declared_of, parameters_of
 from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
 from .tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
+
+
+def read_curves(value: Any) -> tuple[Selector, ...]:
+    """Return what a list of texts selects.
+
+    Raises:
+        InputError: it is no list of texts. ParameterError: one selects nothing that could be.
+    """
+    return read_selectors(read_texts(value))
+
 
 _READERS: dict[Unit, Callable[[Any], Any]] = {
     Unit.LENGTH: read_number,
@@ -15,7 +26,7 @@ _READERS: dict[Unit, Callable[[Any], Any]] = {
     Unit.SHARE: read_share,
     Unit.COUNT: read_whole,
     Unit.FLAG: read_flag,
-    Unit.NAMES: read_texts,
+    Unit.CURVES: read_curves,
     Unit.POINTS: read_points,
 }
 
@@ -42,6 +53,7 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
         table.take("kind", word(OPERATION_KINDS, "kind of operation"))
         for key, placed in declared().items():
             table.take(key, reader_of(placed))
+        _take_layers(table)
         table.done(", ".join(("kind", *declared())))
         for key in ("kind", "tool"):
             if key not in table.taken:
@@ -54,8 +66,15 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
         yield operation
 
 
+def _take_layers(table: Table) -> None:
+    """Read layers, as an operation named them before it could name curves."""
+    if "layers" in table.values and "curves" in table.taken:
+        raise table.error("layers", 'goes into curves, as "layer:NAME"; take it out')
+    table.take("layers", lambda value: on_layers(read_texts(value)), "curves")
+
+
 def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
-    known = {"kind", *(declared_of(kind) if kept else parameters_of(kind))}
+    known = {"kind", "layers", *(declared_of(kind) if kept else parameters_of(kind))}
     for key in given:
         if key not in known:
             raise table.error(

@@ -220,7 +220,8 @@ class _Reader:
         table = self._table("stock")
         table.take("margin", read_number)
         table.take("thickness", read_number)
-        table.done("margin, thickness")
+        table.take("under", read_number)
+        table.done("margin, thickness, under")
         return {"stock": Stock(**table.taken)}
 
     def _origin(self) -> dict[str, Any]:

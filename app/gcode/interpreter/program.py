@@ -200,6 +200,7 @@ class HeaderNote:
         keep_out: layers of clamps, and how high these are, mm.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
         plunge_rates: T numbers, and how fast each may be fed straight down, mm/min.
+        under: thickness of the waste below the stock that may be cut into, mm.
     """
 
     origin: tuple[float, float, float] | None = None
@@ -215,6 +216,7 @@ class HeaderNote:
     dog_bones: tuple[DogBone, ...] = ()
     reading: ReadOptions = AS_DRAWN
     plunge_rates: tuple[tuple[int, float], ...] = ()
+    under: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

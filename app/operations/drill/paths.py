@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...model.curve_selectors import CirclesOf, CurveNumber
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
@@ -108,7 +109,7 @@ def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[F
         yield Finding(
             FindingKind.LEFT_OUT,
             f"{who} drills {_counted(holes.drilled)}; {left}: {_diameters(holes.others)}.",
-            counts=False,
+            counts=_names_them(operation),
             amount=float(len(holes.others)),
         )
     for kept, why in (
@@ -128,6 +129,12 @@ def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[F
     if holes.drilled:
         yield from _widths(holes.drilled, tool)
         yield _tip(tool, job, operation)
+
+
+def _names_them(operation: DrillOperation) -> bool:
+    """Tell whether an operation names the very circles that it is to drill, so that each of them counts."""
+    curves = operation.cut.curves
+    return bool(curves) and all(isinstance(each, CurveNumber | CirclesOf) for each in curves)
 
 
 def _widths(drilled: Sequence[Hole], tool: Tool) -> Iterator[Finding]:
