@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
@@ -16,7 +16,8 @@ from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_units
 from ..formats.readers import offered_suffixes
 from ..formats.tools.holders import outline_of
 from ..model.operation import LEAST_LENGTH
-from ..model.tool import HolderPoint, Tool, ToolKind
+from ..model.tool import HolderPoint, Tool
+from ..model.tool_kind import ToolKind, tool_kinds
 from ..usecases.cut import CELLS, Engine
 from ..usecases.examine import CONTROLS
 from ..usecases.setup_stock import FINEST, box_stock
@@ -34,7 +35,6 @@ clean; 1: with findings (gouge, metal left within reach, rapid, shank or holder 
 2: something cannot be used; 130: cancelled.
 """
 
-SHAPES = "flat:D, ball:D, bull:D:CORNER, v:D:ANGLE, drill:D or drill:D:ANGLE, taper:TIP:ANGLE:D"
 HELD = "NUMBER=HOLDER:STICKOUT"
 Corners = list[float]
 """x0, y0, z0, x1, y1, z1, mm."""
@@ -44,14 +44,18 @@ ENGINE_HELP = (
     "by facets in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on "
     "graphics hardware, else cpu)"
 )
-_COUNT = {
-    ToolKind.FLAT: (1,),
-    ToolKind.BALL: (1,),
-    ToolKind.BULL: (2,),
-    ToolKind.V: (2,),
-    ToolKind.DRILL: (1, 2),
-    ToolKind.TAPER: (3,),
-}
+
+
+def _shapes() -> str:
+    """Return how a tool of each kind is told."""
+    ways = {
+        kind: " or ".join(
+            ":".join(kind.spelled().split(":")[: len(kind.given) + 1 - fewer])
+            for fewer in range(kind.omissible, -1, -1)
+        )
+        for kind in tool_kinds()
+    }
+    return ", ".join(ways.values())
 
 
 class CutParser(OptionParser):
@@ -72,12 +76,12 @@ def tool_given(text: str) -> tuple[int, Tool]:
         InputError: it is not of that form, or its numbers make no tool.
     """
     match = re.fullmatch(r"\s*(\d{1,4})\s*=\s*([a-z]+)\s*:(.*)", text, re.IGNORECASE)
-    kind = next((kind for kind in ToolKind if match and kind.value == match[2].lower()), None)
+    kind = ToolKind.words().get(match[2].lower()) if match else None
     if match is None or kind is None:
-        raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {SHAPES}")
+        raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {_shapes()}")
     values = match[3].split(":")
-    if len(values) not in _COUNT[kind]:
-        raise InputError(f"'{text}' has {_counted(values)} behind {kind.value}; write one of {SHAPES}")
+    if not len(kind.given) - kind.omissible <= len(values) <= len(kind.given):
+        raise InputError(f"'{text}' has {_counted(values)} behind {kind.value}; write one of {_shapes()}")
     try:
         return int(match[1]), _shaped(max(int(match[1]), 1), kind, values)
     except CommandError as error:
@@ -87,16 +91,11 @@ def tool_given(text: str) -> tuple[int, Tool]:
 
 
 def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
-    if kind is ToolKind.TAPER:
-        return Tool(
-            tool, length(values[2]), kind, tip_diameter=length(values[0]), tip_angle=math.radians(angle(values[1]))
-        )
-    diameter = length(values[0])
-    if kind is ToolKind.BULL:
-        return Tool(tool, diameter, kind, corner_radius=length(values[1]))
-    if kind in (ToolKind.V, ToolKind.DRILL):
-        return Tool(tool, diameter, kind, tip_angle=math.radians(angle(values[1])) if len(values) > 1 else 0.0)
-    return Tool(tool, diameter, kind)
+    told: dict[str, Any] = {
+        key: math.radians(angle(value)) if key == "tip_angle" else length(value)
+        for key, value in zip(kind.given, values, strict=False)
+    }
+    return Tool(tool, told.pop("diameter"), kind, **told)
 
 
 def holder_given(text: str) -> tuple[int, Held]:
@@ -220,7 +219,8 @@ def _program_options(group: argparse._ArgumentGroup) -> None:
         type=typed(tool_given),
         action="append",
         default=[],
-        help=f"a tool by its T number (0: that of a program that names none): {SHAPES}; full angles in degrees; repeat",
+        help=f"a tool by its T number (0: that of a program that names none): {_shapes()}; full angles in degrees; "
+        "repeat",
     )
     group.add_argument(
         "--holder",

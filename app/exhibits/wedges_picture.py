@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
 from ..model.motion import Floats
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
+from ..model.tool_kind import ToolKind
 
 MOVES = 12
 """Moves round the tool's place that a picture shows."""

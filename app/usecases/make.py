@@ -22,7 +22,6 @@ from ..model.job import Job
 from ..model.machine import Machine
 from ..model.moves import Program
 from ..model.stock_box import stock_box, work_origin
-from ..model.tool import ToolKind
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.witness import about_floors
@@ -244,7 +243,7 @@ def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
             f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.",
         )
         for tool in tools
-        if tool.kind is not ToolKind.FLAT
+        if not tool.kind.square
     )
 
 

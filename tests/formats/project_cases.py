@@ -27,7 +27,8 @@ from app.model.operation import (
 from app.model.part import Entity, Layer, Part, Units
 from app.model.read_options import ReadOptions
 from app.model.reading import Reading, Source
-from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.tool import FeedRow, Tool, shape_keys
+from app.model.tool_kind import tool_kinds
 from app.model.underlay import Underlay
 
 
@@ -92,7 +93,7 @@ def parts(draw: st.DrawFn) -> Part:
 
 @st.composite
 def tools(draw: st.DrawFn, number: int) -> Tool:
-    kind, diameter = draw(st.sampled_from(ToolKind)), draw(floats(0.1, 100))
+    kind, diameter = draw(st.sampled_from(tool_kinds())), draw(floats(0.1, 100))
     known = {
         "corner_radius": floats(0, diameter / 2.01),
         "tip_diameter": floats(0, diameter / 1.01),

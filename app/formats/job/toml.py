@@ -12,7 +12,8 @@ from ...core.toml_tables import brief, parsed
 from ...model.job import Copies, Job, OriginXY, OriginZ, Stock
 from ...model.operation import Order
 from ...model.part import Part, Units
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 from .operations import operations_of
 from .tables import (
     JobText,
@@ -51,7 +52,7 @@ _LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "le
 TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
     "number": read_whole,
     "diameter": read_number,
-    "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
+    "kind": word(ToolKind.words(), "kind of tool"),
     "name": read_text,
     "flutes": read_whole,
     **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
