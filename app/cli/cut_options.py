@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
@@ -22,8 +21,9 @@ from ..usecases.cut import CELLS, Engine
 from ..usecases.examine import CONTROLS
 from ..usecases.setup_stock import FINEST, box_stock
 from ..usecases.setup_tools import Held
-from .parser import OptionParser, join_tolerance, number, typed, with_equals
+from .command import OptionParser
 from .reading_options import NAMES, add_reading_options
+from .values import join_tolerance, number, typed
 
 EPILOG = """\
 Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the
@@ -56,17 +56,6 @@ def _shapes() -> str:
         for kind in tool_kinds()
     }
     return ", ".join(ways.values())
-
-
-class CutParser(OptionParser):
-    """Takes several programs, so what it does not know is always an option."""
-
-    def error(self, message: str) -> NoReturn:
-        """Raise the error instead of printing the usage."""
-        unknown = re.match(r"unrecognized arguments: (.*)$", message)
-        if unknown is not None:
-            raise InputError(f"{unknown[1]} is no option of cut; take it away; see {self.prog} --help")
-        super().error(message)
 
 
 def tool_given(text: str) -> tuple[int, Tool]:
@@ -185,13 +174,8 @@ def _cells(text: str) -> int:
     return int(text)
 
 
-def cut_parser() -> CutParser:
-    """Return the parser of `hitofude cut`."""
-    about = (
-        "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to "
-        "the part."
-    )
-    parser = CutParser("cut", ("program", "the NC program"), about, EPILOG)
+def add_cut_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude cut`."""
     parser.add_argument(
         "programs",
         metavar="PROGRAM.ngc",
@@ -203,7 +187,6 @@ def cut_parser() -> CutParser:
     _look_options(parser.add_argument_group("how to look"))
     _part_options(parser.add_argument_group("the part that it is compared with"))
     _file_options(parser.add_argument_group("files"))
-    return parser
 
 
 def _program_options(group: argparse._ArgumentGroup) -> None:
@@ -309,20 +292,18 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
-def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
-    """Return the arguments of `cut`, each value read and in its range.
+def check_cut_arguments(arguments: argparse.Namespace) -> None:
+    """Refuse arguments of `cut` that do not go with one another.
 
     Raises:
-        InputError: one line that names the option, its value and what it must be.
+        InputError: one line that names them.
     """
-    arguments = cut_parser().parse_intermixed_args(with_equals(argv))
     for option in ("tool", "holder"):
         numbers = [given for given, _ in getattr(arguments, option)]
         twice = next((given for given in numbers if numbers.count(given) > 1), None)
         if twice is not None:
             raise InputError(f"--{option} {twice}=…: {option} {twice} is given twice; give each number once")
     _ensure_part(arguments)
-    return arguments
 
 
 def _ensure_part(arguments: argparse.Namespace) -> None:

@@ -14,7 +14,6 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
 from ..gcode.posts.posts import load_post
-from ..gcode.rework.frame import Frame, frame_text
 from ..gcode.timing.extent import Extent
 from ..gcode.writer.write import NcFile, NcText
 from ..model.finding import Finding, FindingKind, worst_first
@@ -86,6 +85,8 @@ class Made:
         Raises:
             ParameterError: nothing is cut.
         """
+        from ..gcode.rework.frame import Frame, frame_text
+
         program = self.program
         top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
         height = self.job.travel_z - top if self.files else 0.0
