@@ -21,7 +21,7 @@ MEMORY_HELP = (
 
 
 @dataclass(frozen=True)
-class Command:
+class CliCommand:
     """A command.
 
     Attributes:
@@ -64,7 +64,7 @@ class OptionParser(argparse.ArgumentParser):
     one line.
     """
 
-    def __init__(self, *, load: Callable[[], Command], **more: Any) -> None:
+    def __init__(self, *, load: Callable[[], CliCommand], **more: Any) -> None:
         """Make the parser of a command.
 
         Args:
@@ -72,10 +72,10 @@ class OptionParser(argparse.ArgumentParser):
         """
         super().__init__(allow_abbrev=False, formatter_class=HelpFormatter, exit_on_error=False, **more)
         self._load, self._nested = load, False
-        self._command: Command | None = None
+        self._command: CliCommand | None = None
 
     @property
-    def command(self) -> Command:
+    def command(self) -> CliCommand:
         """The command, its options added."""
         if self._command is None:
             command = self._command = self._load()

@@ -82,7 +82,7 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
 
     A line comes as often where the job tells nothing, from a compiled loop for instance.
     """
-    shown = _Shown(on_terminal())
+    shown = _ProgressLine(on_terminal())
 
     def told(fraction: float, text: str) -> None:
         stopped.stage = text or stopped.stage
@@ -93,7 +93,7 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
     return Progress(told, stopped)
 
 
-class _Shown:
+class _ProgressLine:
     """How far a job is, as its user is told."""
 
     def __init__(self, alone: bool) -> None:

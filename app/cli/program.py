@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 
-from .command import Command, OptionParser
+from .command import CliCommand, OptionParser
 from .output import tell
 from .signals import Stopping
 
@@ -67,9 +67,9 @@ def run_command(argv: Sequence[str], stopped: Stopping) -> int:
     return status
 
 
-def load_command(name: str) -> Command:
+def load_command(name: str) -> CliCommand:
     """Return a command by its name."""
-    command: Command = import_module(f".commands.{name}", __package__).COMMAND
+    command: CliCommand = import_module(f".commands.{name}", __package__).COMMAND
     return command
 
 

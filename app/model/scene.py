@@ -31,7 +31,7 @@ class LineType(Enum):
     CHAIN = "chain"
 
 
-class Side(Enum):
+class KeptSide(Enum):
     """Which side of an outline is kept."""
 
     INSIDE = "inside"
@@ -53,7 +53,7 @@ class Strategy(Enum):
 
 
 @dataclass(frozen=True)
-class Outline:
+class SceneOutline:
     """A closed outline in XY, given in exactly one way.
 
     Attributes:
@@ -88,14 +88,14 @@ class Outline:
 
 
 @dataclass(frozen=True)
-class Trim(Outline):
+class Trim(SceneOutline):
     """Of a surface only what lies over one side of an outline counts."""
 
-    keep: Side = Side.INSIDE
+    keep: KeptSide = KeptSide.INSIDE
 
 
 @dataclass(frozen=True)
-class Boundary(Outline):
+class Boundary(SceneOutline):
     """Where passes go: the inside of an outline."""
 
     centre: Centre = Centre.ON

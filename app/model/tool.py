@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from ..core.errors import ParameterError
-from .tool_kind import Profile, ToolKind, ToolShape, shape_keys
+from .tool_kind import ToolKind, ToolProfile, ToolShape, shape_keys
 
 __all__ = ["LEAST_RATE", "MOST_LENGTH", "FeedRow", "HolderPoint", "Tool", "ToolKind", "shape_keys"]
 
@@ -185,7 +185,7 @@ class Tool:
         return ToolShape(self.radius, self.corner_radius, self.tip_diameter / 2, self.tip_angle / 2)
 
     @property
-    def profile(self) -> Profile:
+    def profile(self) -> ToolProfile:
         """Its lower side; without a cone where its angle is not known."""
         return self.kind.profile(self.shape)
 

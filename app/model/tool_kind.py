@@ -37,7 +37,7 @@ class ToolShape:
 
 
 @dataclass(frozen=True, slots=True)
-class Profile:
+class ToolProfile:
     """A cutter's lower side from its axis outwards: a level disc, a rounding, a cone up to the cutter's radius.
 
     Attributes:
@@ -71,7 +71,7 @@ class ToolKind(Worded):
 
     value: str
     title: str
-    profile: Callable[[ToolShape], Profile]
+    profile: Callable[[ToolShape], ToolProfile]
     keys: frozenset[str] = frozenset()
     given: tuple[str, ...] = ("diameter",)
     omissible: int = 0
@@ -150,16 +150,18 @@ def shape_keys(kind: ToolKind) -> frozenset[str]:
 
 
 ToolKind.FLAT = register(
-    ToolKind("flat", "Flat end mill", lambda shape: Profile(shape.radius), level=True, square=True, aliases=("end",))
+    ToolKind(
+        "flat", "Flat end mill", lambda shape: ToolProfile(shape.radius), level=True, square=True, aliases=("end",)
+    )
 )
 ToolKind.BALL = register(
-    ToolKind("ball", "Ball end mill", lambda shape: Profile(0.0, shape.radius), aliases=("ball-nose", "ballnose"))
+    ToolKind("ball", "Ball end mill", lambda shape: ToolProfile(0.0, shape.radius), aliases=("ball-nose", "ballnose"))
 )
 ToolKind.BULL = register(
     ToolKind(
         "bull",
         "Bull-nose mill",
-        lambda shape: Profile(shape.radius - shape.corner_radius, shape.corner_radius),
+        lambda shape: ToolProfile(shape.radius - shape.corner_radius, shape.corner_radius),
         keys=frozenset({"corner_radius"}),
         given=("diameter", "corner_radius"),
         level=True,
@@ -170,7 +172,7 @@ ToolKind.V = register(
     ToolKind(
         "v",
         "V cutter",
-        lambda shape: Profile(shape.tip_radius, 0.0, shape.cone),
+        lambda shape: ToolProfile(shape.tip_radius, 0.0, shape.cone),
         keys=frozenset({"tip_angle", "tip_diameter"}),
         given=("diameter", "tip_angle"),
         aliases=("v-bit",),
@@ -180,7 +182,7 @@ ToolKind.DRILL = register(
     ToolKind(
         "drill",
         "Drill",
-        lambda shape: Profile(shape.tip_radius, 0.0, shape.cone),
+        lambda shape: ToolProfile(shape.tip_radius, 0.0, shape.cone),
         keys=frozenset({"tip_angle"}),
         given=("diameter", "tip_angle"),
         omissible=1,
@@ -192,7 +194,7 @@ ToolKind.TAPER = register(
     ToolKind(
         "taper",
         "Tapered ball mill",
-        lambda shape: Profile(0.0, shape.tip_radius, shape.cone),
+        lambda shape: ToolProfile(0.0, shape.tip_radius, shape.cone),
         keys=frozenset({"tip_angle", "tip_diameter"}),
         given=("tip_diameter", "tip_angle", "diameter"),
     )

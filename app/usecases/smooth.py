@@ -61,7 +61,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
     """
     ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
     found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
-    work = _Work(options, ready, found)
+    work = _SmoothingRun(options, ready, found)
     blocks, kept = work.written(progress.part(0.2, 0.7))
     while True:
         new = rewrite(ready.data, found.stretches, blocks, ())
@@ -114,7 +114,7 @@ class _Judged:
         return "as it was written it would lose a corner" if self.cut else ""
 
 
-class _Work:
+class _SmoothingRun:
     """A program's stretches, on their way."""
 
     def __init__(self, options: SmoothOptions, source: SourceProgram, found: Found) -> None:

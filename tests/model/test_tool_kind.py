@@ -24,7 +24,7 @@ from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.write import write_files
 from app.model.tool import Tool, ToolKind
-from app.model.tool_kind import Profile, register, tool_kind, tool_kinds, withdraw
+from app.model.tool_kind import ToolProfile, register, tool_kind, tool_kinds, withdraw
 from app.simulation.cutter import cutter_of
 from app.surfaces.cutter_contact.drop_cutter import shape_of
 from app.toolpath.cleared import flat_radius
@@ -34,7 +34,7 @@ from tests.gcode.programs import job, two_tools
 DRUM = ToolKind(
     "drum",
     "Drum mill",
-    lambda shape: Profile(shape.tip_radius, shape.radius - shape.tip_radius),
+    lambda shape: ToolProfile(shape.tip_radius, shape.radius - shape.tip_radius),
     keys=frozenset({"tip_diameter"}),
     given=("tip_diameter", "diameter"),
     aliases=("barrel",),
@@ -102,4 +102,4 @@ def test_a_kind_is_one_thing_wherever_it_goes() -> None:
     assert pickle.loads(pickle.dumps(MILL)).kind is copy.deepcopy(MILL).kind is DRUM is tool_kind("drum")
     assert tool_kinds()[-1] is DRUM
     with pytest.raises(ValueError, match="two kinds of tool are called drum"):
-        register(ToolKind("drum", "Another", lambda shape: Profile()))
+        register(ToolKind("drum", "Another", lambda shape: ToolProfile()))

@@ -15,7 +15,7 @@ from ...gcode.interpreter.program import Problem, Severity
 from ...gcode.rework.compare import Differences
 from ...model.part import Units
 from ...usecases.examine import CONTROLS, Examined, ExamineOptions, compared, examine
-from ..command import Command, OptionParser
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..output import tell
 from ..signals import Stopping, undisturbed
@@ -190,7 +190,7 @@ def _difference_lines(path: Path | None, differences: Differences | None) -> lis
     return [f"{path.name}: {'the same motion' if differences.same_motion else 'other motion'}", *lines, *more]
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "check",
     "program",
     "the NC program",

@@ -25,7 +25,7 @@ from ...usecases.examine import Examined, ExamineOptions, examine
 from ...usecases.setup import Ready, Wishes, setup_of
 from ...usecases.setup_stock import box_stock, read_stock
 from ...usecases.setup_tools import ToolsTold
-from ..command import Command
+from ..command import CliCommand
 from ..cut_options import EPILOG, Corners, add_cut_options, check_cut_arguments
 from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, tell
@@ -177,7 +177,7 @@ def _texts(outputs: dict[str, Path], ready: Ready, done: CutProgram, report: Cut
         yield "image", picture_of(done, ready.programs[0].name)
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "cut",
     "",
     "the NC program",

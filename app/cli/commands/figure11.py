@@ -12,7 +12,7 @@ from ...core.atomic import write_together
 from ...core.errors import InputError
 from ...exhibits.die_programs import PROGRAMS
 from ...exhibits.figure_eleven import FigureOptions, figure_eleven
-from ..command import Command, OptionParser
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, shown_progress
 from ..output import tell
 from ..signals import Stopping, undisturbed
@@ -82,7 +82,7 @@ def _whole(what: str, least: int, most: int) -> Callable[[str], int]:
     return read
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "figure11",
     "",
     "",

@@ -10,7 +10,7 @@ from ...core.atomic import write_together
 from ...core.errors import InputError
 from ...usecases.make import Made, make
 from ...usecases.options import MakeOptions
-from ..command import Command
+from ..command import CliCommand
 from ..files import check_outputs, identity, read_input, shown_progress
 from ..make_options import EPILOG, add_make_options, make_options
 from ..output import finding_lines, tell
@@ -84,7 +84,7 @@ def _summary(made: Made, names: list[Path]) -> None:
     tell("\n".join([made.report.summary(", ".join(map(str, names))), *finding_lines(made.findings)]))
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "make",
     "drawing",
     "the drawing and the NC program to write",

@@ -13,7 +13,7 @@ from ...gcode.posts.post import Post
 from ...gcode.posts.posts import load_post
 from ...usecases.smooth import Form, Smoothed, SmoothOptions, smooth
 from ...usecases.smooth_report import certificate, findings, report_text
-from ..command import Command, OptionParser
+from ..command import CliCommand, OptionParser
 from ..effective_options import add_effective_options, effective_method
 from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, tell
@@ -158,7 +158,7 @@ def _warnings(done: Smoothed) -> list[str]:
     return [f"  read as {HABITS[done.dialects[0]].title} does", *told[:REMARKS], *more]
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "smooth",
     "program",
     "the NC program and -o OUT.ngc",

@@ -18,7 +18,7 @@ from ...formats.readers import offered_suffixes
 from ...usecases.machining import Machining
 from ...usecases.options import MakeOptions
 from ..bitmap_options import add_bitmap_options, bitmap_options
-from ..command import Command, OptionParser
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..make_options import stepover
 from ..output import finding_lines, tell
@@ -172,7 +172,7 @@ def _lines(run: StagesRun, folder: Path) -> list[str]:
     return lines + finding_lines(run.findings)
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "stages",
     "drawing",
     "the drawing and the folder to write to",

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError
-from ...formats.plot.surface_plot import VIEWS, Look
+from ...formats.plot.surface_plot import VIEWS, PlotColouring
 from ...formats.scene.toml import read_scene, sources_of
 from ...usecases.surface import Computed, compute
 from ...usecases.surface_loop import closed_loop
@@ -18,7 +18,7 @@ from ...usecases.surface_nc import WrittenScene, write_scene_nc
 from ...usecases.surface_plot import FORMATS, Drawn, PlotScene, plot_surface
 from ...usecases.surface_points import scene_points_csv
 from ...usecases.surface_report import surface_report
-from ..command import Command, OptionParser
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..output import finding_lines, tell
 from ..signals import Stopping, undisturbed
@@ -75,8 +75,8 @@ def _add_options(parser: OptionParser) -> None:
     )
     parser.add_argument(
         "--look",
-        choices=[look.value for look in Look],
-        default=Look.COLOURS.value,
+        choices=[look.value for look in PlotColouring],
+        default=PlotColouring.COLOURS.value,
         help="what tells parts of the plot apart: colours of surfaces (default), line types of surfaces, or tools",
     )
     parser.add_argument(
@@ -128,7 +128,7 @@ def _texts(
         yield outputs["points"], scene_points_csv(computed)
     if "plot" in outputs:
         path = outputs["plot"]
-        what = PlotScene(VIEWS[arguments.view], Look(arguments.look), Drawn(arguments.draw))
+        what = PlotScene(VIEWS[arguments.view], PlotColouring(arguments.look), Drawn(arguments.draw))
         sheets = plot_surface(computed, path.suffix, what)
         for number, sheet in enumerate(sheets, 1):
             yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), sheet
@@ -137,7 +137,7 @@ def _texts(
             yield file.named(outputs["output"]), file.nc.text.encode()
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "surface",
     "scene",
     "the scene and -o OUT.ngc",

@@ -17,7 +17,7 @@ from ...model.operation import LEAST_LENGTH
 from ...toolpath.advice.advise import RegionAdvice
 from ...toolpath.advice.time import Plan
 from ...usecases.advice import AdviceOptions, Advised, advice_for
-from ..command import Command, OptionParser
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..output import finding_lines, tell
 from ..reading_options import add_reading_options, reading
@@ -144,7 +144,7 @@ def _clock(seconds: float) -> str:
     return f"{minutes}:{rest:02d}"
 
 
-COMMAND = Command(
+COMMAND = CliCommand(
     "tools",
     "drawing",
     "the drawing",

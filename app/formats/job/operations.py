@@ -7,7 +7,7 @@ from typing import Any
 
 from ...model.fields import Placed, Unit, built, declared_of, parameters_of
 from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
-from .tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
+from .tables import JobTable, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
 
 _READERS: dict[Unit, Callable[[Any], Any]] = {
     Unit.LENGTH: read_number,
@@ -27,7 +27,7 @@ def reader_of(placed: Placed) -> Callable[[Any], Any]:
     return _READERS[placed.parameter.unit]
 
 
-def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation]:
+def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operation]:
     """Yield the operations that tables [[operation]] describe.
 
     Args:
@@ -54,7 +54,7 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
         yield operation
 
 
-def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
+def _refuse_strange_keys(table: JobTable, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
     known = {"kind", *(declared_of(kind) if kept else parameters_of(kind))}
     for key in given:
         if key not in known:
@@ -65,7 +65,7 @@ def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, 
             )
 
 
-def _refuse_idle_values(table: Table, operation: Operation, given: tuple[str, ...]) -> None:
+def _refuse_idle_values(table: JobTable, operation: Operation, given: tuple[str, ...]) -> None:
     """Refuse what would have an effect only together with something else; its default may stand anywhere."""
     for key, placed in parameters_of(type(operation)).items():
         needs = placed.parameter.needs

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ....exhibits.wedges_picture import WedgesPicture, has_wedges
 from ....model.tool import Tool
+from ....simulation.gpu.wedges_picture import WedgesPicture, has_wedges
 from .patch import Patch
 from .picture import CutPicture
 from .scene import CutScene
