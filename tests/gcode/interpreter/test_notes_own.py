@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.gcode.interpreter.notes import notes
-from app.gcode.interpreter.options import DrawingOptions
+from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import HeaderNote, OperationNote, ToolNote
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post, post_names
@@ -46,7 +46,7 @@ def shaped() -> Job:
 def test_what_every_post_writes_is_read_again(name: str) -> None:
     post = load_post(name)
     read = [
-        read_program(file.nc.text.encode(), DrawingOptions(post.dialect))
+        read_program(file.nc.text.encode(), ReadOptions(post.dialect))
         for file in write_files(two_tools().program(), shaped(), post)
     ]
     told = [
@@ -99,7 +99,7 @@ def test_what_a_part_depends_on_is_read_again(name: str) -> None:
     )
     post = load_post(name)
     headers = [
-        read_program(file.nc.text.encode(), DrawingOptions(post.dialect)).header
+        read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header
         for file in write_files(program, made, post)
     ]
     told = [note for header in headers if header is not None for note in header.operations]
@@ -161,7 +161,7 @@ def test_every_parameter_goes_through_the_comments_of_every_control(name: str, o
     post, path = load_post(name), two_tools()
     first = PocketOperation(Cut(1))
     files = write_files(path.program(), job(tools=(BULL, TAPER), operations=(first, operation)), post)
-    headers = [read_program(file.nc.text.encode(), DrawingOptions(post.dialect)).header for file in files]
+    headers = [read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header for file in files]
     told = lowered(
         next(note for header in reversed(headers) if header for note in reversed(header.operations)).operation()
     )
@@ -210,7 +210,7 @@ def test_how_the_drawing_was_read_is_read_again(name: str, how: Reading) -> None
     made = job(tools=(BULL, TAPER))
     files = write_files(two_tools().program(), replace(made, part=replace(made.part, reading=how)), post)
     for file in files:
-        header = read_program(file.nc.text.encode(), DrawingOptions(post.dialect)).header
+        header = read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header
         assert header is not None and plain(header.reading) == plain(how)
         assert not any(line.startswith("M3") for line in file.nc.text.splitlines() if ")" in line)
 
