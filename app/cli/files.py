@@ -83,7 +83,7 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
     A line comes as often where the job tells nothing, from a compiled loop for instance; none while the command waits
     for what it has to say itself.
     """
-    shown = _Shown(on_terminal(), stopped)
+    shown = _ProgressLine(on_terminal(), stopped)
 
     def told(fraction: float, text: str) -> None:
         stopped.stage = text or stopped.stage
@@ -94,7 +94,7 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
     return Progress(told, stopped)
 
 
-class _Shown:
+class _ProgressLine:
     """How far a job is, as its user is told."""
 
     def __init__(self, alone: bool, stopped: Stopping) -> None:

@@ -15,7 +15,6 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
 from ..gcode.posts.posts import load_post
-from ..gcode.rework.frame import Frame, frame_text
 from ..gcode.timing.extent import Extent
 from ..gcode.writer.write import NcFile, NcText
 from ..model.finding import Finding, FindingKind, worst_first
@@ -23,7 +22,6 @@ from ..model.job import Job
 from ..model.machine import Machine
 from ..model.moves import Program
 from ..model.stock_box import stock_box, work_origin
-from ..model.tool import ToolKind
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.witness import about_floors
@@ -95,6 +93,8 @@ class Made:
         Raises:
             ParameterError: nothing is cut.
         """
+        from ..gcode.rework.frame import Frame, frame_text
+
         program = self.program
         top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
         height = self.job.travel_z - top if self.files else 0.0
@@ -260,7 +260,7 @@ def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
             f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.",
         )
         for tool in tools
-        if tool.kind is not ToolKind.FLAT
+        if not tool.kind.square
     )
 
 

@@ -25,7 +25,7 @@ from ..verify.verdict import Gouge, RapidInMaterial
 from .cut import CutProgram
 from .engagement_proofs import OperationProof
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
-from .written import Written
+from .written import WrittenProgram
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
 BITMAP_ENGINE = "pixels alone, smoothed into lines and arcs that keep clear of the pixels' squares"
@@ -65,7 +65,7 @@ class Measured:
 
     program: Program
     job: Job
-    written: Written
+    written: WrittenProgram
     gouge: Gouge
     rapids: tuple[RapidInMaterial, ...]
     coverage: Coverage
@@ -194,7 +194,7 @@ def _line(measured: Measured, move: int) -> Json:
     return {"line": line} | ({"file": files[-1] + 1} if len(measured.written.files) > 1 and files else {})
 
 
-def _check(written: Written) -> Json:
+def _check(written: WrittenProgram) -> Json:
     checks = written.checks
     return {
         "largest_distance_mm": written.largest_distance_mm,
@@ -228,7 +228,7 @@ def _box(box: Extent) -> Json:
     return {end: [value if np.isfinite(value) else None for value in getattr(box, end)] for end in ("low", "high")}
 
 
-def _times(written: Written) -> Json:
+def _times(written: WrittenProgram) -> Json:
     parts = [each.parts for each in written.durations]
     waits = written.changes_s + sum(part["wait"] for part in parts)
     return {

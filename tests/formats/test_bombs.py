@@ -18,7 +18,8 @@ from app.formats.svg.xml import MOST_USES
 from app.formats.tools.files import read_tools
 from app.geometry.arcs.arcs import lines_and_arcs
 from app.model.curves import Spline
-from app.raster.picture import PictureOptions, read_picture
+from app.raster.picture import read_picture
+from app.raster.picture_options import PictureOptions
 from app.simulation.heights_file import read_heights
 
 
