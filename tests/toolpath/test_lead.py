@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.geometry.offset.offset import offset_levels
-from app.geometry.primitives import TURN, Rows, lengths, sample
+from app.geometry.primitives import TURN, Rows, lengths, pack, sample
+from app.geometry.region import nest
 from app.model.entry import Lead, LeadKind
 from app.model.job import Job
 from app.model.moves import Purpose
@@ -21,7 +22,7 @@ from app.model.operation import Direction, Side
 from app.model.part import Contour
 from app.model.tool import Tool
 from app.operations.compute import compute
-from app.toolpath.leads.contour_path import headings_at, keep_clear
+from app.toolpath.leads.contour_path import Path, Paths, headings_at, keep_clear
 from app.toolpath.leads.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
 from app.toolpath.side import wall_paths
 from tests import plain_distance
@@ -194,3 +195,28 @@ def test_arcs_of_leads_turn_away_from_the_wall() -> None:
 def test_the_tool_decides_how_large_leads_are() -> None:
     (run,), around = runs_of(contour_job([square(40)], diameter=8.0))
     assert around.size == 4 and run.way_in[0, 6] == pytest.approx(4) and Tool(2, 8.0).radius == 4
+
+
+def test_many_paths_are_cut_as_each_alone_is() -> None:
+    """Closed ones and open ones, from anywhere and over their ends, with breaks and without."""
+    rings = [
+        ring.rows for part in (fig2(), [circle(6, 80, 5)]) for ring in offset_levels(pack(nest(part)), [1.0])[0].rings
+    ]
+    paths = [Path(rows, True) for rows in rings] + [Path(rows[:-1], False) for rows in rings]
+    lengths_ = [path.length for path in paths]
+    start = np.array([share * long for share, long in zip([0.0, 0.3, 0.9] * len(paths), lengths_, strict=False)])
+    stop = np.array(
+        [at + long + 0.5 if path.closed else long for path, at, long in zip(paths, start, lengths_, strict=True)]
+    )
+    breaks = [np.array([0.2, 0.7]) * long if k % 2 else np.zeros(0) for k, long in enumerate(lengths_)]
+    found, middle = Paths.of(paths).spans(start, stop, breaks)
+    for k, path in enumerate(paths):
+        rows, where = path.span(float(start[k]), float(stop[k]), breaks[k])
+        mine = slice(*found.first[k : k + 2].tolist())
+        assert found.rows[mine] == pytest.approx(rows, abs=1e-9) and middle[mine] == pytest.approx(where)
+        assert np.array_equal(rows[1:, :2], rows[:-1, 2:4])
+        assert lengths(rows).sum() == pytest.approx(stop[k] - start[k], abs=1e-6)
+        assert rows[0, :2] == pytest.approx(path.points(start[k : k + 1])[0])
+        assert rows[-1, 2:4] == pytest.approx(path.points(stop[k : k + 1])[0])
+        ends = path.points(breaks[k][breaks[k] > start[k]])
+        assert all(np.hypot(*(rows[:, :2] - end).T).min() < 1e-6 for end in ends)

@@ -42,6 +42,8 @@ def strokes_of(runs: Sequence[Run], tabs: Sequence[Sequence[float]], extras: Ext
     Args:
         tabs: their middles on each path, mm along it.
     """
+    if not runs:
+        return ()
     joined = Paths.of([run.path for run in runs])
     spans = [spans_of(run.path, places, extras.half) if places else [] for run, places in zip(runs, tabs, strict=True)]
     start, stop = np.array([run.start for run in runs]), np.array([run.stop for run in runs])

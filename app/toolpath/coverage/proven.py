@@ -83,10 +83,10 @@ def uncertain(
         uncut = np.min([far - each.radius for (far, _), each in zip(beside, swaths, strict=True)], axis=0)
         doubtful = uncut > -q
         centres, within, uncut = centres[doubtful], within[doubtful], uncut[doubtful]
-        squares = _Squares(centres, half, within)
         if half > most_reach:
-            states = _wide_states(area, squares)
+            states = _wide_states(area, centres, half, within)
         else:
+            squares = _Squares.of(centres, half, within, area)
             near = [
                 _Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)
             ]
@@ -131,11 +131,25 @@ class _Squares:
     Attributes:
         centres: (n, 2). half: their half side, mm.
         within: (n,) True for those that are known to be wanted as a whole; those that are found to be are written.
+        left: (n, 2) of the others, whether their lower and their upper corner on the left are wanted.
     """
 
     centres: Floats
     half: float
     within: NDArray[np.bool_]
+    left: NDArray[np.bool_]
+
+    def some(self, which: Indices) -> _Squares:
+        """Return some of them."""
+        return _Squares(self.centres[which], self.half, self.within[which], self.left[which])
+
+    @staticmethod
+    def of(centres: Floats, half: float, within: NDArray[np.bool_], area: DistanceField) -> _Squares:
+        """Return squares of an area."""
+        left, unknown = np.ones((len(centres), 2), np.bool_), np.flatnonzero(~within)
+        corners = centres[unknown, None] + np.array([[-half, -half], [-half, half]])
+        left[unknown] = area.inside(corners.reshape(-1, 2)).reshape(-1, 2)
+        return _Squares(centres, half, within, left)
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,14 +161,18 @@ class _Beside:
     far: Floats
 
 
-def _wide_states(area: DistanceField, squares: _Squares) -> States:
-    """Return what of squares is wanted that are wider than any stretch of a path cuts: some of it may be uncut."""
+def _wide_states(area: DistanceField, centres: Floats, half: float, within: NDArray[np.bool_]) -> States:
+    """Return what of squares is wanted that are wider than any stretch of a path cuts: some of it may be uncut.
+
+    Args:
+        centres, half, within: as of `_Squares`.
+    """
     from .swath_kernels import OPEN, OUTSIDE
 
-    beside = area.nearest(squares.centres, squares.half * math.sqrt(2))[1] >= 0
-    alone = np.flatnonzero(~beside & ~squares.within)
-    squares.within[alone] = area.inside(squares.centres[alone])
-    return np.where(beside | squares.within, np.uint8(OPEN), np.uint8(OUTSIDE))
+    beside = area.nearest(centres, half * math.sqrt(2))[1] >= 0
+    alone = np.flatnonzero(~beside & ~within)
+    within[alone] = area.inside(centres[alone])
+    return np.where(beside | within, np.uint8(OPEN), np.uint8(OUTSIDE))
 
 
 def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) -> States:
@@ -166,7 +184,7 @@ def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) ->
     states = np.full(len(squares.centres), UNCUT, np.uint8)
     for each in paths:
         asked = np.flatnonzero((states != COVERED) & (states != OUTSIDE))
-        some = _Squares(squares.centres[asked], squares.half, squares.within[asked])
+        some = squares.some(asked)
         found = _judged(area, _Beside(each.swath, each.near[asked], each.far[asked]), some)
         squares.within[asked] = some.within
         states[asked] = np.where((found == UNCUT) & (states[asked] == OPEN), np.uint8(OPEN), found)
@@ -196,6 +214,7 @@ def _judged(area: DistanceField, path: _Beside, squares: _Squares) -> States:
             path.near[band],
             path.far[band],
             squares.within[band],
+            squares.left[band],
             found[band],
         )
 

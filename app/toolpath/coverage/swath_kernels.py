@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ...geometry.kernels import DEPTH, LEAF, inside, nearest, point_distance
+from ...geometry.kernels import DEPTH, LEAF, nearest, point_distance
 
 OUTSIDE, COVERED, OPEN, UNCUT = range(4)
 """What of a square is wanted: nothing; all of that is covered; some of that may be uncut; some of that is."""
@@ -89,8 +89,8 @@ def _crosses_between(edges, i, y, low, high):
     return 1 if low <= x < high else 0
 
 
-@kernel(f"UniTuple(int64, 2)({_TREE}, {_BOX}, boolean, float64[:, ::1], int64[::1])", counts=False)
-def corners_of(edges, order, nodes, box, within, corners, stack):
+@kernel(f"UniTuple(int64, 2)({_TREE}, {_BOX}, boolean, boolean[::1], float64[:, ::1], int64[::1])", counts=False)
+def corners_of(edges, order, nodes, box, within, inside, corners, stack):
     """Write the corners of what of an area lies within a box.
 
     Only where edges are near has a corner to be asked by itself, and of two at one height only one: the other differs
@@ -99,6 +99,8 @@ def corners_of(edges, order, nodes, box, within, corners, stack):
     Args:
         edges, order, nodes: tree of the area's edges, even-odd.
         within: the box is known to lie in the area.
+        inside: (2,) whether the lower and the upper corner on the left do, else: all edges on one line are asked at
+            once, for all boxes that begin there.
         corners: (ROOM + 4, 2) room for them. stack: room for DEPTH nodes.
 
     Returns:
@@ -108,11 +110,11 @@ def corners_of(edges, order, nodes, box, within, corners, stack):
     if count < 0:
         return -1, 0
     whole = count == 0
-    if whole and not within and not inside(edges, order, nodes, box[0], box[1], stack):
+    if whole and not within and not inside[0]:
         return 0, 0
     for side in range(2):
         y, across = box[1 + 2 * side], above if side else below
-        left = whole or inside(edges, order, nodes, box[0], y, stack)
+        left = whole or inside[side]
         for k in range(2):
             if left != (k == 1 and across % 2 == 1):
                 corners[count, 0], corners[count, 1] = box[2 * k], y
@@ -186,9 +188,11 @@ def _holds(rows, sectors, j, reach, corners, count, box):
 
 @kernel(
     f"void({_TREE}, {_TREE}, float64[:, ::1], float64, float64[:, ::1], float64, int64[::1], float64[::1], "
-    "boolean[::1], uint8[::1])"
+    "boolean[::1], boolean[:, ::1], uint8[::1])"
 )
-def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, centres, half, near, far, within, states):
+def judge(
+    edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, centres, half, near, far, within, left, states
+):
     """Write what of squares is wanted and covered.
 
     Args:
@@ -200,13 +204,14 @@ def judge(edges, edge_order, edge_nodes, rows, order, nodes, sectors, reach, cen
         centres: (n, 2) of the squares. half: their half side, mm.
         near, far: (n,) the row nearest to each centre, -1 for none, and how far it is, mm.
         within: (n,) True for squares that are known to be wanted as a whole; written for those that are found to be.
+        left: (n, 2) of the others, whether their lower and their upper corner on the left lie in the area.
         states: (n,) OUTSIDE, COVERED, OPEN or UNCUT.
     """
     corners, stack = np.empty((ROOM + 4, 2)), np.empty(DEPTH, np.int64)
     for i in range(len(centres)):
         x, y = centres[i, 0], centres[i, 1]
         box = (x - half, y - half, x + half, y + half)
-        count, whole = corners_of(edges, edge_order, edge_nodes, box, within[i], corners, stack)
+        count, whole = corners_of(edges, edge_order, edge_nodes, box, within[i], left[i], corners, stack)
         within[i] = whole == 1
         if count == 0:
             states[i] = OUTSIDE
