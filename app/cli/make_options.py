@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
 from ..core.errors import InputError
@@ -14,8 +13,9 @@ from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
 from ..usecases.proposal.propose import Proposing
-from .parser import MACHINE_HELP, OptionParser, join_tolerance, machine_named, number, typed, with_equals
+from .command import OptionParser
 from .reading_options import add_reading_options, reading
+from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -42,18 +42,11 @@ def stepover(text: str) -> Stepover:
     return asked
 
 
-def make_parser() -> OptionParser:
-    """Return the parser of `hitofude make`."""
+def add_make_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude make`."""
     from .bitmap_options import add_bitmap_options
     from .machining_options import add_machining_options
 
-    parser = OptionParser(
-        "make",
-        ("drawing", "the drawing and the NC program to write"),
-        "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
-        "program, read back and proven the same.",
-        EPILOG,
-    )
     parser.add_argument(
         "drawing",
         metavar="DRAWING",
@@ -71,7 +64,6 @@ def make_parser() -> OptionParser:
         parser.add_argument_group("bitmap and picture"),
         "compute on N x N pixels, as in 1986, instead of exactly; a picture is always",
     )
-    return parser
 
 
 def _file_options(group: argparse._ArgumentGroup) -> None:
@@ -131,16 +123,17 @@ def _proposal_options(group: argparse._ArgumentGroup) -> None:
 
 
 def _tool_options(group: argparse._ArgumentGroup) -> None:
+    diameter = number("diameter", least=LEAST_DIAMETER)
     group.add_argument(
         "--contour-tool",
         metavar="D",
-        type=number("diameter", least=LEAST_DIAMETER),
+        type=diameter,
         help="diameter of the tool that follows the walls",
     )
     group.add_argument(
         "--pocket-tool",
         metavar="D",
-        type=number("diameter", least=LEAST_DIAMETER),
+        type=diameter,
         help="diameter of the tool that clears the area",
     )
     group.add_argument(
@@ -211,15 +204,6 @@ def _drawing_options(group: argparse._ArgumentGroup) -> None:
         type=join_tolerance,
         help="join loose ends nearer than this, 0 to 10 mm (default 0.01)",
     )
-
-
-def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
-    """Return the arguments of `make`, each value read and in its range.
-
-    Raises:
-        InputError: one line that names the option, its value and what it must be.
-    """
-    return make_parser().parse_args(with_equals(argv))
 
 
 def make_options(arguments: argparse.Namespace) -> MakeOptions:

@@ -8,7 +8,7 @@ from enum import Enum
 from ..core.errors import ParameterError
 from .operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
-from .tool import Tool, ToolKind
+from .tool import Tool
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""
@@ -161,7 +161,7 @@ class Job:
             ParameterError: the job has no such tool, or it is a drill and the operation mills.
         """
         tool = self.tool(operation.cut.tool)
-        if tool.kind is ToolKind.DRILL and not operation.DRILLS:
+        if tool.kind.drills and not operation.DRILLS:
             raise ParameterError(
                 f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
                 "choose another tool, or make it a drill operation."

@@ -15,7 +15,7 @@ from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import DrillOperation
 from ..model.part import Contour, Region
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
 from .coverage.flat import region_shapes
 from .drawn import Drawn
 from .selected import selected
@@ -128,7 +128,7 @@ def tip_depth(job: Job, operation: DrillOperation) -> float:
 
 def tip_length(tool: Tool) -> float:
     """Return the length of a drill's point, mm; 0 of other tools, and where its angle is not known."""
-    return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind is ToolKind.DRILL and tool.tip_angle else 0.0
+    return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind.drills and tool.tip_angle else 0.0
 
 
 def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Region, ...]:

@@ -18,7 +18,8 @@ from ..operations.compute import regions_of
 from ..raster.doubts import Ambiguity, Doubt, Place, ambiguities, pixel_words
 from ..raster.faces import inner_faces, shows
 from ..raster.frame import Frame
-from ..raster.picture import Picture, PictureOptions, Shows, read_picture
+from ..raster.picture import Picture, read_picture
+from ..raster.picture_options import PictureOptions, Shows
 from ..raster.walls import Mask, free_contours
 from .bitmap_options import BitmapOptions, BitmapSize, is_picture
 from .bitmap_part import BitmapPart, part_of_mask, part_of_regions

@@ -15,7 +15,7 @@ from ..model.operation import (
     Side,
 )
 from ..model.part import Part, Units
-from ..model.read_options import AS_DRAWN, ReadOptions
+from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
 from .bitmap_options import BitmapOptions
 from .layers import layers_to_read, with_layers_spelled
@@ -89,7 +89,7 @@ class MakeOptions:
     machine: Machine | None = None
     bitmap: BitmapOptions | None = None
     machining: Machining = field(default_factory=Machining)
-    reading: ReadOptions = AS_DRAWN
+    reading: DrawingOptions = AS_DRAWN
     propose: Proposing | None = None
 
 

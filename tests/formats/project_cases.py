@@ -26,9 +26,10 @@ from app.model.operation import (
     Side,
 )
 from app.model.part import Entity, Layer, Part, Units
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from app.model.reading import Reading, Source
-from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.tool import FeedRow, Tool, shape_keys
+from app.model.tool_kind import tool_kinds
 from app.model.underlay import Underlay
 
 
@@ -93,7 +94,7 @@ def parts(draw: st.DrawFn) -> Part:
 
 @st.composite
 def tools(draw: st.DrawFn, number: int) -> Tool:
-    kind, diameter = draw(st.sampled_from(ToolKind)), draw(floats(0.1, 100))
+    kind, diameter = draw(st.sampled_from(tool_kinds())), draw(floats(0.1, 100))
     known = {
         "corner_radius": floats(0, diameter / 2.01),
         "tip_diameter": floats(0, diameter / 1.01),
@@ -253,6 +254,8 @@ def projects(draw: st.DrawFn) -> Project:
 def sources() -> st.SearchStrategy[Source]:
     """Return drawings that parts were read from, in every way that they can be read."""
     names = NAMES.map(tuple)
-    how = st.builds(ReadOptions, st.booleans(), TEXT, st.booleans(), st.one_of(st.none(), floats(1, 1e5)), names, names)
+    how = st.builds(
+        DrawingOptions, st.booleans(), TEXT, st.booleans(), st.one_of(st.none(), floats(1, 1e5)), names, names
+    )
     reading = st.builds(Reading, st.one_of(st.none(), st.sampled_from(Units)), names, how)
     return st.builds(Source, TEXT.map(lambda name: f"d{name}.dxf"), reading)

@@ -1,11 +1,34 @@
-"""The window, as the tests of all its parts drive it."""
+"""The window, as the tests of all its parts drive it; and what a controller needs without one."""
 
 import pytest
 
-from app.ui.framework.computation import State
+from app.core.settings import Settings
+from app.drafting.document import Document
+from app.ui.framework.activity import Activity
+from app.ui.framework.computation import Computation, State
+from app.ui.framework.log import Log
+from app.ui.framework.log_view import LogView
+from app.ui.framework.notice import Notice
+from app.ui.framework.preferences import Preferences
+from app.ui.framework.worker import Worker
+from app.ui.framework.workspace import Workspace
 from tests.ui.one_window import OneWindow
 
 WAIT_MS = 20_000
+
+
+@pytest.fixture
+def workspace(qtbot):
+    """What the controllers of views share, with an empty document and no window."""
+    document, worker, activity = Document(), Worker(), Activity()
+    log, notice = LogView(), Notice()
+    for widget in (log, notice):
+        qtbot.addWidget(widget)
+    activity.follow(worker)
+    computation = Computation(document, worker, lambda made: None)
+    yield Workspace(document, computation, activity, Preferences(Settings()), Log(document, log), notice)
+    activity.cancel()
+    activity.ended.emit()
 
 
 @pytest.fixture(scope="module")

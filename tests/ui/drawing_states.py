@@ -15,9 +15,9 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.drafting.document import Document
 from app.model.part import Part
+from app.ui.framework.view import View
 from app.ui.shell.keys_window import KeysWindow
 from app.ui.shell.tour import STEPS
-from app.ui.shell.views import View
 from app.ui.shell.wiring import Wiring
 from app.ui.views.canvas.modes import CanvasTool as T
 
@@ -204,7 +204,10 @@ class DrawingStates:
 
     def windows(self, folder: Path, ending: str) -> None:
         """Save the pictures of the windows beside: keys, manual, shape language."""
-        keys, manual = KeysWindow(self._window, self._wiring.shortcuts), self._wiring.language.help
+        keys, manual = (
+            KeysWindow(self._window, self._window.actions_, self._wiring.shortcuts),
+            self._wiring.language.help,
+        )
         posts = partial(manual.show_page, "posts")
         for name, show, shown in (
             ("keys", keys.show, keys),

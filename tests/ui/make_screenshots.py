@@ -22,8 +22,8 @@ from PySide6.QtWidgets import QApplication
 from app.core.settings import ThemeChoice
 from app.fitting.point_curves.correction import Select
 from app.ui.framework.computation import State
+from app.ui.framework.view import View, views
 from app.ui.shell.start import build
-from app.ui.shell.views import View
 from app.ui.shell.wiring import Wiring
 from app.ui.views.nc.motion_picture import PathColour
 from app.ui.views.nc.motion_shapes import Side
@@ -267,7 +267,7 @@ def main() -> None:
         wiring.window_.choose_theme(theme)
         for width, height in SIZES:
             wiring.window_.resize(width, height)
-            for view in View:
+            for view in views():
                 wiring.showing.show_view(view)
                 wait(50)
                 wiring.window_.canvas.fit()
@@ -275,7 +275,7 @@ def main() -> None:
                     wait_until(lambda: wiring.window_.views.stages.film is not None)
                 if view is View.CUT:
                     wait_until(lambda: wiring.window_.views.cut.painting.fine)
-                take(wiring, folder / f"{view.name.lower()}-{theme.value}-{width}.png")
+                take(wiring, folder / f"{view.value.removeprefix('view_')}-{theme.value}-{width}.png")
             for name, arrange in stage_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
                 take(wiring, folder / f"stages-{name}-{theme.value}-{width}.png")

@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 from app.core.settings import Settings, ThemeChoice
 from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
+from app.ui.framework.view import View
 from app.ui.shell.start import build
-from app.ui.shell.views import View
 from app.ui.shell.wiring import Wiring
 from app.ui.views.canvas.modes import CanvasTool
 from app.ui.views.canvas.view import View as CanvasView

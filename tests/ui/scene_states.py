@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.shell.wiring import Wiring
 from app.ui.views.surfaces.scene_raster import ColourBy
 from app.ui.views.surfaces.scene_work import SceneState

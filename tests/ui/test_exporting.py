@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from app.model.operation import ContourOperation, Cut, PocketOperation
 from app.ui.framework.computation import State
+from app.ui.framework.view import View
 from app.ui.panels.changes import with_tool
-from app.ui.shell.views import View
 from tests.ui.conftest import WAIT_MS
 
 

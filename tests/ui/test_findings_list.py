@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QPushButton
 
 from app.model.finding import Finding, FindingKind
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.shell.wiring import Wiring
 from tests.ui.conftest import WAIT_MS
 

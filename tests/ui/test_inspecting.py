@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLineEdit
 
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 
 
 def test_keys_bring_the_page_and_its_sections(qtbot, wiring):

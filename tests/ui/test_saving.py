@@ -12,7 +12,7 @@ from app.formats.project.files import load_project, save_project
 from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from tests.ui.conftest import WAIT_MS
 
 

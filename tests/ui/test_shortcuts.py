@@ -4,14 +4,14 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.core.settings import Settings, load_settings
-from app.ui.shell.actions import MENUS
+from app.ui.shell.actions import menus
 from app.ui.shell.keys_window import FIXED, KeysWindow
 from app.ui.shell.shortcuts import Shortcuts
 
 
 @pytest.fixture
 def keys(qtbot, wiring) -> KeysWindow:
-    made = KeysWindow(wiring.window_, wiring.shortcuts)
+    made = KeysWindow(wiring.window_, wiring.window_.actions_, wiring.shortcuts)
     qtbot.addWidget(made)
     made.show()
     return made
@@ -28,7 +28,7 @@ def press(
 
 
 def test_no_two_actions_have_one_key() -> None:
-    used = [spec.key for _, specs in MENUS for spec in specs if spec.key]
+    used = [spec.key for _, specs in menus() for spec in specs if spec.key]
     assert sorted(used) == sorted(set(used))
 
 
@@ -50,7 +50,7 @@ def test_a_new_key_is_recorded_works_and_is_remembered(qtbot, keys: KeysWindow, 
     assert row_of(keys, "fit").text(2) == "Ctrl+M"
     assert wiring.window_.actions_["fit"].toolTip() == "Fit (Ctrl+M)"
     assert load_settings().shortcuts == ("fit=Ctrl+M",)
-    again = Shortcuts(wiring.window_)
+    again = Shortcuts(wiring.window_.actions_, wiring.window_.preferences)
     assert again.is_own("fit")
     assert not again.is_own("new")
 
@@ -95,5 +95,5 @@ def test_damaged_settings_change_no_key(wiring) -> None:
 
     preferences, wrong = wiring.window_.preferences, ("nonsense", "gone=Ctrl+M", "fit=Ctrl+M")
     preferences.settings = replace(preferences.settings, shortcuts=wrong)
-    Shortcuts(wiring.window_)
+    Shortcuts(wiring.window_.actions_, wiring.window_.preferences)
     assert wiring.window_.actions_.key("fit") == "Ctrl+M"

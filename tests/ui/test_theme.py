@@ -9,7 +9,7 @@ from app.core.resources import resource
 from app.ui.framework.icons import pixmap
 from app.ui.framework.style import style_sheet
 from app.ui.framework.theme import DARK, LIGHT, text_font
-from app.ui.shell.actions import MENUS, SEPARATOR
+from app.ui.shell.actions import SEPARATOR, menus
 
 LEAST_CONTRAST = 4.5
 
@@ -69,7 +69,7 @@ def test_every_icon_draws_something_in_the_colour_asked_for(qapp):
 
 
 def test_icons_of_the_table_exist_and_keys_are_used_once():
-    specs = [spec for _, menu in MENUS for spec in menu if spec is not SEPARATOR]
+    specs = [spec for _, menu in menus() for spec in menu if spec is not SEPARATOR]
     for spec in specs:
         assert not spec.icon or resource("icons", f"{spec.icon}.svg").exists()
     keys = [spec.key for spec in specs if spec.key]

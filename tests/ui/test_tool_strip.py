@@ -6,9 +6,9 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from app.ui.shell.actions import MENUS
+from app.ui.framework.view import View
+from app.ui.shell.actions import menus
 from app.ui.shell.tool_strip import GROUPS, SIDE
-from app.ui.shell.views import View
 from app.ui.views.canvas.modes import CanvasTool
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton
@@ -24,7 +24,7 @@ def enter(wiring, text: str) -> None:
 
 
 def test_every_tool_is_in_a_menu_and_on_the_strip(wiring):
-    listed = {spec.name for _, specs in MENUS for spec in specs}
+    listed = {spec.name for _, specs in menus() for spec in specs}
     shown = {name for group in GROUPS for names in group for name in names}
     for tool in CanvasTool:
         assert f"tool_{tool.value}" in listed

@@ -23,7 +23,7 @@ def test_every_step_stands_beside_its_thing_and_covers_none_of_it(tour, wiring) 
     for number, step in enumerate(STEPS):
         assert tour.callout.title.text() == step.title
         assert tour.callout.count.text() == f"{number + 1} of 6"
-        words, thing = area(tour.callout, window), area(step.at(window), window)
+        words, thing = area(tour.callout, window), area(step.at(tour.marks), window)
         assert window.rect().contains(words)
         assert not words.intersects(thing)
         tour.callout.next.click()

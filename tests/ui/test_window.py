@@ -13,10 +13,10 @@ from app.core.settings import ThemeChoice, load_settings
 from app.ui.framework.computation import State
 from app.ui.framework.samples import Sample
 from app.ui.framework.theme import DARK, LIGHT
+from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.files import FIRST_START
 from app.ui.shell.memory import fit_onto
-from app.ui.shell.views import View
 from app.ui.views.canvas.modes import CanvasTool, ColourBy
 from tests.ui.conftest import WAIT_MS
 

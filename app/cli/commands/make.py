@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,29 +10,18 @@ from ...core.atomic import write_together
 from ...core.errors import InputError
 from ...usecases.make import Made, make
 from ...usecases.options import MakeOptions
+from ..command import CliCommand
 from ..files import check_outputs, identity, read_input, shown_progress
-from ..make_options import make_options, make_parser, read_arguments
-from ..output import finding_lines, helped, tell
+from ..make_options import EPILOG, add_make_options, make_options
+from ..output import finding_lines, tell
 from ..signals import Stopping, undisturbed
 from ..timings import StageTimes
 
 _JOB_HEAD = "# A job file of Hitofude for {}: `hitofude make DRAWING -o OUT.ngc --job` this file."
 
 
-def make_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `make` and return its exit status: 0 clean, 1 with findings.
-
-    Args:
-        argv: the arguments behind `make`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, make_parser):
-        return 0
-    arguments = read_arguments(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 clean, 1 with findings."""
     outputs = _check_outputs(arguments)
     options = _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
     times = StageTimes() if arguments.timings else None
@@ -117,3 +105,15 @@ def _summary(made: Made, names: list[Path]) -> None:
     """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
     proposed = made.proposal.lines() if made.proposal is not None else []
     tell("\n".join([made.report.summary(", ".join(map(str, names))), *proposed, *finding_lines(made.findings)]))
+
+
+COMMAND = CliCommand(
+    "make",
+    "drawing",
+    "the drawing and the NC program to write",
+    "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
+    "program, read back and proven the same.",
+    EPILOG,
+    add_make_options,
+    _run,
+)

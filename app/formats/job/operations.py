@@ -8,7 +8,7 @@ from typing import Any
 from ...model.curve_selectors import Selector, on_layers, read_selectors
 from ...model.fields import Placed, Unit, built, declared_of, parameters_of
 from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
-from .tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
+from .tables import JobTable, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
 
 
 def read_curves(value: Any) -> tuple[Selector, ...]:
@@ -38,7 +38,7 @@ def reader_of(placed: Placed) -> Callable[[Any], Any]:
     return _READERS[placed.parameter.unit]
 
 
-def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation]:
+def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operation]:
     """Yield the operations that tables [[operation]] describe.
 
     Args:
@@ -66,14 +66,14 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
         yield operation
 
 
-def _take_layers(table: Table) -> None:
+def _take_layers(table: JobTable) -> None:
     """Read layers, as an operation named them before it could name curves."""
     if "layers" in table.values and "curves" in table.taken:
         raise table.error("layers", 'goes into curves, as "layer:NAME"; take it out')
     table.take("layers", lambda value: on_layers(read_texts(value)), "curves")
 
 
-def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
+def _refuse_strange_keys(table: JobTable, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
     known = {"kind", "layers", *(declared_of(kind) if kept else parameters_of(kind))}
     for key in given:
         if key not in known:
@@ -84,7 +84,7 @@ def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, 
             )
 
 
-def _refuse_idle_values(table: Table, operation: Operation, given: tuple[str, ...]) -> None:
+def _refuse_idle_values(table: JobTable, operation: Operation, given: tuple[str, ...]) -> None:
     """Refuse what would have an effect only together with something else; its default may stand anywhere."""
     for key, placed in parameters_of(type(operation)).items():
         needs = placed.parameter.needs

@@ -11,7 +11,8 @@ from ...model.fields import Unit, declared_of, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.part import Units
-from ...model.tool import Tool, shape_keys
+from ...model.tool import Tool
+from ...model.tool_kind import shape_keys
 from ..tools.library import shortest_degrees
 from .toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, TOOL_KEYS, UNITS
 

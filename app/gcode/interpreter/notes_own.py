@@ -16,7 +16,7 @@ from ...model.job import Copies
 from ...model.moves import DogBone, Tab
 from ...model.operation import OPERATION_KINDS, Operation, Side
 from ...model.part import Units
-from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, ReadOptions
+from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, DrawingOptions
 from .. import operation_notes
 from ..note_texts import unspelled
 from .notes_stock import Box
@@ -75,14 +75,14 @@ def own_notes(comments: Comments) -> Notes:
     )
 
 
-def _reading(told: dict[str, list[Values]]) -> ReadOptions:
+def _reading(told: dict[str, list[Values]]) -> DrawingOptions:
     """Return how the drawing was read."""
     without_layers, without_types, layouts = (
         tuple(_name(values) for _, values in told.get(key, [])) for key in ("skip_layer", "skip_type", "layout")
     )
     density = _first(told.get("px_per_inch", []))
     in_range = density is not None and LEAST_PER_INCH <= density <= MOST_PER_INCH
-    return ReadOptions(
+    return DrawingOptions(
         _first(told.get("overrule_units", [])) == 1,
         layouts[0] if layouts else "",
         _first(told.get("to_zero", [])) == 1,

@@ -13,7 +13,7 @@ from ...model.motion import Motions, Plane
 from ...model.moves import DogBone, Tab
 from ...model.operation import Operation
 from ...model.part import Units
-from ...model.read_options import AS_DRAWN, ReadOptions
+from ...model.read_options import AS_DRAWN, DrawingOptions
 
 
 class FeedMode(Enum):
@@ -214,7 +214,7 @@ class HeaderNote:
     keep_out: tuple[tuple[str, ...], float] = ((), 0.0)
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
-    reading: ReadOptions = AS_DRAWN
+    reading: DrawingOptions = AS_DRAWN
     plunge_rates: tuple[tuple[int, float], ...] = ()
     under: float = 0.0
 

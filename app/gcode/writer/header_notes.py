@@ -43,7 +43,7 @@ from collections.abc import Iterator
 
 from ...model.job import Copies, Job
 from ...model.moves import Program
-from ...model.read_options import ReadOptions
+from ...model.read_options import DrawingOptions
 from ...model.stock_box import work_origin
 from ...model.tool import Tool
 from ..note_texts import plain_numbers, spelled
@@ -82,7 +82,7 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"blend_mm={plain_numbers(heading.blend_mm)}"
 
 
-def _reading(how: ReadOptions) -> Iterator[str]:
+def _reading(how: DrawingOptions) -> Iterator[str]:
     """Yield how the drawing was read, where that is not as it is drawn."""
     yield from (f"skip_layer={spelled(name)}" for name in how.without_layers)
     yield from (f"skip_type={spelled(name)}" for name in how.without_types)

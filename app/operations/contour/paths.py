@@ -33,7 +33,7 @@ from ..engrave.open_line import line_paths
 from .dogbone import Bone, about_refused, bones, recorded
 from .fit import about_clamps, about_narrow, narrow_places
 from .gaps import Gap, gaps
-from .stroke import Extras, stroke_of
+from .stroke import Extras, strokes_of
 
 _FAR = 4.0
 """Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
@@ -209,7 +209,7 @@ def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
             box = stock_box(setting.job, setting.regions)
             setting.findings.extend(about_unheld(bridges, walls, box))
     extras = Extras(shape.half, shape.top, ways)
-    return _Made(made, tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)), tabs)
+    return _Made(made, strokes_of(made, tabs, extras), tabs)
 
 
 def _followed(work: _Work, paths: Sequence[Path]) -> DistanceField | None:
@@ -238,7 +238,7 @@ def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, w
     extras = Extras(shape.half, shape.top, ways)
     return _Made(
         made,
-        tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)),
+        strokes_of(made, tabs, extras),
         tuple(map(tuple, tabs)),
     )
 

@@ -14,7 +14,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
 from ...model.operation import DrillOperation
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
 from ...toolpath.build import Label, Stroke
 from ...toolpath.drill_holes import ALIKE, Hole, Holes, holes_of, tip_depth, tip_length
 from ...toolpath.ordering.tour import in_short_order
@@ -157,7 +157,7 @@ def _tip(tool: Tool, job: Job, operation: DrillOperation) -> Finding:
             f"T{tool.number} drills to the depth with its full width; its point goes {tip:.3f} mm deeper, to "
             f"{deep:.3f} mm."
         )
-    elif tool.kind is ToolKind.DRILL:
+    elif tool.kind.drills:
         text = (
             f"T{tool.number} tells no tip angle, so its point goes to {deep:.3f} mm, and its full width less deep; "
             "give the angle, or let it go through."

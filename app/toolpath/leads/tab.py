@@ -115,11 +115,13 @@ def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> l
         around: what the leads went by.
     """
     path, half, beside = run.path, shape.half, reach(around)
+    if not shape.wanted.count or not goes_round(path):
+        return []
     overlap = run.stop - run.start - path.length
     free = path.length - overlap - 2 * (beside + half)
     apart = 2 * half + shape.tool.diameter
     count = min(shape.wanted.count, int(free / apart) + 1 if free >= 0 else 0)
-    if count <= 0 or not goes_round(path):
+    if count <= 0:
         return []
     first = run.start + overlap + beside + half
     even = run.start + overlap / 2 + (np.arange(count) + 0.5) * path.length / count

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
+from ...model.operation import OPERATION_KINDS
 from ..framework.icons import icon
 from ..framework.theme import Theme
+from ..framework.view import views
 from ..views.canvas.modes import CanvasTool
 from ..views.canvas.tools import TOOLS
 
@@ -78,13 +81,6 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
     (
         "&View",
         (
-            Spec("view_draw", "&Draw", "Ctrl+1", group="view", checkable=True),
-            Spec("view_stages", "St&ages", "Ctrl+2", group="view", checkable=True),
-            Spec("view_paths", "&Paths", "Ctrl+3", group="view", checkable=True),
-            Spec("view_cut", "C&ut", "Ctrl+4", group="view", checkable=True),
-            Spec("view_curves", "Cur&ves", "Ctrl+5", group="view", checkable=True),
-            Spec("view_surfaces", "Sur&faces", "Ctrl+6", group="view", checkable=True),
-            Spec("view_nc", "&NC", "Ctrl+7", group="view", checkable=True),
             SEPARATOR,
             Spec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F"),
             Spec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
@@ -283,6 +279,18 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
 )
 
 
+def menus() -> Iterator[tuple[str, tuple[Spec, ...]]]:
+    """Yield the menus, with every view and every kind of operation that is registered."""
+    for title, specs in MENUS:
+        if title == "&View":
+            specs = (*(Spec(view.value, view.text, view.key, group="view", checkable=True) for view in views()), *specs)
+        if title == "&Job":
+            listed = {spec.name for spec in specs}
+            others = (Spec(f"add_{word}", f"Add {word}") for word in OPERATION_KINDS)
+            specs = (*specs, *(spec for spec in others if spec.name not in listed))
+        yield title, specs
+
+
 class Actions:
     """The window's actions by name.
 
@@ -298,7 +306,7 @@ class Actions:
         self.menu_of: dict[str, str] = {}
         self._icons: dict[str, str] = {}
         self._groups: dict[str, QActionGroup] = {}
-        for title, specs in MENUS:
+        for title, specs in menus():
             for spec in specs:
                 if spec is not SEPARATOR:
                     self.specs[spec.name], self.menu_of[spec.name] = spec, title
@@ -309,7 +317,7 @@ class Actions:
 
     def fill(self, bar: QMenuBar) -> None:
         """Put the menus in the menu bar."""
-        for title, specs in MENUS:
+        for title, specs in menus():
             menu: QMenu = bar.addMenu(title)
             under: dict[str, QMenu] = {}
             for spec in specs:

@@ -7,10 +7,10 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QToolButton, QWi
 
 from ..framework.icons import icon
 from ..framework.theme import Theme
+from ..framework.view import views
 from .actions import Actions
 
 TOP_HEIGHT = 46
-_VIEWS = ("view_draw", "view_stages", "view_paths", "view_cut", "view_curves", "view_surfaces", "view_nc")
 
 
 def _line(width: int, height: int) -> QFrame:
@@ -51,7 +51,7 @@ class TopBar(QWidget):
                 row.addSpacing(4)
                 row.addWidget(_line(1, 20))
                 row.addSpacing(4)
-        self.tabs = {name: self._tab(name) for name in _VIEWS}
+        self.tabs = {name: self._tab(name) for name in (view.value for view in views())}
         for tab in self.tabs.values():
             row.addWidget(tab)
         row.addStretch(1)

@@ -15,9 +15,9 @@ from ...drafting.document import Change, evaluated
 from ...drafting.expressions.words import number_text
 from ...drafting.language.interpret import Outcome
 from ..framework.worker import Answer, Worker
-from ..panels.drawing_cleanup import Listed
-from .inspecting import PAGE
-from .main_window import MainWindow
+from ..framework.workspace import Workspace
+from ..panels.drawing_cleanup import CleanUpSection, Listed
+from ..views.canvas.canvas import Canvas
 
 _Found = tuple[list[Listed], Outcome, Difference]
 _SIZES = {FaultKind.TINY: "long", FaultKind.DUPLICATE: "apart", FaultKind.OVERLAP: "long", FaultKind.GAP: "wide"}
@@ -26,40 +26,38 @@ _SIZES = {FaultKind.TINY: "long", FaultKind.DUPLICATE: "apart", FaultKind.OVERLA
 class Cleaning(QObject):
     """Answers the section of the drawing's page that is called so."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window, self._document = window, window.document
+    def __init__(self, section: CleanUpSection, canvas: Canvas, workspace: Workspace) -> None:
+        super().__init__(section)
+        self._section, self._canvas, self._document = section, canvas, workspace.document
         self.worker = Worker(self)
         self._line = ""
         self._found: tuple[str, Outcome, int] | None = None
-        section = self._section = window.drawing_page.cleanup
         section.looked.connect(self._look)
         section.mended.connect(self._mend)
         section.picked.connect(self._go_to)
-        section.cancelled.connect(self._give_up)
+        section.cancelled.connect(self.give_up)
         self.worker.progress.connect(lambda fraction, _: section.show_progress(fraction))
         self.worker.done.connect(self._show)
         self.worker.failed.connect(lambda answer: section.show_refusal(answer.error or ""))
         self._document.subscribe(self._follow)
-        window.side.chosen.connect(lambda page: self._give_up() if page != PAGE else None)
-        window.activity.ended.connect(self.worker.finish)
+        workspace.activity.ended.connect(self.worker.finish)
 
     def _look(self, tolerance: float) -> None:
-        self._give_up()
+        self.give_up()
         self._line = f"heal {number_text(tolerance)}"
         self._section.show_progress(0.0)
         self.worker.start(_looking(self._document.session, tolerance, self._line), self._document.revision)
 
     def _show(self, answer: Answer) -> None:
         if answer.revision != self._document.revision:
-            self._give_up()
+            self.give_up()
             return
         found: Any = answer.value
         listed, outcome, change = found
         self._found = (self._line, outcome, answer.revision)
         mends = bool(change.added or change.gone)
         self._section.show_faults(listed, outcome.reply if mends else "")
-        self._window.canvas.show_trial(change)
+        self._canvas.show_trial(change)
 
     def _mend(self) -> None:
         """Carry out what was shown, if the drawing is still the same."""
@@ -68,20 +66,20 @@ class Cleaning(QObject):
             self._document.accept(line, outcome)
 
     def _go_to(self, fault: Listed) -> None:
-        self._window.canvas.go_to(*fault.place, closely=True)
+        self._canvas.go_to(*fault.place, closely=True)
         self._document.select(fault.ids)
 
-    def _give_up(self) -> None:
+    def give_up(self) -> None:
         """Show nothing any more."""
         self.worker.cancel()
         if self._found is not None:
-            self._window.canvas.show_trial(Difference())
+            self._canvas.show_trial(Difference())
         self._found = None
         self._section.clear()
 
     def _follow(self, change: Change) -> None:
         if change & (Change.PART | Change.LOADED):
-            self._give_up()
+            self.give_up()
 
 
 def _looking(session: Session, tolerance: float, line: str) -> Callable[[Progress], _Found]:

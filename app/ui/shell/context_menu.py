@@ -9,7 +9,9 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu
 
 from ...core.errors import InputError
-from .main_window import MainWindow
+from ...drafting.document import Document
+from ..framework.commands import Commands
+from ..views.canvas.canvas import Canvas
 
 _FOR_SELECTION = (
     "tool_move",
@@ -36,15 +38,15 @@ class ContextMenu(QObject):
         menu: the one opened last, or None.
     """
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
+    def __init__(self, canvas: Canvas, document: Document, commands: Commands) -> None:
+        super().__init__(canvas)
+        self._canvas, self._document, self._commands = canvas, document, commands
         self.menu: QMenu | None = None
-        window.canvas.menu_wanted.connect(self.open)
+        canvas.menu_wanted.connect(self.open)
 
     def open(self, at: QPoint) -> None:
         """Open the menu at a point of the screen; what lies under the mouse is selected first, unless it is."""
-        canvas, document = self._window.canvas, self._window.document
+        canvas, document = self._canvas, self._document
         under = canvas.candidates()
         if under and not any(thing.id in document.selection for thing in under):
             self._run(f"select {under[0].id}")
@@ -55,21 +57,21 @@ class ContextMenu(QObject):
 
     def made(self, under: int | None) -> QMenu:
         """Return the menu; `under` is the number of what lies under the mouse."""
-        menu = QMenu(self._window)
-        again = self._window.actions_[f"tool_{self._window.canvas.runner.last.value}"]
+        menu = QMenu(self._canvas)
+        again = self._commands[f"tool_{self._canvas.runner.last.value}"]
         menu.addAction(self._named(menu, f"Repeat {again.text().split(chr(9))[0].replace('&', '')}", again))
         menu.addSeparator()
         if under is not None:
             chain = menu.addAction("Select chain")
             chain.triggered.connect(lambda *_: self._run(f"select chain {under}"))
             menu.addSeparator()
-        for name in _FOR_SELECTION if self._window.document.selection else _WITHOUT:
+        for name in _FOR_SELECTION if self._document.selection else _WITHOUT:
             if name:
-                menu.addAction(self._window.actions_[name])
+                menu.addAction(self._commands[name])
             else:
                 menu.addSeparator()
-        if self._window.document.selection:
-            menu.addAction(self._window.actions_["properties"])
+        if self._document.selection:
+            menu.addAction(self._commands["properties"])
         return menu
 
     def _named(self, menu: QMenu, text: str, action: QAction) -> QAction:
@@ -79,4 +81,4 @@ class ContextMenu(QObject):
 
     def _run(self, line: str) -> None:
         with suppress(InputError):
-            self._window.document.run(line)
+            self._document.run(line)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from ...core.atomic import write_atomically
 from ...core.progress import Progress
@@ -16,10 +16,10 @@ from ...formats.drawing import Written
 from ...formats.readers import formats, known_format
 from ...formats.registry import DrawingFormat
 from ...model.part import Part
+from ..framework.controller import Controller
 from ..framework.figures import counted, grouped
-from ..framework.log import Log
 from ..framework.worker import Answer, Worker
-from .main_window import MainWindow
+from ..framework.workspace import Workspace
 
 
 def offered() -> dict[str, str]:
@@ -38,44 +38,42 @@ class _Exported:
     remarks: tuple[str, ...]
 
 
-class DrawingExport(QObject):
+class DrawingExport(Controller):
     """Writes the drawing in another program's format.
 
     Signals:
-        written(path), failed(sentence).
+        written(path).
 
     Attributes:
         choose_file: asks the user for a path and the key of a writer, given a first choice; None = he changed his mind.
     """
 
     written = Signal(Path)
-    failed = Signal(str)
 
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._preferences = window.preferences
-        self._window, self._log = window, log
-        self._worker = Worker(window)
+    def __init__(self, over: QWidget, workspace: Workspace) -> None:
+        """Make one; `over` is the widget over which it asks."""
+        super().__init__(over)
+        self._over, self._workspace, self._log = over, workspace, workspace.log
+        self._worker = Worker(self)
         self.choose_file: Callable[[Path], tuple[Path, str] | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(lambda answer: self.failed.emit(f"{answer.error} Nothing was written."))
-        window.activity.ended.connect(lambda: self._worker.finish(10.0))
-        window.actions_["export_drawing"].triggered.connect(lambda *_: self.start())
+        workspace.activity.ended.connect(lambda: self._worker.finish(10.0))
 
     def start(self) -> None:
         """Ask for a file and write it."""
-        document = self._window.document
+        document = self._workspace.document
         if not document.part.entities:
             self.failed.emit("Nothing is drawn yet, so there is nothing to export.")
             return
-        folder = self._preferences.last_folder
+        folder = self._workspace.preferences.last_folder
         chosen = self.choose_file(folder / f"{document.path.stem if document.path else document.part.name}.dxf")
         if chosen is not None:
             self._worker.start(partial(_export, document.part, *chosen), document.revision)
 
     def _choose(self, first: Path) -> tuple[Path, str] | None:
         keys = offered()
-        dialog = QFileDialog(self._window, "Export drawing", str(first), ";;".join(keys))
+        dialog = QFileDialog(self._over, "Export drawing", str(first), ";;".join(keys))
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("dxf")
         dialog.filterSelected.connect(lambda name: dialog.setDefaultSuffix(_format(keys[name]).suffixes[0][1:]))
@@ -87,9 +85,9 @@ class DrawingExport(QObject):
         said = " ".join(exported.remarks)
         size = grouped(exported.size / 1000, 1)
         self._log.note(f"export {exported.path.name}", f"{size} kB written to {exported.path.parent}. {said}".strip())
-        self._window.status.show_message(f"{exported.path.name} is written.")
+        self.said.emit(f"{exported.path.name} is written.")
         if exported.remarks:
-            self._window.notice.ask(f"{exported.path.name} is written. {said}")
+            self._workspace.notice.ask(f"{exported.path.name} is written. {said}")
         self.written.emit(exported.path)
 
 

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject
 
+from ...drafting.document import Document
+from ..views.canvas.canvas import Canvas
+from .command_line import CommandLine
 from .completing import completions
-from .main_window import MainWindow
 
 
 class Entering(QObject):
     """Keeps the command line in step with the document and the running tool."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
-        window.command_line.completions = lambda line: completions(line, window.document)
-        window.canvas.prompt_changed.connect(lambda _: self._show_options())
+    def __init__(self, command_line: CommandLine, canvas: Canvas, document: Document) -> None:
+        super().__init__(command_line)
+        self._command_line, self._canvas = command_line, canvas
+        command_line.completions = lambda line: completions(line, document)
+        canvas.prompt_changed.connect(lambda _: self._show_options())
 
     def _show_options(self) -> None:
-        tool = self._window.canvas.runner.tool
-        self._window.command_line.set_options(tool.options if tool is not None else ())
+        tool = self._canvas.runner.tool
+        self._command_line.set_options(tool.options if tool is not None else ())

@@ -18,6 +18,7 @@ from ...model.reading import AS_THE_FILE_SAYS, Reading
 from ...usecases.bitmap_options import PICTURES, is_picture
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
+from ..framework.view import View, views
 from ..views.canvas.view import View as CanvasView
 from ..views.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.nc.reading import is_program
@@ -29,7 +30,6 @@ from .opening import Asked, Opened, Opening
 from .rereading import Rereading
 from .saving import Saving
 from .showing import Showing
-from .views import View
 
 FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, or draw your own."
 
@@ -64,8 +64,12 @@ class Files(QObject):
             open_others.scene,
         )
         self.opening = Opening(window.document, window.worker)
-        self.rereading = Rereading(window, log)
-        self.saving = Saving(window, showing, log)
+        self.rereading = Rereading(window.drawing_page.reading, window.card, window.worker, window.workspace)
+        self.rereading.taken.connect(self._see_all)
+        self.rereading.possible.connect(window.actions_["reading"].setEnabled)
+        window.actions_["reading"].setEnabled(False)
+        self.saving = Saving(window, self._look_now, window.actions_["backups"], window.workspace)
+        self.saving.said.connect(window.status.show_message)
         self.exporting = Exporting(window.computation, window.notice, self._choose_nc_file)
         window.dropped.connect(lambda path: self.open_file(Path(path)))
         window.closing.connect(self._on_closing)
@@ -209,8 +213,11 @@ class Files(QObject):
             window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
         elif opened.drawing.question is not None:
             self._ask_after(opened)
-        window.lay_out_now()
-        window.canvas.fit()
+        self._see_all()
+
+    def _see_all(self) -> None:
+        self._window.lay_out_now()
+        self._window.canvas.fit()
 
     def bring(self, project: Project) -> None:
         """Bring back what a project file holds beside the document."""
@@ -219,9 +226,14 @@ class Files(QObject):
             self._log.note("picture", wrong, error=True)
             self._window.status.show_message(wrong, error=True)
 
+    def _look_now(self) -> Look:
+        """Return what is looked at, as a project file keeps it."""
+        canvas = self._window.canvas
+        return Look(self._showing.view.value, canvas.view.to_world(canvas.area.center()), canvas.view.scale)
+
     def _look(self, look: Look) -> None:
         canvas = self._window.canvas
-        self._showing.show_view(next((view for view in View if view.value == look.shown), View.DRAW))
+        self._showing.show_view(next((view for view in views() if view.value == look.shown), View.DRAW))
         self._window.lay_out_now()
         if look.centre is None:
             canvas.fit()

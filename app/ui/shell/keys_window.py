@@ -15,12 +15,12 @@ from PySide6.QtWidgets import (
     QTreeWidget,
     QTreeWidgetItem,
     QVBoxLayout,
+    QWidget,
 )
 
 from ..framework.fuzzy import fit
 from ..framework.words import tr
-from .actions import plain
-from .main_window import MainWindow
+from .actions import Actions, plain
 from .shortcuts import Shortcuts
 
 _SIZE = (560, 600)
@@ -58,9 +58,9 @@ _HOW = "Double click or Enter on a line, then press its new key; Backspace takes
 class KeysWindow(QDialog):
     """The list; a key that another action has is asked for once more before it is taken."""
 
-    def __init__(self, window: MainWindow, shortcuts: Shortcuts) -> None:
-        super().__init__(window)
-        self._actions, self._shortcuts = window.actions_, shortcuts
+    def __init__(self, over: QWidget, actions: Actions, shortcuts: Shortcuts) -> None:
+        super().__init__(over)
+        self._actions, self._shortcuts = actions, shortcuts
         self.setWindowTitle(tr("Keys"))
         self.resize(*_SIZE)
         self.search, self.list, self.told = QLineEdit(), QTreeWidget(), QLabel()

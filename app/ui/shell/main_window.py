@@ -21,6 +21,7 @@ from ..framework.log import Log
 from ..framework.notice import Notice
 from ..framework.preferences import Preferences
 from ..framework.theme import DARK, LIGHT, Theme
+from ..framework.view import Page, View
 from ..framework.worker import Worker
 from ..framework.workspace import Workspace
 from ..panels.drawing_page import DrawingPage
@@ -91,6 +92,16 @@ class MainWindow(QMainWindow):
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
         self.scene = SceneDocument(self)
         self.scene_side = SceneSide(self.scene)
+        self.sides: list[QWidget] = [
+            self.side,
+            self.import_panel,
+            self.stages_panel,
+            self.cut_panel,
+            self.cut_form,
+            self.curves_panel,
+            self.scene_side,
+            self.plot_panel,
+        ]
         self.notice, self.card, self.command_line, self.status = Notice(), QuestionCard(), CommandLine(), StatusBar()
         self.top_bar, self.tool_strip = TopBar(self.actions_), ToolStrip(self.actions_)
         self.findings_list = FindingsList(self)
@@ -119,21 +130,13 @@ class MainWindow(QMainWindow):
         centre.addWidget(self.notice)
         centre.addWidget(self.card)
         centre.addWidget(self.views, 1)
-        middle = QHBoxLayout()
+        middle = self._middle = QHBoxLayout()
         middle.setSpacing(0)
         middle.addWidget(self.tool_strip)
         middle.addLayout(centre, 1)
         middle.addWidget(self.side)
-        for widget in (
-            self.import_panel,
-            self.stages_panel,
-            self.cut_panel,
-            self.cut_form,
-            self.curves_panel,
-            self.scene_side,
-            self.plot_panel,
-        ):
-            middle.addWidget(widget)
+        for widget in self.sides[1:]:
+            self._middle.addWidget(widget)
             widget.hide()
         root = QWidget()
         root.setObjectName("root")
@@ -149,6 +152,17 @@ class MainWindow(QMainWindow):
         self.setMinimumSize(840, 520)
         self.resize(*SIZE)
         self.canvas.setFocus()
+
+    def take_pages(self, pages: dict[View, Page]) -> None:
+        """Show the pages of the views, and lay out what those that are new put beside themselves."""
+        self.views.take_pages(pages)
+        for page in pages.values():
+            side = page.side() if page.side() not in self.sides else None
+            if side is not None:
+                self.sides.append(side)
+                self._middle.addWidget(side)
+                side.hide()
+        self.set_theme_choice(self.preferences.settings.theme)
 
     def lay_out_now(self) -> None:
         """Give every part its place at once, so that what is fitted into it fits."""

@@ -7,7 +7,8 @@ from functools import partial
 
 from ...core.memory import allow, machine_memory
 from ...core.settings import JobMemory
-from .main_window import MainWindow
+from ..framework.commands import Commands, on_trigger
+from ..framework.preferences import Preferences
 
 SHARES = {JobMemory.QUARTER: 0.25, JobMemory.HALF: 0.5, JobMemory.MOST: 0.75}
 """Of the machine's memory."""
@@ -18,18 +19,17 @@ class MemoryChoice:
     to them.
     """
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, preferences: Preferences, commands: Commands) -> None:
         """Allow what was chosen the last time."""
-        self._preferences = window.preferences
-        self._window = window
+        self._preferences, self._commands = preferences, commands
         for choice in JobMemory:
-            window.actions_[f"memory_{choice.value}"].triggered.connect(partial(self._choose, choice))
-        self._show(window.preferences.settings.memory)
+            on_trigger(commands, f"memory_{choice.value}", partial(self._choose, choice))
+        self._show(preferences.settings.memory)
 
-    def _choose(self, choice: JobMemory, *_: object) -> None:
+    def _choose(self, choice: JobMemory) -> None:
         self._preferences.keep(replace(self._preferences.settings, memory=choice))
         self._show(choice)
 
     def _show(self, choice: JobMemory) -> None:
-        self._window.actions_[f"memory_{choice.value}"].setChecked(True)
+        self._commands[f"memory_{choice.value}"].setChecked(True)
         allow(int(SHARES[choice] * machine_memory()))

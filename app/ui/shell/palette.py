@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QModelIndex, QObject, QPersistentModelIndex, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QModelIndex, QObject, QPersistentModelIndex, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QFrame,
@@ -18,14 +18,15 @@ from PySide6.QtWidgets import (
     QStyledItemDelegate,
     QStyleOptionViewItem,
     QVBoxLayout,
+    QWidget,
 )
 
 from ...drafting.language.language import COMMANDS
 from ..framework.fuzzy import fit
+from ..framework.preferences import Preferences
 from ..framework.theme import LIGHT, Theme
 from ..framework.words import tr
-from .actions import plain
-from .main_window import MainWindow
+from .actions import Actions, plain
 
 WIDTH, ROW_PX, SHOWN = 520, 30, 10
 _RECENT = 8
@@ -82,13 +83,27 @@ class _Rows(QStyledItemDelegate):
 
 
 class Palette(QFrame):
-    """A line to type in and what fits it, over the top of the view; what was used lately stands first."""
+    """A line to type in and what fits it, over the top of the view; what was used lately stands first.
 
-    def __init__(self, window: MainWindow, open_file: Callable[[Path], object]) -> None:
-        super().__init__(window)
+    Signals:
+        left(): it was left, and the keys belong elsewhere.
+    """
+
+    left = Signal()
+
+    def __init__(
+        self,
+        views: QWidget,
+        actions: Actions,
+        preferences: Preferences,
+        begin_line: Callable[[str], object],
+        open_file: Callable[[Path], object],
+    ) -> None:
+        """Make one over `views`; `begin_line` types a word of the shape language, `open_file` opens a recent file."""
+        super().__init__(views.window())
         self.setObjectName("palette")
-        self._preferences = window.preferences
-        self._window, self._open_file = window, open_file
+        self._views, self._all, self._preferences = views, actions, preferences
+        self._begin_line, self._open_file = begin_line, open_file
         self.edit, self.list, self._rows = QLineEdit(), QListWidget(), _Rows()
         self.edit.setAccessibleName("Command palette")
         self.list.setAccessibleName("What fits")
@@ -104,8 +119,6 @@ class Palette(QFrame):
         self.edit.textChanged.connect(self._show_fitting)
         self.edit.installEventFilter(self)
         self.list.itemClicked.connect(self._run)
-        window.actions_["palette"].triggered.connect(self.open)
-        self.set_theme(window.theme)
         self.hide()
 
     def set_theme(self, theme: Theme) -> None:
@@ -119,15 +132,15 @@ class Palette(QFrame):
         self.edit.setPlaceholderText(tr("Type a few letters of what you want to do"))
         self.edit.clear()
         self._show_fitting("")
-        views = self._window.views
-        corner = views.mapTo(self._window, views.rect().topLeft())
+        views = self._views
+        corner = views.mapTo(views.window(), views.rect().topLeft())
         self.move(corner.x() + (views.width() - WIDTH) // 2, corner.y() + _TOP_PX)
         self.show()
         self.raise_()
         self.edit.setFocus()
 
     def _actions(self) -> list[Entry]:
-        actions = self._window.actions_
+        actions = self._all
         return [
             Entry(
                 name,
@@ -142,9 +155,8 @@ class Palette(QFrame):
         ]
 
     def _commands(self) -> list[Entry]:
-        line = self._window.command_line
         return [
-            Entry(f"> {word}", word, tr("command of the shape language"), "", partial(line.begin, f"{word} "))
+            Entry(f"> {word}", word, tr("command of the shape language"), "", partial(self._begin_line, f"{word} "))
             for word in COMMANDS
         ]
 
@@ -184,7 +196,7 @@ class Palette(QFrame):
 
     def _leave(self) -> None:
         self.hide()
-        self._window.views.take_focus()
+        self.left.emit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Up and Down choose, Enter does it, Escape and a click elsewhere leave."""

@@ -13,11 +13,10 @@ from ...core.progress import Progress
 from ...drafting.document import Change
 from ...formats.project.project import Project
 from ...formats.project.recovery import Edited, Recovered, RecoveryFile, recoveries
-from ..framework.log import Log
 from ..framework.worker import Answer, Worker
+from ..framework.workspace import Workspace
 from .files import Files
-from .main_window import MainWindow
-from .showing import Showing
+from .question_card import QuestionCard
 
 WAIT_S = 8.0
 """After the first change that is in no file, s; writing takes a moment more, and 20 s are the promise."""
@@ -35,11 +34,11 @@ class Recovering(QObject):
 
     kept = Signal()
 
-    def __init__(self, window: MainWindow, showing: Showing, files: Files, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._showing, self._files, self._log = window, showing, files, log
-        self._document = window.document
-        self._worker = Worker(window, head_start_s=0.0)
+    def __init__(self, files: Files, card: QuestionCard, workspace: Workspace) -> None:
+        super().__init__(files)
+        self._files, self._card, self._workspace = files, card, workspace
+        self._log, self._document = workspace.log, workspace.document
+        self._worker = Worker(self, head_start_s=0.0)
         self._file: RecoveryFile | None = None
         self._told = False
         self._left: list[Recovered] = []
@@ -49,7 +48,7 @@ class Recovering(QObject):
         self._timer.timeout.connect(self.keep)
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
-        window.activity.ended.connect(self._close)
+        workspace.activity.ended.connect(self._close)
         self._unsubscribe = self._document.subscribe(self._on_change)
         files.saving.beside.changed.connect(self._wait)
 
@@ -70,7 +69,7 @@ class Recovering(QObject):
         """Ask what is to become of what other windows have left; where there is nothing, or none is wanted now, do the
         other thing.
         """
-        if self._window.notice.isVisible() or self._window.card.isVisible():
+        if self._workspace.notice.isVisible() or self._card.isVisible():
             return  # another question waits for its answer; the next start asks
         self._left, self._otherwise = list(recoveries()), otherwise
         self._offer_next()
@@ -82,7 +81,7 @@ class Recovering(QObject):
         found = self._left.pop(0)
         name = path.name if (path := found.edited().path) else "a new drawing"
         more = f" ({len(self._left)} more)" if self._left else ""
-        self._window.notice.ask(
+        self._workspace.notice.ask(
             f"The program ended before {name} was saved; its state of {_clock(found.when)} is kept.{more}",
             [
                 ("Recover", lambda: self._files.leave("Recover?", lambda: self._load(found))),
@@ -128,7 +127,7 @@ class Recovering(QObject):
         if project is None:
             aside = found.set_aside()
             self._log.note("recover", f"{reason} It stays as {aside}.", error=True)
-            self._window.notice.ask(
+            self._workspace.notice.ask(
                 f"The kept state is damaged and cannot be recovered. It stays as {aside}.", error=True
             )
             self._otherwise()
@@ -136,7 +135,7 @@ class Recovering(QObject):
         edited = found.edited()
         self._document.load_state(project.state, edited.path, saved=False)
         self._files.saving.known = edited.stamp
-        self._window.computation.forget()
+        self._workspace.computation.forget()
         self._files.bring(project)
         self._taken.append(found)
         self._log.note(

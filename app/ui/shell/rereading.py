@@ -16,10 +16,11 @@ from ...model.finding import Finding
 from ...model.part import Part
 from ...model.reading import Reading, Source
 from ..framework.figures import counted, grouped
-from ..framework.log import Log
 from ..framework.worker import Answer, Worker
-from .main_window import MainWindow
+from ..framework.workspace import Workspace
+from ..panels.reading_section import ReadingSection
 from .opening import Asked, Opened, read_drawing_file
+from .question_card import QuestionCard
 
 if TYPE_CHECKING:
     from ...formats.reading_question import Contents
@@ -45,15 +46,19 @@ class Rereading(QObject):
     """Answers the section "Reading" of the drawing's page.
 
     Signals:
-        failed(sentence): the drawing cannot be read so; it stays as it is.
+        failed(sentence): the drawing cannot be read so; it stays as it is. taken(): it was read in another way.
+        possible(bool): whether there is something to read again.
     """
 
     failed = Signal(str)
+    taken = Signal()
+    possible = Signal(bool)
 
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._window, self._log, self._document = window, log, window.document
-        self._section = window.drawing_page.reading
+    def __init__(self, section: ReadingSection, card: QuestionCard, worker: Worker, workspace: Workspace) -> None:
+        """Make one; `worker` is the one that opens drawings, so that either takes the other's place."""
+        super().__init__(section)
+        self._section, self._card, self._worker = section, card, worker
+        self._workspace, self._log, self._document = workspace, workspace.log, workspace.document
         self._known: dict[Source, _Read] = {}
         self._job_id: int | None = None
         self._looking = Worker(self, head_start_s=0.0)
@@ -62,12 +67,12 @@ class Rereading(QObject):
         self._section.looked.connect(self._look)
         self._looking.done.connect(self._on_looked)
         self._looking.failed.connect(lambda answer: self._section.show_contents(None, answer.error or ""))
-        window.worker.done.connect(self._on_done)
-        window.worker.failed.connect(self._on_failed)
-        window.worker.cancelled.connect(self._on_cancelled)
-        window.activity.ended.connect(self._looking.finish)
+        worker.done.connect(self._on_done)
+        worker.failed.connect(self._on_failed)
+        worker.cancelled.connect(self._on_cancelled)
+        workspace.activity.ended.connect(self._looking.finish)
         self._unsubscribe = self._document.subscribe(self._on_change)
-        window.actions_["reading"].setEnabled(False)
+        self.possible.emit(False)
 
     def know(self, opened: Opened) -> None:
         """Take over what opening the document has told of its drawing."""
@@ -89,7 +94,7 @@ class Rereading(QObject):
             self.read(reading)
             return
         name = Path(source.path).name
-        self._window.notice.ask(
+        self._workspace.notice.ask(
             f"Reading {name} again replaces what was drawn in it since; Undo brings it back.",
             [("Read again", lambda: self.read(reading)), ("Keep drawing", self._section.refresh)],
             stays=True,
@@ -101,7 +106,7 @@ class Rereading(QObject):
         if source is None:
             return
         path, before = Path(source.path), self._document.job
-        self._job_id = self._window.worker.start(
+        self._job_id = self._worker.start(
             lambda progress: read_drawing_file(path, reading, before, progress), self._document.revision
         )
 
@@ -115,7 +120,7 @@ class Rereading(QObject):
             return
         self._job_id, value = None, answer.value
         if isinstance(value, Asked):
-            self._window.card.ask(value.path.name, value.question, self.ask, waits=False)
+            self._card.ask(value.path.name, value.question, self.ask, waits=False)
             self._section.refresh()
         elif answer.revision != self._document.revision:
             self._fail("The drawing was changed while its file was being read, so it was kept. Choose it again.")
@@ -132,8 +137,7 @@ class Rereading(QObject):
         size = opened.size or (0.0, 0.0)
         words = f"{counted(len(opened.job.part.entities), 'curve')}, {grouped(size[0])} by {grouped(size[1])} mm."
         self._log.note(f"read {opened.path.name}", words)
-        self._window.lay_out_now()
-        self._window.canvas.fit()
+        self.taken.emit()
 
     def _on_failed(self, answer: Answer) -> None:
         if answer.job_id == self._job_id:
@@ -171,8 +175,8 @@ class Rereading(QObject):
         elif change & Change.PART and source is not None:
             self._section.refresh()
             if source in self._known:
-                self._window.computation.know_drawing(self._known[source].findings)
-        self._window.actions_["reading"].setEnabled(source is not None)
+                self._workspace.computation.know_drawing(self._known[source].findings)
+        self.possible.emit(source is not None)
 
 
 def _looked_at(source: Source, progress: Progress) -> _Looked:

@@ -9,20 +9,20 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from ...core.progress import Progress
 from ...drafting.document import Change
 from ...formats.project.beside import Beside
 from ...formats.project.files import ChangedElsewhere, Stamp, save_project
 from ...formats.project.project import SUFFIX, Look, Project
+from ..framework.controller import Controller
 from ..framework.figures import counted, grouped
-from ..framework.log import Log
 from ..framework.worker import Answer, Worker
+from ..framework.workspace import Workspace
 from .beside import BesideDrawing
-from .main_window import MainWindow
-from .showing import Showing
 
 FILTER = "Hitofude projects (*.hito)"
 
@@ -52,11 +52,11 @@ class _Saved:
     elsewhere: str = ""
 
 
-class Saving(QObject):
+class Saving(Controller):
     """Saves the document.
 
     Signals:
-        saved(path): the file is written. failed(sentence).
+        saved(path): the file is written.
 
     Attributes:
         known: the stamp of the document's file as it was read or written last; None where it has none.
@@ -65,14 +65,18 @@ class Saving(QObject):
     """
 
     saved = Signal(Path)
-    failed = Signal(str)
 
-    def __init__(self, window: MainWindow, showing: Showing, log: Log) -> None:
-        super().__init__(window)
-        self._preferences = window.preferences
-        self._window, self._showing, self._log = window, showing, log
-        self._document = window.document
-        self._worker = Worker(window, head_start_s=0.0)
+    def __init__(self, over: QWidget, look: Callable[[], Look], backups: QAction, workspace: Workspace) -> None:
+        """Make one.
+
+        Args:
+            over: the widget over which it asks. look: tells what is looked at now. backups: switches them.
+            workspace: the document, and the user's settings.
+        """
+        super().__init__(over)
+        self._over, self._look, self._workspace = over, look, workspace
+        self._preferences, self._log, self._document = workspace.preferences, workspace.log, workspace.document
+        self._worker = Worker(self, head_start_s=0.0)
         self._next: _Wish | None = None
         self._generation = 0
         self.known: Stamp | None = None
@@ -80,17 +84,14 @@ class Saving(QObject):
         self.choose_file: Callable[[str, Path], Path | None] = self._choose
         self._worker.done.connect(self._on_done)
         self._worker.failed.connect(self._on_failed)
-        window.activity.ended.connect(lambda: self._worker.finish(30.0))
-        backups = window.actions_["backups"]
-        backups.setChecked(window.preferences.settings.backups)
+        workspace.activity.ended.connect(lambda: self._worker.finish(30.0))
+        backups.setChecked(self._preferences.settings.backups)
         backups.toggled.connect(self._keep_backups)
         self._unsubscribe = self._document.subscribe(self._on_change)
 
     def project(self) -> Project:
         """Return what a project file of the window holds now."""
-        canvas = self._window.canvas
-        look = Look(self._showing.view.value, canvas.view.to_world(canvas.area.center()), canvas.view.scale)
-        return Project(self._document.state, look, self.beside.now)
+        return Project(self._document.state, self._look(), self.beside.now)
 
     def save(self, then: Callable[[], None] | None = None) -> None:
         """Save to the document's own file, or ask for one where it has none; `then` is done once it is saved."""
@@ -135,7 +136,7 @@ class Saving(QObject):
         return folder / f"{path.stem if path else self._document.part.name}{behind}{SUFFIX}"
 
     def _choose(self, title: str, first: Path) -> Path | None:
-        dialog = QFileDialog(self._window, title, str(first), FILTER)
+        dialog = QFileDialog(self._over, title, str(first), FILTER)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix(SUFFIX[1:])
         return Path(dialog.selectedFiles()[0]) if dialog.exec() else None
@@ -168,7 +169,7 @@ class Saving(QObject):
             f"save {saved.wish.path.name}",
             f"{counted(len(saved.project.state.job.part.entities), 'curve')}, {size} kB.",
         )
-        self._window.status.show_message(f"{saved.wish.path.name} is saved.")
+        self.said.emit(f"{saved.wish.path.name} is saved.")
         self.saved.emit(saved.wish.path)
         following, self._next = self._next, None
         if following is not None:
@@ -185,7 +186,7 @@ class Saving(QObject):
 
     def _ask(self, why: str, wish: _Wish) -> None:
         self._next = None
-        self._window.notice.ask(
+        self._workspace.notice.ask(
             why,
             [
                 ("Replace it", lambda: self._start(replace(wish, known=None))),

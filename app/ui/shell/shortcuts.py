@@ -6,17 +6,16 @@ from dataclasses import replace
 
 from PySide6.QtGui import QKeySequence
 
+from ..framework.preferences import Preferences
 from .actions import Actions
-from .main_window import MainWindow
 
 
 class Shortcuts:
     """The window's keys; what differs from the table is remembered."""
 
-    def __init__(self, window: MainWindow) -> None:
-        self._preferences = window.preferences
-        self._window, self._actions = window, window.actions_
-        for name, key in _pairs(window.preferences.settings.shortcuts).items():
+    def __init__(self, actions: Actions, preferences: Preferences) -> None:
+        self._actions, self._preferences = actions, preferences
+        for name, key in _pairs(preferences.settings.shortcuts).items():
             if name in self._actions.specs:
                 self._actions.set_key(name, key)
 

@@ -10,15 +10,15 @@ from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
 from ..framework.computation import State
-from ..framework.missing import NOTHING, Missing
+from ..framework.missing import NOTHING
 from ..framework.samples import Sample
 from ..framework.verdict import Level, Verdict, verdict
-from ..views.canvas.modes import CanvasTool, ColourBy, PathLayers
+from ..framework.view import Page, View
+from ..views.canvas.modes import ColourBy, PathLayers
 from ..views.canvas.program_picture import ProgramPicture
-from ..views.surfaces.scene_work import SceneState
 from .main_window import MainWindow
 from .opening import size_of
-from .views import View
+from .pages import pages_of
 
 _LAYERS = {
     Sample.PART: PathLayers.PART,
@@ -34,47 +34,6 @@ _LAYERS = {
 }
 
 
-NO_DRAWING = Missing(
-    "Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing"
-)
-NO_PATHS = Missing("There are no tool paths yet.", "Compute  F5", "compute")
-NO_CUT = Missing("There is no cut yet.", "Compute  F5", "compute")
-NO_NC = Missing("There is no NC program yet.", "Compute  F5", "compute")
-NO_PROGRAM = Missing(
-    "There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open"
-)
-NO_SCENE = Missing(
-    "No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
-    "Open figure 1",
-    "scene_compound",
-)
-WRONG_SCENE = Missing("The scene's text is wrong; the line is marked at the right.", "Open another scene")
-SCENE_FAILED = Missing("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
-SCENE_WAITS = Missing("The scene is not computed yet.", "Compute  F5", "compute")
-SCENE_COMPUTING = Missing("The scene is being computed.", "Cancel  Shift+F5", "cancel")
-NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
-CUT_PROMPT = (
-    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to "
-    "the line"
-)
-CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
-SURFACES_PROMPT = (
-    "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
-)
-_NO_SCENE = {
-    SceneState.NONE: NO_SCENE,
-    SceneState.WRONG: WRONG_SCENE,
-    SceneState.FAILED: SCENE_FAILED,
-    SceneState.CHANGED: SCENE_WAITS,
-    SceneState.COMPUTING: SCENE_COMPUTING,
-    SceneState.PROVING: SCENE_COMPUTING,
-    SceneState.PROVEN: SCENE_COMPUTING,
-}
-STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
-PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
-COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
-
-
 class Showing(QObject):
     """Reads the state and shows it; changes nothing but the window.
 
@@ -82,7 +41,8 @@ class Showing(QObject):
         view_changed(View): another view came to the front.
 
     Attributes:
-        stages_missing: what the stages lack.
+        view: the one at the front. stages_missing: what the stages lack.
+        pages: of every view.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
     """
 
@@ -94,6 +54,8 @@ class Showing(QObject):
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
         self.stages_missing, self.writing = NOTHING, False
+        self.pages = pages_of(window, self)
+        window.take_pages(self.pages)
         self._layers = PathLayers.ALL
         self._shown_program: object = None
         self._empty_action = "open"
@@ -109,6 +71,11 @@ class Showing(QObject):
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
         window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(ColourBy(by)))
+
+    @property
+    def page(self) -> Page:
+        """What the view at the front puts into the window."""
+        return self.pages[self.view]
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -146,17 +113,7 @@ class Showing(QObject):
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is
         for.
         """
-        prompts = {
-            View.STAGES: STAGES_PROMPT,
-            View.CUT: CUT_PROMPT,
-            View.CURVES: CURVES_PROMPT,
-            View.SURFACES: SURFACES_PROMPT,
-            View.NC: NC_PROMPT,
-        }
-        picture = self.view is View.STAGES and self._window.import_panel.reading is not None
-        self._window.command_line.set_prompt(
-            PICTURE_PROMPT if picture else prompts.get(self.view, self._window.canvas.prompt)
-        )
+        self._window.command_line.set_prompt(self.page.prompt())
 
     def refresh(self, change: Change) -> None:
         """Show what changed in the document."""
@@ -198,7 +155,7 @@ class Showing(QObject):
     def show_missing(self) -> None:
         """Say what the view lacks, if it lacks anything."""
         made = self._computation.made
-        missing = self._missing()
+        missing = self.page.missing()
         self._empty_action = missing.action
         self.show_titles()
         self._window.views.show_missing(missing.sentence, missing.button, made is not None)
@@ -207,52 +164,13 @@ class Showing(QObject):
     def _show_side(self) -> None:
         """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
         window, plotting = self._window, self._window.views.plotting
-        beside_cut = self.view is View.CUT and not plotting
-        picture = self.view is View.STAGES and window.import_panel.reading is not None and not plotting
-        stages = self.view is View.STAGES and bool(self._document.part.entities) and not picture and not plotting
-        window.plot_panel.setVisible(plotting)
-        window.tool_strip.setVisible(self.view in (View.DRAW, View.PATHS) and not plotting)
-        window.import_panel.setVisible(picture)
-        asks, tells = (
-            beside_cut and window.cut_form.asked is not None,
-            beside_cut and window.cut_panel.shown is not None,
-        )
-        window.cut_form.setVisible(asks)
-        window.cut_panel.setVisible(tells and not asks)
-        window.stages_panel.setVisible(stages)
-        curves = self.view is View.CURVES and not plotting
-        window.curves_panel.setVisible(curves)
-        surfaces = self.view is View.SURFACES and not plotting
-        window.scene_side.setVisible(surfaces and window.scene.open)
-        window.side.setVisible(not (asks or tells or stages or picture or curves or plotting or surfaces))
-
-    def _missing(self) -> Missing:
-        if self._has_something():
-            return NOTHING
-        if self.view is View.SURFACES:
-            return _NO_SCENE[self._window.views.surfaces.state]
-        if self.view is View.STAGES and self._document.part.entities:
-            return self.stages_missing
-        if self._computation.state is State.RUNNING:
-            return COMPUTING if self.view is not View.DRAW else NOTHING
-        if not self._document.part.entities:
-            if self.view in (View.CURVES, View.NC):
-                return NO_PROGRAM
-            return NOTHING if self.writing or self._window.canvas.tool is not CanvasTool.SELECT else NO_DRAWING
-        return {View.PATHS: NO_PATHS, View.CUT: NO_CUT, View.CURVES: NO_NC, View.NC: NO_NC}.get(self.view, NOTHING)
-
-    def _has_something(self) -> bool:
-        """Return whether the view at the front shows something besides the drawing."""
-        views = self._window.views
-        if self.view is View.STAGES:
-            return views.stages.film is not None or self._window.import_panel.reading is not None
-        if self.view is View.SURFACES:
-            return views.surfaces.shown is not None
-        if self.view is View.CUT:
-            return views.cut.model.picture is not None or bool(views.cut.sentence.text())
-        return self._computation.made is not None or (
-            self.view in (View.CURVES, View.NC) and len(views.nc.pane.text.text) > 0
-        )
+        window.tool_strip.setVisible(self.page.widget is window.canvas and not plotting)
+        beside = window.plot_panel if plotting else self.page.side()
+        for widget in window.sides:
+            if widget is not beside:
+                widget.hide()
+        if beside is not None:
+            beside.show()
 
     def show_hovered(self, text: str) -> None:
         """Show what the mouse is over, or else where the paths stand."""
@@ -263,13 +181,7 @@ class Showing(QObject):
 
     def _show_standing(self) -> None:
         """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
-        views, computation = self._window.views, self._computation
-        words = {
-            View.CURVES: views.curves.summary,
-            View.SURFACES: views.surfaces.summary,
-            View.NC: views.nc.summary,
-            View.STAGES: views.stages.summary,
-        }.get(self.view, "")
+        words, computation = self.page.summary(), self._computation
         self._window.status.show_message(
             words or computation.error or computation.state.value, error=bool(computation.error and not words)
         )

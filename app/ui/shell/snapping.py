@@ -11,8 +11,10 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolButton
 
 from ...core.settings import Settings
+from ..framework.preferences import Preferences
+from ..views.canvas.aiming import Aiming
 from ..views.canvas.snap import CHOICES, SNAP_NAMES, SNAP_WORDS
-from .main_window import MainWindow
+from .status_bar import StatusBar
 
 STEPS = (15.0, 30.0, 45.0, 90.0)
 _WORDS = {kind: word for word, kind in SNAP_WORDS.items()}
@@ -26,11 +28,10 @@ class Snapping(QObject):
             on.
     """
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._preferences = window.preferences
-        self._window = window
-        status, settings = window.status, window.preferences.settings
+    def __init__(self, aiming: Aiming, status: StatusBar, polar: QAction, preferences: Preferences) -> None:
+        """Make one; `polar` is the action that switches the rays."""
+        super().__init__(status)
+        self._aiming, self._status, self._preferences, settings = aiming, status, preferences, preferences.settings
         at_snap, at_polar = _menu_at(status.snap), _menu_at(status.polar)
         self.kinds = {
             kind: _switch(at_snap, f"{SNAP_NAMES[kind]}\t{_WORDS[kind]}", _WORDS[kind] in settings.snaps)
@@ -42,7 +43,7 @@ class Snapping(QObject):
         self.steps = {step: _switch(at_polar, f"{step:g}°", step == _step(settings)) for step in STEPS}
         for action in self.steps.values():
             group.addAction(action)
-        self.on = window.actions_["polar"]
+        self.on = polar
         self.on.setChecked(settings.polar_on)
         for action in (*self.kinds.values(), self.tracking, self.on):
             action.toggled.connect(lambda _: self._change())
@@ -74,9 +75,9 @@ class Snapping(QObject):
         settings = self._preferences.settings
         kinds = frozenset(kind for kind, action in self.kinds.items() if action.isChecked())
         polar = _step(settings) if settings.polar_on else None
-        self._window.canvas.aiming.switch(kinds=kinds, polar=polar, tracking=settings.tracking)
-        self._window.status.polar.setChecked(settings.polar_on)
-        self._window.status.polar.setText(f"Polar {_step(settings):g}°")
+        self._aiming.switch(kinds=kinds, polar=polar, tracking=settings.tracking)
+        self._status.polar.setChecked(settings.polar_on)
+        self._status.polar.setText(f"Polar {_step(settings):g}°")
 
 
 def _menu_at(button: QToolButton) -> QMenu:

@@ -7,34 +7,36 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from ...drafting.document import Document
 from ...model.curves import Point
 from ...model.job import Job
 from ...model.operation import ContourOperation
 from ..panels.changes import with_operation
 from ..panels.operation_groups import BY_HAND
+from ..panels.side_panel import SidePanel
+from ..views.canvas.canvas import Canvas
 from ..views.canvas.marking import Marking
-from .main_window import MainWindow
 
 
 class Tabbing:
     """Lets the canvas put the tabs of the operation that the panel shows."""
 
-    def __init__(self, window: MainWindow) -> None:
-        self._window, self._index = window, 0
-        window.panel.operation_form.tabs.connect(self.start)
-        window.canvas.prompt_changed.connect(lambda _: self._show())
+    def __init__(self, panel: SidePanel, canvas: Canvas, document: Document) -> None:
+        self._panel, self._canvas, self._document, self._index = panel, canvas, document, 0
+        panel.operation_form.tabs.connect(self.start)
+        canvas.prompt_changed.connect(lambda _: self._show())
 
     def _show(self) -> None:
         """Have the button say what a click on it does."""
-        self._window.panel.operation_form.hand.setText(BY_HAND if self._window.canvas.marking is None else "Done")
+        self._panel.operation_form.hand.setText(BY_HAND if self._canvas.marking is None else "Done")
 
     def start(self) -> None:
         """Begin, or end when it had begun."""
-        canvas = self._window.canvas
+        canvas = self._canvas
         if canvas.marking is not None:
             canvas.mark(None)
             return
-        self._index = self._window.panel.operation_form.index
+        self._index = self._panel.operation_form.index
         if self._operation is not None:
             prompt = "Tabs: click beside a contour, or on a tab to take it away; Esc ends"
             canvas.mark(Marking(prompt, self._places, self._click))
@@ -42,7 +44,7 @@ class Tabbing:
 
     @property
     def _operation(self) -> ContourOperation | None:
-        operations = self._window.document.job.operations
+        operations = self._document.job.operations
         operation = operations[self._index] if self._index < len(operations) else None
         return operation if isinstance(operation, ContourOperation) else None
 
@@ -65,4 +67,4 @@ class Tabbing:
         def make(job: Job) -> Job:
             return with_operation(job, self._index, replace(operation, tabs=replace(operation.tabs, places=kept)))
 
-        self._window.panel.change("Remove tab" if near else "Put tab", make)
+        self._panel.change("Remove tab" if near else "Put tab", make)

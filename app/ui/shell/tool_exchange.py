@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ...core.atomic import read_whole, write_atomically
@@ -13,8 +13,8 @@ from ...formats.tools.files import read_tools, write_tools
 from ...formats.tools.library import ToolLibrary, own_folder, write_library
 from ...model.part import Units
 from ..framework.figures import counted
-from ..framework.log import Log
-from .main_window import MainWindow
+from ..framework.workspace import Workspace
+from ..panels.side_panel import SidePanel
 
 IN = "Tools (*.toml *.csv *.tbl);;All files (*)"
 LIBRARY, SHEET, TABLE_MM, TABLE_INCH = (
@@ -27,26 +27,33 @@ _NAMES = {Units.MM: "mm", Units.INCH: "inch"}
 
 
 class ToolExchange(QObject):
-    """Asks for files, reads and writes them, and says what became of it."""
+    """Asks for files, reads and writes them, and says what became of it.
 
-    def __init__(self, window: MainWindow, log: Log) -> None:
-        super().__init__(window)
-        self._preferences = window.preferences
-        self._window, self._log = window, log
-        window.panel.library.imported.connect(self.choose_file)
-        window.panel.library.exported.connect(self.choose_place)
+    Signals:
+        said(sentence).
+    """
+
+    said = Signal(str)
+
+    def __init__(self, panel: SidePanel, workspace: Workspace) -> None:
+        super().__init__(panel)
+        self._panel, self._workspace, self._log = panel, workspace, workspace.log
+        panel.library.imported.connect(self.choose_file)
+        panel.library.exported.connect(self.choose_place)
 
     def choose_file(self) -> None:
         """Ask for a file of tools and take it into the library."""
-        name, _ = QFileDialog.getOpenFileName(self._window, "Import tools", self._preferences.settings.last_folder, IN)
+        name, _ = QFileDialog.getOpenFileName(
+            self._panel, "Import tools", self._workspace.preferences.settings.last_folder, IN
+        )
         if name:
             self.take(Path(name))
 
     def choose_place(self) -> None:
         """Ask where to, and write the job's tools."""
-        start = str(self._preferences.last_folder / "tools.toml")
+        start = str(self._workspace.preferences.last_folder / "tools.toml")
         name, kind = QFileDialog.getSaveFileName(
-            self._window, "Export tools", start, ";;".join((LIBRARY, SHEET, TABLE_MM, TABLE_INCH))
+            self._panel, "Export tools", start, ";;".join((LIBRARY, SHEET, TABLE_MM, TABLE_INCH))
         )
         if name:
             suffix = {SHEET: ".csv", TABLE_MM: ".tbl", TABLE_INCH: ".tbl"}.get(kind, ".toml")
@@ -65,7 +72,7 @@ class ToolExchange(QObject):
         """
         place = own_folder() / f"{path.stem}.toml"
         if place.exists() and not again:
-            self._window.notice.ask(
+            self._workspace.notice.ask(
                 f"There is a library {path.stem} already.",
                 [("Replace it", lambda: self.take(path, units, again=True)), ("Keep it", lambda: None)],
             )
@@ -74,9 +81,9 @@ class ToolExchange(QObject):
             library, left_out = read_tools(path.name, _bytes(path), units)
             _write(place, write_library(library))
         except HitofudeError as error:
-            self._window.panel.refused.emit(str(error))
+            self._panel.refused.emit(str(error))
             return
-        self._window.panel.read_libraries()
+        self._panel.read_libraries()
         told = f"{counted(len(library.tools), 'tool')} of {path.name} in the library."
         self._log.note(f"import {path.name}", " ".join([told, *left_out]))
         self._tell(path, units, f"{told}{f' Left out: {left_out[0]}' if left_out else ''}")
@@ -84,10 +91,10 @@ class ToolExchange(QObject):
     def _tell(self, path: Path, units: Units, told: str) -> None:
         """Say what was taken; of a tool table also in which units, and offer the others."""
         if path.suffix.lower() != ".tbl":
-            self._window.notice.ask(told)
+            self._workspace.notice.ask(told)
             return
         other = Units.INCH if units is Units.MM else Units.MM
-        self._window.notice.ask(
+        self._workspace.notice.ask(
             f"{told} It names no units; it was read in {_NAMES[units]}.",
             [
                 (f"Keep {_NAMES[units]}", lambda: None),
@@ -97,14 +104,14 @@ class ToolExchange(QObject):
 
     def write(self, path: Path, units: Units = Units.MM) -> None:
         """Write the job's tools to a file of the kind that its name tells."""
-        tools = self._window.document.job.tools
+        tools = self._workspace.document.job.tools
         try:
             write_atomically(path, write_tools(path.name, ToolLibrary(path.stem, tools), units))
         except HitofudeError as error:
-            self._window.panel.refused.emit(str(error))
+            self._panel.refused.emit(str(error))
             return
         self._log.note(f"export {path.name}", f"{counted(len(tools), 'tool')} written to {path}")
-        self._window.status.show_message(f"{path.name} is written.")
+        self.said.emit(f"{path.name} is written.")
 
 
 def _bytes(path: Path) -> bytes:

@@ -5,56 +5,68 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from ..framework.labels import muted
+from ..framework.preferences import Preferences
 from ..framework.section import heading
 from ..framework.words import tr
-from .main_window import MainWindow
+from .bars import TopBar
 
 WIDTH, _GAP, _EDGE = 320, 10, 8
 SEEN = "seen"
 
 
 @dataclass(frozen=True)
+class Landmarks:
+    """What the tour shows; `views` is where its words stand when the thing itself is not to be seen."""
+
+    views: QWidget
+    tool_strip: QWidget
+    command_line: QWidget
+    badge: QWidget
+    top_bar: TopBar
+
+
+@dataclass(frozen=True)
 class Step:
     """One step: what it is beside, a heading and one or two sentences."""
 
-    at: Callable[[MainWindow], QWidget]
+    at: Callable[[Landmarks], QWidget]
     title: str
     words: str
 
 
 STEPS = (
     Step(
-        lambda window: window.tool_strip,
+        lambda marks: marks.tool_strip,
         "Draw",
         "Take a tool and click. Points snap to ends, middles and centres; a typed number sets the length.",
     ),
     Step(
-        lambda window: window.command_line,
+        lambda marks: marks.command_line,
         "Type",
         "Every click is also a line of words, and every line draws: try  rect 0,0 60,40  and Enter.",
     ),
     Step(
-        lambda window: window.top_bar.compute,
+        lambda marks: marks.top_bar.compute,
         "Compute",
         "F5 makes the tool paths from the drawing, the tools and the operations at the right.",
     ),
     Step(
-        lambda window: window.status.badge,
+        lambda marks: marks.badge,
         "Look",
         "The verdict: gouges, material left, strokes and time. A click lists the places, another goes there.",
     ),
     Step(
-        lambda window: window.top_bar.tabs["view_cut"],
+        lambda marks: marks.top_bar.tabs["view_cut"],
         "Cut",
         "The program, cut out of its stock. Drag turns it; a click on the metal shows the line that cut there.",
     ),
     Step(
-        lambda window: window.top_bar.export,
+        lambda marks: marks.top_bar.export,
         "Export",
         "What is written is read back and cut first; what is wrong with it is told before the file is kept.",
     ),
@@ -103,22 +115,27 @@ class Callout(QFrame):
 
 
 class Tour(QObject):
-    """Help, Tour: leads round the window; once it was gone through or skipped, nothing offers it again."""
+    """Help, Tour: leads round the window; once it was gone through or skipped, nothing offers it again.
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._preferences = window.preferences
-        self._window, self.number = window, 0
-        self.callout, self._ring = Callout(window), QFrame(window)
+    Signals:
+        left(): it is over.
+    """
+
+    left = Signal()
+
+    def __init__(self, root: QWidget, marks: Landmarks, preferences: Preferences) -> None:
+        """Make one that leads round `root`."""
+        super().__init__(root)
+        self._root, self.marks, self._preferences, self.number = root, marks, preferences, 0
+        self.callout, self._ring = Callout(root), QFrame(root)
         self._ring.setObjectName("ring")
         self._ring.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._ring.hide()
         self.callout.next.clicked.connect(lambda: self.go(self.number + 1))
         self.callout.back.clicked.connect(lambda: self.go(self.number - 1))
         self.callout.skip.clicked.connect(self.end)
-        for watched in (window, self.callout.next, self.callout.back, self.callout.skip):
+        for watched in (root, self.callout.next, self.callout.back, self.callout.skip):
             watched.installEventFilter(self)
-        window.actions_["tour"].triggered.connect(self.start)
 
     def start(self) -> None:
         """Begin at the first step."""
@@ -142,13 +159,13 @@ class Tour(QObject):
         self.callout.hide()
         self._ring.hide()
         self._preferences.keep(replace(self._preferences.settings, tour=SEEN))
-        self._window.views.take_focus()
+        self.left.emit()
 
     def _place(self) -> None:
         """Put ring and words at the thing; where it is not shown, the words stand over the view."""
-        target, whole = STEPS[self.number].at(self._window), self._window.rect().adjusted(_EDGE, _EDGE, -_EDGE, -_EDGE)
+        target, whole = STEPS[self.number].at(self.marks), self._root.rect().adjusted(_EDGE, _EDGE, -_EDGE, -_EDGE)
         shown = target.isVisible()
-        around = self._rectangle(target if shown else self._window.views)
+        around = self._rectangle(target if shown else self.marks.views)
         self._ring.setGeometry(around.adjusted(-2, -2, 2, 2))
         self._ring.setVisible(shown)
         self.callout.move(
@@ -160,13 +177,13 @@ class Tour(QObject):
         self.callout.raise_()
 
     def _rectangle(self, widget: QWidget) -> QRect:
-        return QRect(widget.mapTo(self._window, QPoint()), widget.size())
+        return QRect(widget.mapTo(self._root, QPoint()), widget.size())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Follow the window's size; Escape skips, Left and Right step."""
         if not self.callout.isVisible():
             return False
-        if watched is self._window:
+        if watched is self._root:
             if event.type() in (QEvent.Type.Resize, QEvent.Type.LayoutRequest):
                 self._place()
             return False

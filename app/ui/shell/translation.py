@@ -15,8 +15,9 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QMenu, QWidget
 
 from ...core.settings import Language
+from ..framework.commands import Commands, on_trigger
+from ..framework.preferences import Preferences
 from ..framework.words import catalogue, speak, spoken
-from .main_window import MainWindow
 
 
 @dataclass(frozen=True)
@@ -118,15 +119,15 @@ class _Later(QObject):
 class Translating:
     """View, Language: switches at once and remembers it."""
 
-    def __init__(self, window: MainWindow) -> None:
-        self._preferences = window.preferences
-        self._window, self._later, self._qt = window, _Later(window), QTranslator(window)
+    def __init__(self, root: QWidget, preferences: Preferences, commands: Commands) -> None:
+        """Make one; `root` and what belongs to it speaks the language."""
+        self._root, self._preferences, self._commands = root, preferences, commands
+        self._later, self._qt = _Later(root), QTranslator(root)
         for choice in Language:
-            action = window.actions_[f"language_{choice.value}"]
-            action.triggered.connect(partial(self.choose, choice))
-        self._show(window.preferences.settings.language)
+            on_trigger(commands, f"language_{choice.value}", partial(self.choose, choice))
+        self._show(preferences.settings.language)
 
-    def choose(self, choice: Language, *_: object) -> None:
+    def choose(self, choice: Language) -> None:
         """Switch, and remember it."""
         self._preferences.keep(replace(self._preferences.settings, language=choice))
         self._show(choice)
@@ -144,8 +145,8 @@ class Translating:
                 application.installTranslator(self._qt)
             application.installEventFilter(self._later)
         if code != "en" or before != "en":
-            translate_all(self._window)
-        self._window.actions_[f"language_{choice.value}"].setChecked(True)
+            translate_all(self._root)
+        self._commands[f"language_{choice.value}"].setChecked(True)
 
 
 def code_of(choice: Language) -> str:

@@ -15,9 +15,11 @@ from ...drafting.document import Change
 from ...drafting.expressions.numbers import length
 from ...model.curves import Point
 from ...model.underlay import Underlay
+from ..framework.commands import Commands, on_trigger
+from ..framework.workspace import Workspace
+from ..views.canvas.canvas import Canvas
 from ..views.canvas.marking import Marking
 from ..views.canvas.underlay import SUFFIXES, UnderlayPicture, read_picture
-from .main_window import MainWindow
 
 _SCALE = "Scale the picture: click two points of it, then type their distance; Esc ends"
 _DISTANCE = "Scale the picture: type the distance of the two points, such as 50 or 2in, or click the second again"
@@ -29,15 +31,16 @@ class Underlaying(QObject):
     """Lets the user lay a picture under the drawing; that is no change of the drawing and is not undone.
 
     Signals:
-        changed(): another picture, or another place of it.
+        changed(): another picture, or another place of it. refused(sentence): what was typed is no distance.
     """
 
     changed = Signal()
+    refused = Signal(str)
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._preferences = window.preferences
-        self._window, self._points = window, list[Point]()
+    def __init__(self, canvas: Canvas, workspace: Workspace, commands: Commands) -> None:
+        super().__init__(canvas)
+        self._canvas, self._workspace, self._commands = canvas, workspace, commands
+        self._points: list[Point] = []
         self._shown: UnderlayPicture | None = None
         self._missing: Underlay | None = None
         acts: dict[str, Callable[[], None]] = {
@@ -48,9 +51,9 @@ class Underlaying(QObject):
             "underlay_remove": lambda: self.lay(None),
         }
         for name, act in acts.items():
-            window.actions_[name].triggered.connect(lambda *_, act=act: act())
-        window.actions_["underlay_shown"].toggled.connect(self._show)
-        window.document.subscribe(lambda change: self.lay(None) if Change.LOADED in change else None)
+            on_trigger(commands, name, act)
+        commands["underlay_shown"].toggled.connect(self._show)
+        workspace.document.subscribe(lambda change: self.lay(None) if Change.LOADED in change else None)
         self.lay(None)
 
     @property
@@ -63,12 +66,12 @@ class Underlaying(QObject):
         try:
             image = read_picture(path)
         except InputError as error:
-            self._window.notice.ask(str(error), error=True)
+            self._workspace.notice.ask(str(error), error=True)
             return
-        x0, y0, x1, y1 = self._window.canvas.frame.extent
+        x0, y0, x1, y1 = self._canvas.frame.extent
         pitch = min((x1 - x0) / image.width(), (y1 - y0) / image.height())
         self.lay(UnderlayPicture(image, Underlay(str(path.absolute()), (x0, y0), pitch)))
-        self._window.notice.ask(
+        self._workspace.notice.ask(
             f"{path.name} lies under the drawing. Two points whose distance you know give it its size.",
             [
                 ("Scale by two points", lambda: self._mark(_SCALE, self._scale_click)),
@@ -86,7 +89,7 @@ class Underlaying(QObject):
         except InputError as error:
             self.lay(None)
             self._missing = place
-            self._window.actions_["underlay_remove"].setEnabled(True)
+            self._commands["underlay_remove"].setEnabled(True)
             return f"{error} It was the picture to trace, {place.path}; place it again, or remove it."
         return ""
 
@@ -94,38 +97,38 @@ class Underlaying(QObject):
         """Show another picture, or none."""
         self._shown, self._missing = picture, None
         for name in ("underlay_scale", "underlay_move", "underlay_turn", "underlay_shown", "underlay_remove"):
-            self._window.actions_[name].setEnabled(picture is not None)
-        self._window.actions_["underlay_shown"].setChecked(picture is not None)
-        self._window.canvas.set_underlay(picture)
+            self._commands[name].setEnabled(picture is not None)
+        self._commands["underlay_shown"].setChecked(picture is not None)
+        self._canvas.set_underlay(picture)
         self.changed.emit()
 
     def _choose(self) -> None:
         name, _ = QFileDialog.getOpenFileName(
-            self._window,
+            self._canvas,
             "Place a picture to trace",
-            self._preferences.settings.last_folder,
+            self._workspace.preferences.settings.last_folder,
             f"Pictures ({' '.join('*' + suffix for suffix in SUFFIXES)})",
         )
         if name:
             self.place(Path(name))
 
     def _show(self, on: bool) -> None:
-        self._window.canvas.set_underlay(self._shown if on else None)
+        self._canvas.set_underlay(self._shown if on else None)
 
     def _mark(self, prompt: str, click: Callable[[Point], None], points: list[Point] | None = None) -> None:
-        self._window.actions_["underlay_shown"].setChecked(True)
+        self._commands["underlay_shown"].setChecked(True)
         self._points = points or []
-        self._window.notice.dismiss()
-        self._window.canvas.mark(Marking(prompt, lambda: tuple(self._points), lambda at, reach: click(at), self._typed))
-        self._window.canvas.setFocus()
+        self._workspace.notice.dismiss()
+        self._canvas.mark(Marking(prompt, lambda: tuple(self._points), lambda at, reach: click(at), self._typed))
+        self._canvas.setFocus()
 
     def _put(self, place: Underlay) -> None:
         if self._shown is not None:
             self._shown.place = place
             self.changed.emit()
-            self._window.canvas.repaint_scene()
+            self._canvas.repaint_scene()
         self._points = []
-        self._window.canvas.mark(None)
+        self._canvas.mark(None)
 
     def _scale_click(self, at: Point) -> None:
         self._points = [*self._points[:1], at]
@@ -136,14 +139,14 @@ class Underlaying(QObject):
         """Take the distance of the two points; return False when the text is nothing for the picture."""
         if len(self._points) < 2 or self.underlay is None:
             return False
-        (a, b), said = self._points, self._window.status.show_message
+        a, b = self._points
         try:
             wanted = length(text)
             if wanted < WELD or math.dist(a, b) < WELD:
                 raise InputError("Two points have a distance greater than 0 mm; click them again.")
             self._put(self.underlay.scaled(a, wanted / math.dist(a, b)))
         except HitofudeError as error:
-            said(str(error), error=True)
+            self.refused.emit(str(error))
         return True
 
     def _move_click(self, at: Point) -> None:

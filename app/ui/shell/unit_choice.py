@@ -7,12 +7,17 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
+from PySide6.QtWidgets import QWidget
+
 from ...core.settings import ShownUnits
 from ...drafting.language.unit_of_line import in_unit
+from ..framework.commands import Commands, on_trigger
 from ..framework.fields import NumberField
+from ..framework.preferences import Preferences
 from ..framework.shown_unit import show_in
+from ..panels.drawing_page import DrawingPage
 from ..views.canvas.viewport import Viewport
-from .main_window import MainWindow
+from .status_bar import StatusBar
 
 SIZES = {ShownUnits.MM: 1.0, ShownUnits.INCH: 25.4}
 """Size of each, mm."""
@@ -21,28 +26,28 @@ SIZES = {ShownUnits.MM: 1.0, ShownUnits.INCH: 25.4}
 class UnitChoice:
     """Lets the user choose the units that are shown, and remembers them."""
 
-    def __init__(self, window: MainWindow) -> None:
-        """Show what was chosen the last time."""
-        self._preferences = window.preferences
-        self._window = window
+    def __init__(self, root: QWidget, status: StatusBar, preferences: Preferences, commands: Commands) -> None:
+        """Show what was chosen the last time in every field and viewport below `root`."""
+        self._root, self._status, self._preferences, self._commands = root, status, preferences, commands
         for units in ShownUnits:
-            window.actions_[f"units_{units.value}"].triggered.connect(partial(self._choose, units))
-        self._show(window.preferences.settings.units)
+            on_trigger(commands, f"units_{units.value}", partial(self._choose, units))
+        self._show(preferences.settings.units)
 
     def meant(self, line: str) -> str:
         """Return a typed line of the shape language so that it says in which unit it is meant, where that is not mm."""
         return line if self._preferences.settings.units is ShownUnits.MM else in_unit(line, "in")
 
-    def _choose(self, units: ShownUnits, *_: object) -> None:
+    def _choose(self, units: ShownUnits) -> None:
         self._preferences.keep(replace(self._preferences.settings, units=units))
         self._show(units)
 
     def _show(self, units: ShownUnits) -> None:
-        self._window.actions_[f"units_{units.value}"].setChecked(True)
-        self._window.status.set_unit(SIZES[units], {ShownUnits.MM: "mm", ShownUnits.INCH: "in"}[units])
+        self._commands[f"units_{units.value}"].setChecked(True)
+        self._status.set_unit(SIZES[units], {ShownUnits.MM: "mm", ShownUnits.INCH: "in"}[units])
         show_in(SIZES[units])
-        for field in self._window.findChildren(NumberField):
+        for field in self._root.findChildren(NumberField):
             field.follow_unit()
-        self._window.drawing_page.refresh()
-        for viewport in self._window.findChildren(Viewport):
+        for page in self._root.findChildren(DrawingPage):
+            page.refresh()
+        for viewport in self._root.findChildren(Viewport):
             viewport.set_unit(SIZES[units])

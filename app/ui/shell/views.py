@@ -4,14 +4,13 @@ missing.
 
 from __future__ import annotations
 
-from enum import Enum
-
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
 
 from ..framework.fade import Fade
 from ..framework.theme import LIGHT, Theme
+from ..framework.view import Page, View, Zoomable
 from ..views.canvas.canvas import Canvas
 from ..views.canvas.legend import Legend
 from ..views.canvas.modes import CanvasMode
@@ -19,26 +18,12 @@ from ..views.curves.curves_view import CurvesView
 from ..views.cut.cut_page import CutPage
 from ..views.cut.cut_view import CutView
 from ..views.nc.nc_view import NcView
-from ..views.nc.path_view import PathView
 from ..views.plot.preview import PlotPreview
 from ..views.stages.stages_view import StagesView
-from ..views.surfaces.scene_canvas import SceneCanvas
 from ..views.surfaces.surfaces_view import SurfacesView
 
 _RULER_PX, _MARGIN_PX = 24, 16
 _LONG_MS = 30.0
-
-
-class View(Enum):
-    """The way from drawing to machine; the value is the action's name."""
-
-    DRAW = "view_draw"
-    STAGES = "view_stages"
-    PATHS = "view_paths"
-    CUT = "view_cut"
-    CURVES = "view_curves"
-    SURFACES = "view_surfaces"
-    NC = "view_nc"
 
 
 class EmptyState(QWidget):
@@ -92,25 +77,21 @@ class Views(QStackedWidget):
             NcView(),
         )
         self.surfaces, self.cut_page = SurfacesView(), CutPage(self.cut)
-        self._own: dict[View, QWidget] = {
-            View.STAGES: self.stages,
-            View.CUT: self.cut_page,
-            View.CURVES: self.curves,
-            View.SURFACES: self.surfaces,
-            View.NC: self.nc,
-        }
+        self._pages: dict[View, Page] = {}
         self.view, self.plot = View.DRAW, PlotPreview()
-        self.addWidget(canvas)
-        self.addWidget(self.stages)
-        self.addWidget(self.cut_page)
-        self.addWidget(self.curves)
-        self.addWidget(self.surfaces)
-        self.addWidget(self.nc)
-        self.addWidget(self.plot)
+        for widget in (canvas, self.stages, self.cut_page, self.curves, self.surfaces, self.nc, self.plot):
+            self.addWidget(widget)
         self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
         self.legend.hide()
         canvas.covered_right = self.legend.width() + _MARGIN_PX
         self.installEventFilter(self)
+
+    def take_pages(self, pages: dict[View, Page]) -> None:
+        """Show these pages from now on."""
+        self._pages = pages
+        for page in pages.values():
+            if self.indexOf(page.widget) < 0:
+                self.addWidget(page.widget)
 
     def show_view(self, view: View) -> None:
         """Bring a view to the front; zoom and selection stay. The one before fades, unless painting it would take
@@ -120,13 +101,12 @@ class Views(QStackedWidget):
             self.fade.hide()
             self.fade.begin(self.grab())
         self.view = view
-        own = self._own.get(view)
-        if own is not None:
-            self.setCurrentWidget(own)
-            self.take_focus()
-        else:
-            self.setCurrentWidget(self.canvas)
+        widget = self._pages[view].widget
+        self.setCurrentWidget(widget)
+        if widget is self.canvas:
             self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
+        else:
+            self.take_focus()
 
     def show_plot(self) -> None:
         """Bring the sheets of paper to the front, until a view is shown again."""
@@ -140,22 +120,12 @@ class Views(QStackedWidget):
 
     def take_focus(self) -> None:
         """Have the keys go to what is at the front."""
-        (self.plot if self.plotting else self._own.get(self.view, self.canvas)).setFocus()
+        (self.plot if self.plotting else self._pages[self.view].widget).setFocus()
 
     @property
-    def viewport(self) -> Canvas | StagesView | CutView | SceneCanvas | PathView | PlotPreview:
+    def viewport(self) -> Zoomable:
         """What zooms and fits at the front."""
-        if self.plotting:
-            return self.plot
-        if self.view is View.CUT:
-            return self.cut
-        if self.view is View.STAGES:
-            return self.stages
-        if self.view is View.CURVES:
-            return self.curves.path
-        if self.view is View.SURFACES:
-            return self.surfaces.canvas
-        return self.nc.path if self.view is View.NC else self.canvas
+        return self.plot if self.plotting else self._pages[self.view].viewport
 
     def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:
         """Say what is missing in the view, or nothing when `sentence` is empty.

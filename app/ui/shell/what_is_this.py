@@ -32,7 +32,6 @@ from ..views.surfaces.scene_text import SceneText
 from ..views.surfaces.surfaces_view import SurfacesView
 from .command_line import CommandLine
 from .help_window import HelpWindow
-from .main_window import MainWindow
 from .question_card import QuestionCard
 from .status_bar import StatusBar
 from .tool_strip import ToolStrip
@@ -126,15 +125,15 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
 class WhatIsThis(QObject):
     """Answers clicks after Shift+F1; built once for a window."""
 
-    def __init__(self, window: MainWindow, manual: HelpWindow) -> None:
-        super().__init__(window)
-        self._window, self._help = window, manual
+    def __init__(self, root: QWidget, manual: HelpWindow) -> None:
+        """Make one that explains what belongs to `root`."""
+        super().__init__(root)
+        self._root, self._help = root, manual
         self._own: set[QWidget] = set()
         self._listening = QTimer(self)
         self._listening.setSingleShot(True)
         self._listening.setInterval(LISTENING_MS)
         self._listening.timeout.connect(self._leave)
-        window.actions_["what_is_this"].triggered.connect(lambda *_: self.ask())
 
     def ask(self) -> None:
         """Wait for a click with the question mark."""
@@ -150,7 +149,7 @@ class WhatIsThis(QObject):
 
     def explain(self) -> None:
         """Give every part of the window its explanation, in the words that it shows now."""
-        for widget in (self._window, *self._window.findChildren(QWidget)):
+        for widget in (self._root, *self._root.findChildren(QWidget)):
             if not widget.whatsThis() or widget in self._own:
                 self._own.add(widget)
                 widget.setWhatsThis(explanation(widget))

@@ -15,6 +15,8 @@ from ..framework.controller import Controller
 from ..framework.figures import counted
 from ..framework.section import theme_children
 from ..framework.verdict import Level, verdict
+from ..framework.view import View, views
+from ..framework.workspace import Workspace
 from ..panels.changes import Subject, SubjectKind
 from ..views.canvas.modes import CanvasTool
 from ..views.curves.smoothing import Smoothing
@@ -30,6 +32,7 @@ from ..views.stages.picturing import Picturing
 from ..views.stages.staging import Staging
 from ..views.surfaces.scene_control import SAMPLES, SceneControl, SceneProgram
 from ..views.surfaces.scene_export import SceneExport
+from .actions import Actions
 from .advising import Advising
 from .cleaning import Cleaning
 from .context_menu import ContextMenu
@@ -39,6 +42,7 @@ from .entering import Entering
 from .files import Files, Openers
 from .help import show_about
 from .help_window import HelpWindow
+from .inspecting import PAGE as DRAWING_PAGE
 from .inspecting import Inspecting
 from .keys_window import KeysWindow
 from .language import LanguageWiring
@@ -51,11 +55,11 @@ from .showing import Showing
 from .snapping import Snapping
 from .tabbing import Tabbing
 from .tool_exchange import ToolExchange
-from .tour import Tour
+from .tour import Landmarks, Tour
 from .translation import Translating
 from .underlaying import Underlaying
 from .unit_choice import UnitChoice
-from .views import View
+from .views import Views
 from .what_is_this import WhatIsThis
 
 TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
@@ -78,36 +82,16 @@ class Wiring(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self.window_, self.document, self.computation = window, window.document, window.computation
-        views, workspace, commands = window.views, window.workspace, window.actions_
+        workspace, commands = window.workspace, window.actions_
         self.workspace, self.log = workspace, workspace.log
         self.showing = Showing(window)
-        self.nc = NcControl(views.nc, workspace)
-        self.cutting = Cutting(views.cut_page, window.cut_panel, window.cut_form, workspace)
-        self.staging = Staging(views.stages, window.stages_panel, workspace)
-        self.nc.cut_wanted.connect(self._show_cut)
-        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
-        window.cut_panel.line_wanted.connect(self._go_to_motion)
-        self.picturing = Picturing(views.stages, window.import_panel, workspace)
-        self.scenes = SceneControl(views.surfaces, window.scene_side, window.scene, workspace)
-        self.scene_export = SceneExport(views.surfaces, lambda: self.scenes.work.proven, workspace)
-        self.files = Files(window, self.showing, self.log, Openers(self.nc.open, self.picturing.open, self.scenes.open))
-        self.drawing_export = DrawingExport(window, self.log)
-        self.drawing_export.failed.connect(self._say_error)
-        self.recovering = Recovering(window, self.showing, self.files, self.log)
-        self.tools, self.memory_choice = ToolExchange(window, self.log), MemoryChoice(window)
-        self.tabbing, self.unit_choice, self.underlaying = Tabbing(window), UnitChoice(window), Underlaying(window)
-        self.language = LanguageWiring(window.command_line.edit, HelpWindow(window), workspace, commands)
-        self.what_is_this = WhatIsThis(window, self.language.help)
-        self.files.saving.beside.watch(self.underlaying, self.language.control)
-        self.advising = Advising(window.panel, workspace)
-        window.panel.advice.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
-        self.inspecting = Inspecting(window, self.showing)
-        self.engaging, self.entering = Engaging(window.canvas, views.legend, workspace), Entering(window)
-        self.cleaning = Cleaning(window)
-        self.cut_saving, self.recorder = CutSaving(views.cut, workspace), Recorder(views.cut_page, workspace)
-        self.shortcuts, self.palette = Shortcuts(window), Palette(window, self.files.open_file)
-        self.plotting = Plotting(views.plot, window.plot_panel, workspace)
-        self.session_1986 = SessionOpening(window, workspace)
+        self._make_controllers(window.views, workspace)
+        openers = Openers(self.nc.open, self.picturing.open, self.scenes.open)
+        self.files = Files(window, self.showing, self.log, openers)
+        self.recovering = Recovering(self.files, window.card, workspace)
+        self._make_choices(workspace, commands)
+        self._make_drawing_parts(workspace, commands)
+        self._make_helpers(workspace, commands)
         self._connect_stages()
         self._connect_files()
         self._connect_scenes()
@@ -115,17 +99,77 @@ class Wiring(QObject):
         self._connect_view()
         self._connect_job()
         self._connect_canvas()
-        self._nc_wiring = NcWiring(views.nc, self.nc, self.computation, commands)
-        self.smoothing = Smoothing(views.curves, window.curves_panel, self.nc, workspace)
         self._connect_controllers()
         self._connect_pages()
         self._connect_programs()
         self._connect_language()
-        self.snapping = Snapping(window)
-        self.tour, self.translating = Tour(window), Translating(window)
+        self._connect_helpers()
         self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)
         self.showing.refresh(Change.ALL)
+
+    def _make_controllers(self, views: Views, workspace: Workspace) -> None:
+        """Make what acts for the views, each of its own parts."""
+        window = self.window_
+        self.nc = NcControl(views.nc, workspace)
+        self._nc_wiring = NcWiring(views.nc, self.nc, self.computation, window.actions_)
+        self.cutting = Cutting(views.cut_page, window.cut_panel, window.cut_form, workspace)
+        self.cut_saving, self.recorder = CutSaving(views.cut, workspace), Recorder(views.cut_page, workspace)
+        self.staging = Staging(views.stages, window.stages_panel, workspace)
+        self.picturing = Picturing(views.stages, window.import_panel, workspace)
+        self.smoothing = Smoothing(views.curves, window.curves_panel, self.nc, workspace)
+        self.scenes = SceneControl(views.surfaces, window.scene_side, window.scene, workspace)
+        self.scene_export = SceneExport(views.surfaces, lambda: self.scenes.work.proven, workspace)
+        self.plotting = Plotting(views.plot, window.plot_panel, workspace)
+        self.session_1986 = SessionOpening(window, workspace)
+
+    def _make_choices(self, workspace: Workspace, commands: Actions) -> None:
+        """Make what lets the user choose and remembers it."""
+        window, preferences = self.window_, workspace.preferences
+        self.memory_choice = MemoryChoice(preferences, commands)
+        self.unit_choice = UnitChoice(window, window.status, preferences, commands)
+        self.snapping = Snapping(window.canvas.aiming, window.status, commands["polar"], preferences)
+        self.shortcuts = Shortcuts(commands, preferences)
+        self.translating = Translating(window, preferences, commands)
+
+    def _make_drawing_parts(self, workspace: Workspace, commands: Actions) -> None:
+        """Make what serves the drawing and its job."""
+        window, canvas = self.window_, self.window_.canvas
+        self.drawing_export = DrawingExport(window, workspace)
+        self.tools = ToolExchange(window.panel, workspace)
+        self.tabbing = Tabbing(window.panel, canvas, self.document)
+        self.underlaying = Underlaying(canvas, workspace, commands)
+        self.language = LanguageWiring(window.command_line.edit, HelpWindow(window), workspace, commands)
+        self.files.saving.beside.watch(self.underlaying, self.language.control)
+        self.advising = Advising(window.panel, workspace)
+        self.inspecting = Inspecting(window.drawing_page, window.notice, commands)
+        self.cleaning = Cleaning(window.drawing_page.cleanup, canvas, workspace)
+        self.engaging = Engaging(canvas, window.views.legend, workspace)
+        self.entering = Entering(window.command_line, canvas, self.document)
+
+    def _make_helpers(self, workspace: Workspace, commands: Actions) -> None:
+        """Make what helps to find one's way."""
+        window, views, preferences = self.window_, self.window_.views, workspace.preferences
+        self.what_is_this = WhatIsThis(window, self.language.help)
+        self.palette = Palette(views, commands, preferences, window.command_line.begin, self.files.open_file)
+        self.palette.set_theme(window.theme)
+        marks = Landmarks(views, window.tool_strip, window.command_line, window.status.badge, window.top_bar)
+        self.tour = Tour(window, marks, preferences)
+
+    def _connect_helpers(self) -> None:
+        window, views = self.window_, self.window_.views
+        self._on("export_drawing", self.drawing_export.start)
+        self.drawing_export.failed.connect(self._say_error)
+        for part in (self.drawing_export, self.tools):
+            part.said.connect(self._say)
+        self.underlaying.refused.connect(lambda text: window.status.show_message(text, error=True))
+        window.panel.advice.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
+        self.inspecting.front_wanted.connect(partial(self._show_side_page, DRAWING_PAGE))
+        self._on("what_is_this", self.what_is_this.ask)
+        self._on("palette", self.palette.open)
+        self._on("tour", self.tour.start)
+        for helper in (self.palette, self.tour):
+            helper.left.connect(views.take_focus)
 
     def _connect_controllers(self) -> None:
         """Show what the controllers of views tell, and tell them whether their view is at the front."""
@@ -138,6 +182,9 @@ class Wiring(QObject):
         self._connect_controller(self.scenes, View.SURFACES)
         self._connect_controller(self.scene_export, View.SURFACES)
         self._connect_controller(self.nc, View.NC)
+        for view, page in self.showing.pages.items():
+            if page.controller is not None:
+                self._connect_controller(page.controller, view)
 
     def _connect_controller(self, controller: Controller, view: View) -> None:
         controller.failed.connect(self._say_error)
@@ -179,6 +226,8 @@ class Wiring(QObject):
         self.showing.view_changed.connect(lambda view: control.see(view in (View.DRAW, View.PATHS)))
 
     def _on_side_page(self, name: str) -> None:
+        if name != DRAWING_PAGE:
+            self.cleaning.give_up()
         self.showing.writing = name == TEXT_PAGE
         self.showing.show_missing()
         self.language.control.see(self.showing.view in (View.DRAW, View.PATHS))
@@ -187,6 +236,12 @@ class Wiring(QObject):
         if self.showing.view not in (View.DRAW, View.PATHS):
             self.showing.show_view(View.DRAW)
         self.window_.side.show_page(TEXT_PAGE)
+
+    def _show_side_page(self, name: str) -> None:
+        """Bring a page of the right side to the front; where another view has something else there, Draw."""
+        if self.window_.side.isHidden():
+            self.showing.show_view(View.DRAW)
+        self.window_.side.show_page(name)
 
     def _on(self, name: str, act: Callable[[], object]) -> None:
         self.window_.actions_[name].triggered.connect(lambda *_: act())
@@ -278,7 +333,7 @@ class Wiring(QObject):
         canvas, actions = self.window_.canvas, self.window_.actions_
         self._on("cut_picture", self.cut_saving.choose)
         self._on("record", self.recorder.ask)
-        for view in View:
+        for view in views():
             self._on(view.value, partial(self.showing.show_view, view))
         self._on("fit", lambda: self.window_.views.viewport.fit())
         self._on("zoom_in", lambda: self.window_.views.viewport.zoom_by(1.5))
@@ -299,7 +354,7 @@ class Wiring(QObject):
         self._on("command", self.window_.command_line.edit.setFocus)
         for choice in ThemeChoice:
             self._on(f"theme_{choice.value}", partial(self.window_.choose_theme, choice))
-        self._on("keys", lambda: KeysWindow(self.window_, self.shortcuts).show())
+        self._on("keys", lambda: KeysWindow(self.window_, self.window_.actions_, self.shortcuts).show())
         self._on("about", lambda: show_about(self.window_))
 
     def _connect_job(self) -> None:
@@ -343,11 +398,14 @@ class Wiring(QObject):
         canvas.prompt_changed.connect(lambda _: self.showing.show_prompt())
         canvas.hovered.connect(self.showing.show_hovered)
         window.views.cut.hovered.connect(self.showing.show_hovered)
+        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
+        window.cut_panel.line_wanted.connect(self._go_to_motion)
+        self.nc.cut_wanted.connect(self._show_cut)
         window.views.cut.cursor_moved.connect(window.status.show_place)
         canvas.message.connect(lambda text: window.status.show_message(text, error=True))
         canvas.key_typed.connect(window.command_line.begin)
         canvas.tool_changed.connect(self._on_tool)
-        self.context_menu = ContextMenu(window)
+        self.context_menu = ContextMenu(canvas, self.document, window.actions_)
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""

@@ -29,7 +29,7 @@ from app.model.operation import (
 )
 from app.model.part import Units
 from app.model.read_options import AS_DRAWN
-from app.model.read_options import ReadOptions as Reading
+from app.model.read_options import DrawingOptions as Reading
 from app.model.tool import Tool, ToolKind
 from tests.gcode.programs import job, two_tools
 

@@ -12,7 +12,7 @@ from app.fitting.point_curves.effective_points import Ends, PointState
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.nc.motion_shapes import Side
 from tests.ui.curves.facets import facets
 from tests.ui.nc.opened import WAIT_MS, open_file

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.framework.verdict import Level, Verdict
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.cut.colouring import CutColour
 from app.ui.views.cut.entries import EntryColour
 from tests.ui.cut.real_cut import real_shown

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.ui.framework.samples import Sample
 from app.ui.framework.theme import DARK, LIGHT
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.cut.camera import StandardView
 from app.ui.views.cut.colouring import CutColour
 from app.ui.views.cut.cut_legend import Side

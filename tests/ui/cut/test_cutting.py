@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.shell.wiring import Wiring
 
 

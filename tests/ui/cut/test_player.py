@@ -10,7 +10,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.cut.colouring import CutColour, values_of
 from app.ui.views.cut.entries import EntryColour
 from app.ui.views.cut.player import RANGES, Mark, Pace

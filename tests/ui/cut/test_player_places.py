@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 
 from app.core.errors import HitofudeError
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.cut import player as player_file
 from app.ui.views.cut.player import Pace
 from app.usecases.timeline import Timeline

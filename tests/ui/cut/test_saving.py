@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from PySide6.QtGui import QImage
 
+from app.ui.framework.view import View
 from app.ui.shell.start import build
-from app.ui.shell.views import View
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 

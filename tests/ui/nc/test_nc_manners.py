@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
 
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.nc.motion_shapes import Side
 from tests.ui.measure_window import Gaps
 from tests.ui.nc.hand_made import long_program

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication
 from app.core.settings import load_settings
 from app.gcode.interpreter.dialect import Dialect
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.nc.motion_picture import PathColour
 from app.ui.views.nc.motion_shapes import Side
 from tests.ui.nc.hand_made import long_program

@@ -1,19 +1,35 @@
 """The sheet "Which tool?": filled from the drawing on a worker, used by clicks, undone like anything else."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 
+from app.core.resources import resource
+from app.formats.readers import read_drawing
 from app.model.operation import ContourOperation, PocketOperation, RestOperation
+from app.ui.panels.side_panel import SidePanel
+from app.ui.shell.advising import Advising
 from tests.ui.conftest import WAIT_MS
 
 
 @pytest.fixture
-def sheet(qtbot, wiring):
-    wiring.files.open_sample()
-    panel = wiring.window_.panel
-    qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
+def panel(qtbot, workspace):
+    sample = resource("samples", "fig2.dxf")
+    part = read_drawing(sample.name, sample.read_bytes(), None, ()).part
+    workspace.document.load(replace(workspace.document.job, part=part))
+    made = SidePanel(workspace.document)
+    qtbot.addWidget(made)
+    made.resize(328, 700)
+    made.show()
+    return made
+
+
+@pytest.fixture
+def sheet(qtbot, panel, workspace):
+    advising = Advising(panel, workspace)
     qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: bool(panel.advice._made), timeout=3 * WAIT_MS)
+    qtbot.waitUntil(lambda: bool(panel.advice._made) and not advising.worker.busy, timeout=3 * WAIT_MS)
     return panel.advice
 
 
@@ -21,28 +37,27 @@ def tools_of(job, kind):
     return {job.tool(each.cut.tool).diameter for each in job.operations if isinstance(each, kind)}
 
 
-def test_a_tool_of_the_list_becomes_that_of_pockets_or_of_contours(qtbot, wiring, sheet):
+def test_a_tool_of_the_list_becomes_that_of_pockets_or_of_contours(qtbot, panel, workspace, sheet):
     names = [tool.diameter for tool in sheet._tools]
     assert names == sorted(names) and len(names) > 3
     qtbot.mouseClick(sheet._made[names.index(8.0)], Qt.MouseButton.LeftButton)
     qtbot.mouseClick(sheet.pocket_button, Qt.MouseButton.LeftButton)
-    assert tools_of(wiring.document.job, PocketOperation) == {8.0}
-    assert tools_of(wiring.document.job, ContourOperation) == {3.0}
+    assert tools_of(workspace.document.job, PocketOperation) == {8.0}
+    assert tools_of(workspace.document.job, ContourOperation) == {3.0}
     qtbot.mouseClick(sheet._made[names.index(2.0)], Qt.MouseButton.LeftButton)
     qtbot.mouseClick(sheet.contour_button, Qt.MouseButton.LeftButton)
-    assert tools_of(wiring.document.job, (ContourOperation, RestOperation)) == {2.0}
-    assert wiring.document.undo_name == "Tool for contours"
-    wiring.document.undo()
-    wiring.document.undo()
-    assert tools_of(wiring.document.job, PocketOperation) == {6.0}
+    assert tools_of(workspace.document.job, (ContourOperation, RestOperation)) == {2.0}
+    assert workspace.document.undo_name == "Tool for contours"
+    workspace.document.undo()
+    workspace.document.undo()
+    assert tools_of(workspace.document.job, PocketOperation) == {6.0}
 
 
-def test_places_are_shown_and_the_sheet_closes(qtbot, wiring, sheet):
+def test_places_are_shown_and_the_sheet_closes(qtbot, panel, workspace, sheet):
     with qtbot.waitSignal(sheet.place_wanted) as caught:
         qtbot.mouseClick(sheet._places[0], Qt.MouseButton.LeftButton)
     assert "Narrowest passage" in sheet._places[0].text()
     x, y = caught.args
     assert 0 < x < 100 and 0 < y < 100
-    panel = wiring.window_.panel
     qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
     assert sheet.isHidden() and panel.operation_form.isVisible()

@@ -7,7 +7,6 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.core.resources import resource
-from app.core.settings import Settings
 from app.drafting.document import Document
 from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary, load_libraries, own_folder
@@ -15,13 +14,13 @@ from app.model.job import Job
 from app.model.operation import Cut, DrillOperation
 from app.model.part import Part, Units
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.tool_kind import tool_kinds
 from app.simulation.cutter import cutter_of
 from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
 from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES, icon_of, use_of
-from app.ui.shell.main_window import MainWindow
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.tool_exchange import ToolExchange
 
 
 @pytest.fixture
@@ -58,7 +57,7 @@ def test_it_opens_in_the_place_of_the_properties_and_closes_again(panel):
 def test_the_list_holds_every_kind_with_its_icon_and_words(qtbot, panel):
     library = panel.library
     assert [kind for kind, _ in groupby(tool.kind for tool in library.shown)] == list(KINDS), "kind by kind"
-    assert set(KINDS) == set(ToolKind)
+    assert set(KINDS) == set(tool_kinds())
     for _, kind in groupby(library.shown, lambda tool: tool.kind):
         diameters = [tool.diameter for tool in kind]
         assert diameters == sorted(diameters)
@@ -191,57 +190,58 @@ def test_the_form_offers_the_tools_materials(qtbot, document, panel):
 
 
 @pytest.fixture
-def wiring(qtbot):
-    window = MainWindow(Document(Job(Part())), Settings())
-    qtbot.addWidget(window)
-    return Wiring(window)
+def exchange(qtbot, workspace):
+    panel = SidePanel(workspace.document)
+    qtbot.addWidget(panel)
+    panel.refused.connect(workspace.notice.ask)
+    return ToolExchange(panel, workspace)
 
 
-def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, wiring):
-    window = wiring.window_
+def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, exchange, workspace):
+    notice = workspace.notice
     for name, data in (
         ("mine.csv", b"number,diameter_mm,name\n5,7.5,Own cutter\n"),
         ("lib.toml", write_tools("x.toml", ToolLibrary("Lib", (Tool(6, 9.5, name="Other"),)))),
     ):
         (tmp_path / name).write_bytes(data)
-        wiring.tools.take(tmp_path / name)
-        assert window.notice.text.text() == f"1 tool of {name} in the library."
-    assert {"Own cutter", "Other"} <= {tool.name for tool in window.panel.library.shown}
+        exchange.take(tmp_path / name)
+        assert notice.text.text() == f"1 tool of {name} in the library."
+    assert {"Own cutter", "Other"} <= {tool.name for tool in exchange._panel.library.shown}
     assert set(load_libraries()[0]) == {"lib", "mine", "metric-drills", "metric-mills"}
-    wiring.tools.take(tmp_path / "mine.csv")
-    assert window.notice.text.text() == "There is a library mine already."
+    exchange.take(tmp_path / "mine.csv")
+    assert notice.text.text() == "There is a library mine already."
 
 
-def test_a_tool_table_names_no_units_so_they_are_asked_for(tmp_path, wiring):
-    window = wiring.window_
+def test_a_tool_table_names_no_units_so_they_are_asked_for(tmp_path, exchange, workspace):
+    notice = workspace.notice
     (tmp_path / "mill.tbl").write_bytes(b"T1 P1 Z2 D0.25 ;quarter\nT2 P2 Z1 ;probe\n")
-    wiring.tools.take(tmp_path / "mill.tbl")
-    assert "Left out: mill.tbl:2: T2: diameter is 0 mm" in window.notice.text.text()
-    assert "It names no units; it was read in mm." in window.notice.text.text()
-    assert window.notice.buttons[1].text() == "Read in inch"
-    window.notice.buttons[1].click()
+    exchange.take(tmp_path / "mill.tbl")
+    assert "Left out: mill.tbl:2: T2: diameter is 0 mm" in notice.text.text()
+    assert "It names no units; it was read in mm." in notice.text.text()
+    assert notice.buttons[1].text() == "Read in inch"
+    notice.buttons[1].click()
     (tool,) = load_libraries()[0]["mill"].tools
     assert (tool.diameter, tool.length_offset) == (pytest.approx(6.35), pytest.approx(50.8))
 
 
-def test_what_is_wrong_with_a_file_is_said_and_nothing_is_kept(tmp_path, wiring):
+def test_what_is_wrong_with_a_file_is_said_and_nothing_is_kept(tmp_path, exchange, workspace):
     (tmp_path / "bad.csv").write_bytes(b"number,diameter_mm\n5,six\n")
-    wiring.tools.take(tmp_path / "bad.csv")
-    assert wiring.window_.notice.text.text().startswith("bad.csv:2: diameter_mm is 'six'")
-    wiring.tools.take(tmp_path / "gone.csv")
-    assert "Cannot read" in wiring.window_.notice.text.text()
+    exchange.take(tmp_path / "bad.csv")
+    assert workspace.notice.text.text().startswith("bad.csv:2: diameter_mm is 'six'")
+    exchange.take(tmp_path / "gone.csv")
+    assert "Cannot read" in workspace.notice.text.text()
     assert not own_folder().exists()
 
 
 @pytest.mark.parametrize(
     ("name", "units"), [("t.toml", Units.MM), ("t.csv", Units.MM), ("t.tbl", Units.MM), ("t.tbl", Units.INCH)]
 )
-def test_the_jobs_tools_are_exported(tmp_path, wiring, name, units):
-    wiring.tools.write(tmp_path / name, units)
+def test_the_jobs_tools_are_exported(tmp_path, exchange, workspace, name, units):
+    exchange.write(tmp_path / name, units)
     library, _ = read_tools(name, (tmp_path / name).read_bytes(), units)
     assert [(tool.number, round(tool.diameter, 6)) for tool in library.tools] == [(1, 6.0), (2, 3.0)]
-    wiring.tools.write(tmp_path / "t.xls")
-    assert "tools are read and written as .toml, .csv, .tbl" in wiring.window_.notice.text.text()
+    exchange.write(tmp_path / "t.xls")
+    assert "tools are read and written as .toml, .csv, .tbl" in workspace.notice.text.text()
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -1,9 +1,10 @@
-"""Print or plot, in the real window: the sheets follow the drawing and what is asked; every format is true to scale."""
+"""Print or plot: the sheets follow the drawing and what is asked; every format is true to scale."""
 
 from __future__ import annotations
 
 import re
 import zlib
+from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
@@ -13,9 +14,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
 from app.core.errors import HitofudeError
+from app.drafting.document import Document
 from app.formats.plot.page import Paper
-from app.ui.shell.views import View
-from app.ui.views.plot.panel import read_scale
+from app.ui.framework.view import View
+from app.ui.framework.workspace import Workspace
+from app.ui.views.plot.panel import PlotPanel, read_scale
+from app.ui.views.plot.plotting import Plotting
+from app.ui.views.plot.preview import PlotPreview
 
 
 def pdf_subpaths(data: bytes) -> list[list[tuple[float, float]]]:
@@ -49,8 +54,37 @@ def pdf_subpaths(data: bytes) -> list[list[tuple[float, float]]]:
     raise AssertionError("no page")
 
 
+@dataclass
+class Plotted:
+    """A line on paper: what prints it, its fields and its preview, without a window."""
+
+    plotting: Plotting
+    panel: PlotPanel
+    preview: PlotPreview
+    workspace: Workspace
+
+    @property
+    def document(self) -> Document:
+        return self.workspace.document
+
+
 @pytest.fixture
-def plotted(qtbot, wiring):
+def plotted(qtbot, workspace):
+    preview, panel = PlotPreview(), PlotPanel()
+    for widget in (preview, panel):
+        qtbot.addWidget(widget)
+    preview.resize(900, 660)
+    preview.show()
+    made = Plotted(Plotting(preview, panel, workspace), panel, preview, workspace)
+    made.plotting.failed.connect(workspace.notice.ask)
+    workspace.document.run("line 20,20 120,20")
+    made.plotting.start()
+    settle(qtbot, made)
+    return made
+
+
+@pytest.fixture
+def in_window(qtbot, wiring):
     wiring.document.run("line 20,20 120,20")
     wiring.window_.actions_["plot"].trigger()
     settle(qtbot, wiring)
@@ -66,16 +100,16 @@ def save(qtbot, wiring, path: Path) -> None:
     qtbot.waitUntil(lambda: not wiring.plotting.writer.busy, timeout=10_000)
 
 
-def choose_scale(qtbot, wiring, text: str) -> None:
-    edit = wiring.window_.plot_panel.factor.edit
+def choose_scale(qtbot, plotted, text: str) -> None:
+    edit = plotted.panel.factor.edit
     edit.selectAll()
     qtbot.keyClicks(edit, text)
     qtbot.keyClick(edit, Qt.Key.Key_Return)
-    settle(qtbot, wiring)
+    settle(qtbot, plotted)
 
 
-def test_the_preview_comes_beside_its_fields_and_escape_leaves_it(qtbot, plotted) -> None:
-    window = plotted.window_
+def test_the_preview_comes_beside_its_fields_and_escape_leaves_it(qtbot, in_window) -> None:
+    window = in_window.window_
     assert window.views.plotting and window.plot_panel.isVisible()
     assert not window.side.isVisible() and not window.tool_strip.isVisible()
     qtbot.keyClick(window.views.plot, Qt.Key.Key_Escape)
@@ -83,38 +117,38 @@ def test_the_preview_comes_beside_its_fields_and_escape_leaves_it(qtbot, plotted
     assert window.side.isVisible() and window.tool_strip.isVisible()
 
 
-def test_a_view_leaves_the_paper(plotted) -> None:
-    plotted.window_.actions_["view_paths"].trigger()
-    assert not plotted.window_.views.plotting
-    assert plotted.showing.view is View.PATHS
+def test_a_view_leaves_the_paper(in_window) -> None:
+    in_window.window_.actions_["view_paths"].trigger()
+    assert not in_window.window_.views.plotting
+    assert in_window.showing.view is View.PATHS
 
 
 def test_the_sheets_follow_the_drawing_and_the_fields(qtbot, plotted) -> None:
-    panel = plotted.window_.plot_panel
+    panel = plotted.panel
     assert panel.told.text().startswith("2.69 : 1 on 1 sheet")
     plotted.document.run("line 0,0 0,300")
     settle(qtbot, plotted)
     assert panel.told.text().startswith("1 : 1.77 on 1 sheet")
     choose_scale(qtbot, plotted, "1:1")
-    assert len(plotted.window_.views.plot.sheets) == 2
+    assert len(plotted.preview.sheets) == 2
     panel.paper.chosen.emit(Paper.A3)
     panel.lies.buttons[False].click()
     settle(qtbot, plotted)
-    assert len(plotted.window_.views.plot.sheets) == 1
+    assert len(plotted.preview.sheets) == 1
     assert plotted.plotting.ready.sheets[0].page.height == 420.0
 
 
 def test_nothing_drawn_says_so_and_saves_nothing(qtbot, plotted) -> None:
     plotted.document.undo()
     settle(qtbot, plotted)
-    panel = plotted.window_.plot_panel
+    panel = plotted.panel
     assert "Nothing is drawn" in panel.wrong.text()
     assert not panel.save.isEnabled() and not panel.print.isEnabled()
 
 
 def test_the_paper_shows_the_line_where_it_will_be(qtbot, plotted) -> None:
     choose_scale(qtbot, plotted, "1:1")
-    preview = plotted.window_.views.plot
+    preview = plotted.preview
     picture: QImage = preview.grab().toImage()
     scale, middle = preview.px_per_mm, preview.width() / 2
     row = [y for y in range(preview.height()) if picture.pixelColor(round(middle), y).value() < 200]
@@ -142,7 +176,7 @@ def test_100_mm_are_100_mm_in_pdf(qtbot, plotted, tmp_path: Path, scale: str, le
 
 
 def test_100_mm_are_100_mm_in_png_which_tells_its_size(qtbot, plotted, tmp_path: Path) -> None:
-    plotted.window_.plot_panel.framed.switch.click()
+    plotted.panel.framed.switch.click()
     choose_scale(qtbot, plotted, "1:1")
     save(qtbot, plotted, tmp_path / "rule.png")
     picture = QImage(str(tmp_path / "rule.png"))
@@ -159,12 +193,12 @@ def test_many_sheets_are_one_pdf_and_a_numbered_svg_each(qtbot, plotted, tmp_pat
     save(qtbot, plotted, tmp_path / "rule.svg")
     save(qtbot, plotted, tmp_path / "rule.plt")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["rule-1.svg", "rule-2.svg", "rule.pdf", "rule.plt"]
-    assert plotted.window_.command_line.log.lines[-1].command == "plot rule.plt"
+    assert plotted.workspace.log.lines[-1].command == "plot rule.plt"
 
 
 def test_a_place_that_cannot_be_written_is_told(qtbot, plotted, tmp_path: Path) -> None:
     save(qtbot, plotted, tmp_path / "none" / "rule.pdf")
-    assert "Cannot write" in plotted.window_.notice.text.text()
+    assert "Cannot write" in plotted.workspace.notice.text.text()
 
 
 def test_paths_are_offered_once_they_are_computed(qtbot, computed) -> None:
@@ -181,12 +215,12 @@ def test_paths_are_offered_once_they_are_computed(qtbot, computed) -> None:
     assert not panel.paths.switch.isEnabled()
 
 
-def test_the_wheel_goes_nearer_where_the_mouse_is_and_f_shows_all(qtbot, plotted) -> None:
-    preview = plotted.window_.views.plot
+def test_the_wheel_goes_nearer_where_the_mouse_is_and_f_shows_all(qtbot, in_window) -> None:
+    preview = in_window.window_.views.plot
     before = preview.px_per_mm
-    plotted.window_.actions_["zoom_in"].trigger()
+    in_window.window_.actions_["zoom_in"].trigger()
     assert preview.px_per_mm == pytest.approx(1.5 * before)
-    plotted.window_.actions_["fit"].trigger()
+    in_window.window_.actions_["fit"].trigger()
     assert preview.px_per_mm == before
 
 

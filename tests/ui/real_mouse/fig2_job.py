@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QApplication
 
 from app.drafting.language.write import draw_text
 from app.ui.framework.computation import State
+from app.ui.framework.view import View
 from app.ui.shell.start import build
-from app.ui.shell.views import View
 from tests.ui.real_mouse.hand import Hand
 
 OUTLINE = (

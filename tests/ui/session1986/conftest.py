@@ -1,10 +1,12 @@
-"""A session over a real window, driven by keys."""
+"""A session driven by keys: over a bare widget, or over the real window."""
 
 from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
 
+from app.ui.views.session1986.opening import SessionOpening
 from app.ui.views.session1986.questions import Ask
 from tests.ui.conftest import WAIT_MS
 
@@ -12,11 +14,9 @@ from tests.ui.conftest import WAIT_MS
 class Operator:
     """Types on the terminal's keyboard and looks at its screen."""
 
-    def __init__(self, qtbot, wiring) -> None:
-        self.bot, self.wiring = qtbot, wiring
-        wiring.window_.actions_["session_1986"].trigger()
-        self.opening = wiring.session_1986
-        self.session, self.tube = self.opening.session, self.opening.tube
+    def __init__(self, qtbot, opening, document) -> None:
+        self.bot, self.opening, self.document = qtbot, opening, document
+        self.session, self.tube = opening.session, opening.tube
 
     @property
     def screen(self):
@@ -50,8 +50,26 @@ class Operator:
 
 
 @pytest.fixture
-def operator(qtbot, wiring):
-    """An operator at the first question, over an empty window."""
-    made = Operator(qtbot, wiring)
+def operator(qtbot, workspace):
+    """An operator at the first question, over a bare widget."""
+    over = QWidget()
+    qtbot.addWidget(over)
+    over.resize(1280, 800)
+    with qtbot.waitActive(over):
+        over.show()
+        over.activateWindow()
+    opening = SessionOpening(over, workspace)
+    opening.open()
+    made = Operator(qtbot, opening, workspace.document)
+    yield made
+    made.session.finish()
+
+
+@pytest.fixture
+def in_window(qtbot, wiring):
+    """An operator at the first question, over an empty window, and the window's wiring."""
+    wiring.window_.actions_["session_1986"].trigger()
+    made = Operator(qtbot, wiring.session_1986, wiring.document)
+    made.wiring = wiring
     yield made
     made.session.finish()

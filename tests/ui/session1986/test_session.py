@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 
 from app.model.operation import ContourOperation, PocketOperation
 from app.ui.framework.computation import State
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.session1986.questions import Ask
 from tests.ui.conftest import WAIT_MS
 
@@ -14,35 +14,35 @@ CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModi
 
 
 @pytest.mark.exhaustive
-def test_a_whole_session_by_keys(qtbot, operator) -> None:
+def test_a_whole_session_by_keys(qtbot, in_window) -> None:
     shown: list[int] = []
-    operator.session.playing.changed.connect(lambda: shown.append(int(operator.screen.head[0].split()[0])))
-    operator.answer()
-    operator.until(Ask.CONTOUR)
-    assert operator.screen.head[0] == "110 Show the shape"
-    shape = operator.screen.picture.copy()
-    operator.answer("1.25")
-    operator.until(Ask.POCKET)
-    filled = operator.screen.picture.copy()
+    in_window.session.playing.changed.connect(lambda: shown.append(int(in_window.screen.head[0].split()[0])))
+    in_window.answer()
+    in_window.until(Ask.CONTOUR)
+    assert in_window.screen.head[0] == "110 Show the shape"
+    shape = in_window.screen.picture.copy()
+    in_window.answer("1.25")
+    in_window.until(Ask.POCKET)
+    filled = in_window.screen.picture.copy()
     assert shown == [120, 201, 202, 203, 204, 205, 206, 207, 208, 130]
     assert filled.sum() > 5 * shape.sum() and not (filled & shape).any(), (
         "the screen is rewritten with what lies inside"
     )
-    operator.answer("2.5")
-    assert operator.screen.prompt == "POCKET TOOL OVERLAP, MM [2.5]?"
-    operator.answer()
-    operator.until(Ask.PLAY)
-    for _ in range(len(operator.session.playing._stills) - 1):
-        operator.key(Qt.Key.Key_Right)
-    assert operator.screen.head[0] == "140 The tool paths" and {301, 307, 142, 146, 148, 140, 401, 407} <= set(shown)
-    operator.key(Qt.Key.Key_Space)
-    operator.until(Ask.LIST)
-    operator.key(Qt.Key.Key_Return)
-    assert operator.session.ask is Ask.DONE
-    assert [line for line in operator.screen.page if line][-1] == "M2"
-    operator.answer()
-    assert operator.tube.isHidden()
-    check_modern_views(qtbot, operator.wiring)
+    in_window.answer("2.5")
+    assert in_window.screen.prompt == "POCKET TOOL OVERLAP, MM [2.5]?"
+    in_window.answer()
+    in_window.until(Ask.PLAY)
+    for _ in range(len(in_window.session.playing._stills) - 1):
+        in_window.key(Qt.Key.Key_Right)
+    assert in_window.screen.head[0] == "140 The tool paths" and {301, 307, 142, 146, 148, 140, 401, 407} <= set(shown)
+    in_window.key(Qt.Key.Key_Space)
+    in_window.until(Ask.LIST)
+    in_window.key(Qt.Key.Key_Return)
+    assert in_window.session.ask is Ask.DONE
+    assert [line for line in in_window.screen.page if line][-1] == "M2"
+    in_window.answer()
+    assert in_window.tube.isHidden()
+    check_modern_views(qtbot, in_window.wiring)
 
 
 def check_modern_views(qtbot, wiring) -> None:
@@ -76,7 +76,7 @@ def test_the_shape_is_drawn_in_words_and_by_the_cross_hair(qtbot, operator) -> N
     operator.until(Ask.CONTOUR)
     circle = operator.session.shape.job.part.entities[-1].curve
     assert (circle.centre, circle.radius) == ((47.5, 41.5), 12.0)
-    assert not operator.wiring.document.part.entities
+    assert not operator.document.part.entities
 
 
 def test_a_click_puts_the_point_under_the_mouse(qtbot, operator) -> None:
@@ -208,25 +208,25 @@ def test_space_holds_and_arrows_step(qtbot, operator) -> None:
     assert operator.session.playing.at == at + 1
 
 
-def test_escape_leaves_at_any_time_and_the_session_goes_on_where_it_was(operator) -> None:
-    document, window = operator.wiring.document, operator.wiring.window_
+def test_escape_leaves_at_any_time_and_the_session_goes_on_where_it_was(in_window) -> None:
+    document, window = in_window.wiring.document, in_window.wiring.window_
     revision = document.revision
-    operator.to_pocket()
-    operator.bot.keyClicks(operator.tube, "2.2")
-    operator.key(Qt.Key.Key_Escape)
-    assert operator.tube.isHidden() and document.revision == revision
+    in_window.to_pocket()
+    in_window.bot.keyClicks(in_window.tube, "2.2")
+    in_window.key(Qt.Key.Key_Escape)
+    assert in_window.tube.isHidden() and document.revision == revision
     assert window.focusWidget() is window.canvas
     window.actions_["session_1986"].trigger()
-    assert operator.tube.isVisible() and (operator.session.ask, operator.screen.typed) == (Ask.POCKET, "2.2")
-    operator.answer()
-    operator.answer()
-    operator.key(Qt.Key.Key_Escape)
-    assert not operator.session.worker.busy and operator.session.ask is Ask.OVERLAP
+    assert in_window.tube.isVisible() and (in_window.session.ask, in_window.screen.typed) == (Ask.POCKET, "2.2")
+    in_window.answer()
+    in_window.answer()
+    in_window.key(Qt.Key.Key_Escape)
+    assert not in_window.session.worker.busy and in_window.session.ask is Ask.OVERLAP
     window.actions_["session_1986"].trigger()
-    operator.answer()
-    operator.until(Ask.PLAY)
-    operator.key(Qt.Key.Key_Escape)
-    assert operator.session.playing.held
+    in_window.answer()
+    in_window.until(Ask.PLAY)
+    in_window.key(Qt.Key.Key_Escape)
+    assert in_window.session.playing.held
 
 
 def test_a_long_listing_ends_soon_and_can_be_read_again(operator) -> None:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from tests.ui.conftest import WAIT_MS
 
 

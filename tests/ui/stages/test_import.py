@@ -11,12 +11,12 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
 from app.raster.codes import PixelCode
-from app.raster.picture import Shows
+from app.raster.picture_options import Shows
 from app.ui.framework.computation import State
 from app.ui.framework.figures import TIMES
 from app.ui.framework.theme import LIGHT
+from app.ui.framework.view import View
 from app.ui.framework.worker import Answer
-from app.ui.shell.views import View
 from app.ui.views.stages.import_panel import By, See
 from app.ui.views.stages.inks import inks
 from app.ui.views.stages.pixel_paint import pixel_at

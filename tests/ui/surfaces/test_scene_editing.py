@@ -12,7 +12,7 @@ from app.core.resources import resource
 from app.formats.scene.toml import read_scene
 from app.model.finding import Finding, FindingKind
 from app.ui.framework.verdict import Level
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.surfaces.ask_fields import VectorField
 from app.ui.views.surfaces.scene_document import SceneDocument
 from app.ui.views.surfaces.scene_work import SceneState

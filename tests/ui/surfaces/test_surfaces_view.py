@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
 from app.core.resources import resource
-from app.ui.shell.views import View
+from app.ui.framework.view import View
 from app.ui.views.surfaces.scene_raster import ColourBy, Layer
 from app.ui.views.surfaces.scene_work import SceneState
 from app.ui.views.surfaces.shown_scene import is_scene
