@@ -14,7 +14,7 @@ from ..model.job import Job
 from ..model.moves import Program
 from ..model.stock_box import stock_box, work_origin
 from ..verify.engaged_angle import CutterPath, EngagementProof, prove_engagement
-from .written import Written
+from .written import WrittenProgram
 
 METHOD = (
     "bounds on every motion as read back: no more of the rim than reaches beyond the ground that was cleared before, "
@@ -72,7 +72,9 @@ class OperationProof:
         return found
 
 
-def engagement_proofs(program: Program, job: Job, written: Written, progress: Progress) -> dict[int, OperationProof]:
+def engagement_proofs(
+    program: Program, job: Job, written: WrittenProgram, progress: Progress
+) -> dict[int, OperationProof]:
     """Return what is proven, by index of the operation, of those that have a limit and make moves.
 
     Raises:
