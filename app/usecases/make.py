@@ -42,8 +42,8 @@ from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
 from .plausible import read_for
-from .proposal.into_job import with_proposal
 from .proposal.propose import Proposal
+from .proposed_job import with_proposal
 from .report import Measured, Report, make_report, rings_in_words
 from .written import write_and_check
 

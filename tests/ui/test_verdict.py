@@ -23,6 +23,13 @@ def test_clean_program_shows_its_figures():
     assert verdict((CORNER,), CLEAN).level is Level.OK
 
 
+def test_places_out_of_reach_are_counted():
+    left = {"reachable_mm2": 0.0, "out_of_reach_places": 15}
+    assert figures({"left": left}) == "0 left · 15 places out of reach"
+    assert figures({"left": {**left, "out_of_reach_places": 1}}) == "0 left · 1 place out of reach"
+    assert figures({"left": {**left, "out_of_reach_places": 0}}) == "0 left"
+
+
 def test_what_was_not_measured_is_not_said():
     assert figures({"strokes": 1}) == "1 stroke"
 

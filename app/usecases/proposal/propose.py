@@ -239,7 +239,7 @@ class _Work:
         for size, circles in self.found.holes:
             drill = self.rack.drill(size)
             if drill is not None:
-                curves = selectors_for(circles, self.seen)
+                curves = selectors_for(circles, self.seen, as_circles=True)
                 cut = Cut(self.rack.take(drill).number, self.thickness, curves=curves)
                 why = f"{_counted(len(circles), 'hole')} of {size:g} mm, through, with a drill of that size"
                 made.append(Proposed(DrillOperation(cut), why))
@@ -260,7 +260,7 @@ class _Work:
                 f"{self._named(tool)} mills {'them' if len(circles) > 1 else 'it'}"
                 + (f", with {tabs.count} tabs to hold what falls out" if loose else "")
             )
-            cut = self._cut(tool, self.thickness, self._curves(circles))
+            cut = self._cut(tool, self.thickness, selectors_for(circles, self.seen, as_circles=True))
             made.append(Proposed(ContourOperation(cut, Side.INSIDE, tabs=tabs), why))
         return made
 

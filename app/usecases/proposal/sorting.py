@@ -110,7 +110,7 @@ def _engraved(drawn: Drawn) -> frozenset[str]:
     """Return the layers of which all is engraved: words that are drawn as curves, whose O bounds no area."""
     open_, closed = (Counter(each.layer for each in some) for some in (drawn.open, drawn.closed))
     parts = {each.layer for each in drawn.closed if id(each) not in drawn.inner}
-    return frozenset(name for name, count in open_.items() if count >= max(closed[name], 1) and name not in parts)
+    return frozenset(name for name, count in open_.items() if count >= closed[name] > 0 and name not in parts)
 
 
 def _sort(contour: Contour, depth: int, holds: bool) -> Sort:
@@ -174,7 +174,9 @@ def _about_gap(line: Contour) -> Finding:
     return Finding(FindingKind.OPEN_CONTOUR, text, x, y, True, line.entity_ids, _gap(line))
 
 
-def selectors_for(wanted: Sequence[Contour], drawn: Drawn, made: Sequence[Contour] = ()) -> tuple[Selector, ...]:
+def selectors_for(
+    wanted: Sequence[Contour], drawn: Drawn, made: Sequence[Contour] = (), as_circles: bool = False
+) -> tuple[Selector, ...]:
     """Return the plainest selectors that select some contours and no others: by where they lie, by their diameter, by
     their layers, else by number.
 
@@ -183,10 +185,11 @@ def selectors_for(wanted: Sequence[Contour], drawn: Drawn, made: Sequence[Contou
         drawn: what they are of.
         made: circles that drills make, which are no walls to others, so that it does not matter whether these are
             selected too.
+        as_circles: they are wanted as circles, wherever they lie.
     """
     mine, free = {id(each) for each in wanted}, {id(each) for each in made}
     sizes = [2 * circle.radius for each in wanted if each.closed and (circle := as_circle(each)) is not None]
-    ways: list[tuple[Selector, ...]] = [(kind,) for kind in ContourKind]
+    ways: list[tuple[Selector, ...]] = [] if as_circles else [(kind,) for kind in ContourKind]
     if sizes and max(sizes) - min(sizes) <= SAME_DIAMETER:
         ways.append((CirclesOf(round(sizes[0], 4), round(sizes[0], 4)),))
     ways.append(tuple(OnLayer(name) for name in dict.fromkeys(each.layer for each in wanted)))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...core.errors import InputError
-from ...core.progress import NO_PROGRESS, Progress
-from ...model.part import Part
-from ..machining import Machining
-from ..options import MakeOptions, job_with_options
-from .propose import Proposal, propose
+from ..core.errors import InputError
+from ..core.progress import NO_PROGRESS, Progress
+from ..model.part import Part
+from .machining import Machining
+from .options import MakeOptions, job_with_options
+from .proposal.propose import Proposal, propose
 
 
 def with_proposal(
