@@ -98,6 +98,18 @@ def test_the_window_opens_without_heavy_libraries() -> None:
     assert not modules_after("import app.ui.shell.main_window") & (COMPILER | {"ezdxf", "trimesh", "scipy"})
 
 
+def test_the_window_opens_without_the_exhibits() -> None:
+    """The session of 1986 and the films of the stages are loaded when they are asked for."""
+    code = "import app.ui.shell.start, sys; print(*sorted(sys.modules))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60
+    )
+    loaded = set(done.stdout.split())
+    assert "app.ui.views.session1986.opening" in loaded
+    assert not loaded & {f"app.ui.views.session1986.{name}" for name in ("session", "tube", "making", "stills")}
+    assert "app.exhibits.stages" not in loaded
+
+
 def test_kernel_modules_know_no_window() -> None:
     code = (
         "import app.core.jit.warm, importlib\nfor name in app.core.jit.warm.kernel_modules(): "
