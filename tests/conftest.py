@@ -1,6 +1,7 @@
 """What all tests share: no screen, folders of their own, and where the data is."""
 
 import itertools
+import math
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from app.cli import files
 from tests.examples import PROFILE, examples
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -38,6 +40,18 @@ def own_settings(config_folders: Iterator[Path], monkeypatch: pytest.MonkeyPatch
     folder = next(config_folders)
     folder.mkdir()
     monkeypatch.setenv("HITOFUDE_CONFIG", str(folder))
+
+
+@pytest.fixture
+def lines_by_the_clock() -> None:
+    """A command called in this process tells how far it is every few seconds."""
+
+
+@pytest.fixture(autouse=True)
+def no_lines_by_the_clock(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A busy machine adds no line to what a command says here, unless a test is about such lines."""
+    if "lines_by_the_clock" not in request.fixturenames:
+        monkeypatch.setattr(files, "EVERY", math.inf)
 
 
 @pytest.fixture

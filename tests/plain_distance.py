@@ -1,54 +1,143 @@
-"""An independent oracle: distance from points to contours in plain float64 numpy, every point against every curve."""
+"""An independent oracle: distance from points to contours in plain float64 numpy, every point against every curve that
+can be its nearest.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour
 
+BLOCK = 64
+"""Points that lie together and are looked at together."""
+
+
+@dataclass(frozen=True)
+class _Curves:
+    """Lines and arcs as columns.
+
+    Attributes:
+        a, b: (m, 2) ends of the lines.
+        centres, radii: (n, 2), (n,) of the arcs. first, last: (n, 2) their ends, counter-clockwise; begins, sweeps:
+            (n,) angles, a turn for a circle.
+    """
+
+    a: np.ndarray
+    b: np.ndarray
+    centres: np.ndarray
+    radii: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+    begins: np.ndarray
+    sweeps: np.ndarray
+
+    @staticmethod
+    def of(contours: Iterable[Contour]) -> _Curves:
+        curves = [curve for contour in contours for curve in contour.primitives]
+        lines = np.array([(c.start, c.end) for c in curves if isinstance(c, Line)]).reshape(-1, 2, 2)
+        arcs = [c for c in curves if not isinstance(c, Line)]
+        ends = np.array([_ends(c) for c in arcs]).reshape(-1, 2, 2)
+        centres = np.array([c.centre for c in arcs]).reshape(-1, 2)
+        away = ends - centres[:, None]
+        angles = np.arctan2(away[:, :, 1], away[:, :, 0])
+        whole = np.array([isinstance(c, Circle) for c in arcs], bool)
+        sweeps = np.where(whole, math.tau, (angles[:, 1] - angles[:, 0]) % math.tau)
+        radii = np.array([c.radius for c in arcs])
+        return _Curves(lines[:, 0], lines[:, 1], centres, radii, ends[:, 0], ends[:, 1], angles[:, 0], sweeps)
+
+    def distances(self, points: np.ndarray) -> np.ndarray:
+        """Return the distance of each point (n, 2) from each curve, lines first."""
+        return np.concatenate([_to_lines(points, self), _to_arcs(points, self)], axis=1)
+
+    def some(self, chosen: np.ndarray) -> _Curves:
+        """Return those that are chosen, by whether, lines first."""
+        lines, arcs = chosen[: len(self.a)], chosen[len(self.a) :]
+        return _Curves(
+            self.a[lines],
+            self.b[lines],
+            self.centres[arcs],
+            self.radii[arcs],
+            self.first[arcs],
+            self.last[arcs],
+            self.begins[arcs],
+            self.sweeps[arcs],
+        )
+
+
+def _ends(arc: Arc | Circle) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ends of an arc, counter-clockwise."""
+    if isinstance(arc, Circle):
+        return (arc.centre[0] + arc.radius, arc.centre[1]), (arc.centre[0] + arc.radius, arc.centre[1])
+    return (arc.start, arc.end) if arc.ccw else (arc.end, arc.start)
+
 
 def distance(points: np.ndarray, contours: Iterable[Contour]) -> np.ndarray:
-    """Distance of points (n, 2) from the nearest curve."""
-    best = np.full(len(points), np.inf)
-    for contour in contours:
-        for curve in contour.primitives:
-            best = np.minimum(best, _to_line(points, curve) if isinstance(curve, Line) else _to_arc(points, curve))
+    """Distance of points (n, 2) from the nearest curve.
+
+    A curve that is farther from the middle of some points than another one by more than twice what they are from it
+    is the nearest of none of them.
+    """
+    curves, best = _Curves.of(contours), np.full(len(points), np.inf)
+    blocks = list(_blocks(points))
+    if not len(curves.a) + len(curves.radii) or not blocks:
+        return best
+    middles = np.array([points[block].mean(axis=0) for block in blocks])
+    spans = np.array([_length(points[block] - middle).max() for block, middle in zip(blocks, middles, strict=True)])
+    from_middles = curves.distances(middles)
+    near = from_middles <= from_middles.min(axis=1, keepdims=True) + 2 * spans[:, None] + 1e-6
+    for block, chosen in zip(blocks, near, strict=True):
+        best[block] = curves.some(chosen).distances(points[block]).min(axis=1)
     return best
 
 
-def _to_line(points: np.ndarray, line: Line) -> np.ndarray:
-    a, b = np.array(line.start), np.array(line.end)
-    t = np.clip(((points - a) @ (b - a)) / ((b - a) @ (b - a)), 0, 1)
-    return np.linalg.norm(points - a - t[:, None] * (b - a), axis=1)
+def _blocks(points: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield indices of points that lie together: strips along X, each cut along Y."""
+    strip = max(BLOCK, math.isqrt(len(points) * BLOCK))
+    order = np.argsort(points[:, 0], kind="stable")
+    for first in range(0, len(order), strip):
+        along = order[first : first + strip]
+        along = along[np.argsort(points[along, 1], kind="stable")]
+        yield from (along[k : k + BLOCK] for k in range(0, len(along), BLOCK))
 
 
-def _to_arc(points: np.ndarray, arc: Arc | Circle) -> np.ndarray:
-    away = points - np.array(arc.centre)
-    ring = np.abs(np.linalg.norm(away, axis=1) - arc.radius)
-    if isinstance(arc, Circle):
-        return ring
-    first, last = (arc.start, arc.end) if arc.ccw else (arc.end, arc.start)
-    angle = [math.atan2(p[1] - arc.centre[1], p[0] - arc.centre[0]) for p in (first, last)]
-    within = (np.arctan2(away[:, 1], away[:, 0]) - angle[0]) % math.tau <= (angle[1] - angle[0]) % math.tau
-    ends = np.minimum(*(np.linalg.norm(points - np.array(p), axis=1) for p in (first, last)))
+def _length(vectors: np.ndarray) -> np.ndarray:
+    return np.hypot(vectors[..., 0], vectors[..., 1])
+
+
+def _to_lines(points: np.ndarray, curves: _Curves) -> np.ndarray:
+    way, away = curves.b - curves.a, points[:, None] - curves.a
+    t = np.clip((away * way).sum(axis=2) / (way * way).sum(axis=1), 0, 1)
+    return _length(away - t[:, :, None] * way)
+
+
+def _to_arcs(points: np.ndarray, curves: _Curves) -> np.ndarray:
+    away = points[:, None] - curves.centres
+    ring = np.abs(_length(away) - curves.radii)
+    within = (np.arctan2(away[:, :, 1], away[:, :, 0]) - curves.begins) % math.tau <= curves.sweeps
+    ends = np.minimum(*(_length(points[:, None] - end) for end in (curves.first, curves.last)))
     return np.where(within, ring, ends)
 
 
 def inside(points: np.ndarray, contours: Iterable[Contour]) -> np.ndarray:
     """Even-odd inside by winding angle of finely sampled contours; wrong only within 0.01 mm of a curve."""
-    odd = np.zeros(len(points), bool)
+    order = np.argsort(points[:, 1], kind="stable")
+    x, y, odd = points[order, 0], points[order, 1], np.zeros(len(points), bool)
     for contour in contours:
         polygon = np.concatenate([_sampled(curve) for curve in contour.primitives])
         a, b = polygon, np.roll(polygon, -1, axis=0)
-        for (ax, ay), (bx, by) in zip(a, b, strict=True):
-            if ay != by:
-                hit = (ay <= points[:, 1]) != (by <= points[:, 1])
-                odd ^= hit & (ax + (points[:, 1] - ay) / (by - ay) * (bx - ax) < points[:, 0])
-    return odd
+        # of the points in order of Y those that are as high as an edge: not below its lower end, and below its upper
+        first, last = np.searchsorted(y, [np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])])
+        for (ax, ay), (bx, by), i, j in zip(a, b, first.tolist(), last.tolist(), strict=True):
+            if i < j:
+                odd[i:j] ^= ax + (y[i:j] - ay) / (by - ay) * (bx - ax) < x[i:j]
+    result = np.empty(len(points), bool)
+    result[order] = odd
+    return result
 
 
 def _sampled(curve: Line | Arc | Circle) -> np.ndarray:

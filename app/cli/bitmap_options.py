@@ -7,9 +7,9 @@ from typing import Any
 
 from ..core.errors import InputError
 from ..raster.frame import POINTS
-from ..raster.picture import PictureOptions, Shows
+from ..raster.picture_options import PictureOptions, Shows
 from ..usecases.bitmap_options import BitmapOptions, BitmapSize, is_picture
-from .parser import number
+from .values import number
 
 
 def add_bitmap_options(group: argparse._ArgumentGroup, bitmap_help: str) -> None:

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import Any
 
 from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
@@ -16,13 +15,15 @@ from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_units
 from ..formats.readers import offered_suffixes
 from ..formats.tools.holders import outline_of
 from ..model.operation import LEAST_LENGTH
-from ..model.tool import HolderPoint, Tool, ToolKind
+from ..model.tool import HolderPoint, Tool
+from ..model.tool_kind import ToolKind, tool_kinds
 from ..usecases.cut import CELLS, Engine
 from ..usecases.examine import CONTROLS
 from ..usecases.setup_stock import FINEST, box_stock
 from ..usecases.setup_tools import Held
-from .parser import OptionParser, join_tolerance, number, typed, with_equals
+from .command import OptionParser
 from .reading_options import NAMES, add_reading_options
+from .values import join_tolerance, number, typed
 
 EPILOG = """\
 Tools that are not given with --tool are looked for in the job file, in the tool table, in the program's comments; the
@@ -34,7 +35,6 @@ clean; 1: with findings (gouge, metal left within reach, rapid, shank or holder 
 2: something cannot be used; 130: cancelled.
 """
 
-SHAPES = "flat:D, ball:D, bull:D:CORNER, v:D:ANGLE, drill:D or drill:D:ANGLE, taper:TIP:ANGLE:D"
 HELD = "NUMBER=HOLDER:STICKOUT"
 Corners = list[float]
 """x0, y0, z0, x1, y1, z1, mm."""
@@ -44,25 +44,18 @@ ENGINE_HELP = (
     "by facets in the depth buffer, the method of 1999; where the graphics system fails, cpu (default auto: gpu on "
     "graphics hardware, else cpu)"
 )
-_COUNT = {
-    ToolKind.FLAT: (1,),
-    ToolKind.BALL: (1,),
-    ToolKind.BULL: (2,),
-    ToolKind.V: (2,),
-    ToolKind.DRILL: (1, 2),
-    ToolKind.TAPER: (3,),
-}
 
 
-class CutParser(OptionParser):
-    """Takes several programs, so what it does not know is always an option."""
-
-    def error(self, message: str) -> NoReturn:
-        """Raise the error instead of printing the usage."""
-        unknown = re.match(r"unrecognized arguments: (.*)$", message)
-        if unknown is not None:
-            raise InputError(f"{unknown[1]} is no option of cut; take it away; see {self.prog} --help")
-        super().error(message)
+def _shapes() -> str:
+    """Return how a tool of each kind is told."""
+    ways = {
+        kind: " or ".join(
+            ":".join(kind.spelled().split(":")[: len(kind.given) + 1 - fewer])
+            for fewer in range(kind.omissible, -1, -1)
+        )
+        for kind in tool_kinds()
+    }
+    return ", ".join(ways.values())
 
 
 def tool_given(text: str) -> tuple[int, Tool]:
@@ -72,12 +65,12 @@ def tool_given(text: str) -> tuple[int, Tool]:
         InputError: it is not of that form, or its numbers make no tool.
     """
     match = re.fullmatch(r"\s*(\d{1,4})\s*=\s*([a-z]+)\s*:(.*)", text, re.IGNORECASE)
-    kind = next((kind for kind in ToolKind if match and kind.value == match[2].lower()), None)
+    kind = ToolKind.words().get(match[2].lower()) if match else None
     if match is None or kind is None:
-        raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {SHAPES}")
+        raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {_shapes()}")
     values = match[3].split(":")
-    if len(values) not in _COUNT[kind]:
-        raise InputError(f"'{text}' has {_counted(values)} behind {kind.value}; write one of {SHAPES}")
+    if not len(kind.given) - kind.omissible <= len(values) <= len(kind.given):
+        raise InputError(f"'{text}' has {_counted(values)} behind {kind.value}; write one of {_shapes()}")
     try:
         return int(match[1]), _shaped(max(int(match[1]), 1), kind, values)
     except CommandError as error:
@@ -87,16 +80,11 @@ def tool_given(text: str) -> tuple[int, Tool]:
 
 
 def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
-    if kind is ToolKind.TAPER:
-        return Tool(
-            tool, length(values[2]), kind, tip_diameter=length(values[0]), tip_angle=math.radians(angle(values[1]))
-        )
-    diameter = length(values[0])
-    if kind is ToolKind.BULL:
-        return Tool(tool, diameter, kind, corner_radius=length(values[1]))
-    if kind in (ToolKind.V, ToolKind.DRILL):
-        return Tool(tool, diameter, kind, tip_angle=math.radians(angle(values[1])) if len(values) > 1 else 0.0)
-    return Tool(tool, diameter, kind)
+    told: dict[str, Any] = {
+        key: math.radians(angle(value)) if key == "tip_angle" else length(value)
+        for key, value in zip(kind.given, values, strict=False)
+    }
+    return Tool(tool, told.pop("diameter"), kind, **told)
 
 
 def holder_given(text: str) -> tuple[int, Held]:
@@ -186,13 +174,8 @@ def _cells(text: str) -> int:
     return int(text)
 
 
-def cut_parser() -> CutParser:
-    """Return the parser of `hitofude cut`."""
-    about = (
-        "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to "
-        "the part."
-    )
-    parser = CutParser("cut", ("program", "the NC program"), about, EPILOG)
+def add_cut_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude cut`."""
     parser.add_argument(
         "programs",
         metavar="PROGRAM.ngc",
@@ -204,7 +187,6 @@ def cut_parser() -> CutParser:
     _look_options(parser.add_argument_group("how to look"))
     _part_options(parser.add_argument_group("the part that it is compared with"))
     _file_options(parser.add_argument_group("files"))
-    return parser
 
 
 def _program_options(group: argparse._ArgumentGroup) -> None:
@@ -220,7 +202,8 @@ def _program_options(group: argparse._ArgumentGroup) -> None:
         type=typed(tool_given),
         action="append",
         default=[],
-        help=f"a tool by its T number (0: that of a program that names none): {SHAPES}; full angles in degrees; repeat",
+        help=f"a tool by its T number (0: that of a program that names none): {_shapes()}; full angles in degrees; "
+        "repeat",
     )
     group.add_argument(
         "--holder",
@@ -309,20 +292,18 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
-def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
-    """Return the arguments of `cut`, each value read and in its range.
+def check_cut_arguments(arguments: argparse.Namespace) -> None:
+    """Refuse arguments of `cut` that do not go with one another.
 
     Raises:
-        InputError: one line that names the option, its value and what it must be.
+        InputError: one line that names them.
     """
-    arguments = cut_parser().parse_intermixed_args(with_equals(argv))
     for option in ("tool", "holder"):
         numbers = [given for given, _ in getattr(arguments, option)]
         twice = next((given for given in numbers if numbers.count(given) > 1), None)
         if twice is not None:
             raise InputError(f"--{option} {twice}=…: {option} {twice} is given twice; give each number once")
     _ensure_part(arguments)
-    return arguments
 
 
 def _ensure_part(arguments: argparse.Namespace) -> None:

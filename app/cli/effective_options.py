@@ -10,7 +10,8 @@ from ..core.errors import InputError
 from ..fitting.point_curves.correction import CorrectionOptions, Move, Select
 from ..fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from ..fitting.point_curves.effective_points import EffectiveOptions, Ends
-from .parser import OptionParser, number
+from .command import OptionParser
+from .values import number
 
 Kind = TypeVar("Kind")
 

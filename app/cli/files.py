@@ -80,9 +80,10 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
     """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY
     seconds.
 
-    A line comes as often where the job tells nothing, from a compiled loop for instance.
+    A line comes as often where the job tells nothing, from a compiled loop for instance; none while the command waits
+    for what it has to say itself.
     """
-    shown = _Shown(on_terminal())
+    shown = _ProgressLine(on_terminal(), stopped)
 
     def told(fraction: float, text: str) -> None:
         stopped.stage = text or stopped.stage
@@ -93,11 +94,11 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
     return Progress(told, stopped)
 
 
-class _Shown:
+class _ProgressLine:
     """How far a job is, as its user is told."""
 
-    def __init__(self, alone: bool) -> None:
-        self._alone = alone
+    def __init__(self, alone: bool, stopped: Stopping) -> None:
+        self._alone, self._stopped = alone, stopped
         self._fraction, self._text, self._at = 0.0, "", 0.0 if alone else time.monotonic()
 
     def told(self, fraction: float, text: str) -> None:
@@ -112,7 +113,8 @@ class _Shown:
             self._show()
 
     def _is_time(self) -> bool:
-        return time.monotonic() - self._at > (0.1 if self._alone else EVERY)
+        quiet_since = self._at if self._alone else max(self._at, self._stopped.waited)
+        return time.monotonic() - quiet_since > (0.1 if self._alone else EVERY)
 
     def _show(self) -> None:
         self._at = time.monotonic()

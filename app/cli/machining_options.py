@@ -12,7 +12,7 @@ from ..model.job import Copies
 from ..model.operation import parameters
 from ..usecases.machining import Machining, option_of
 from .parameter_options import add_parameter_options, asked_values
-from .parser import number
+from .values import number
 
 
 def add_machining_options(group: argparse._ArgumentGroup, holding: argparse._ArgumentGroup) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
 from ..core.errors import InputError
@@ -13,8 +12,10 @@ from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
-from .parser import MACHINE_HELP, OptionParser, join_tolerance, machine_named, number, typed, with_equals
+from ..usecases.proposal.propose import Proposing
+from .command import OptionParser
 from .reading_options import add_reading_options, reading
+from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
 
 EPILOG = """\
 D is a diameter: 6, 6mm, 0.25in, 1/4in. Lengths are mm unless a unit is written. With one tool given it does both jobs;
@@ -41,18 +42,11 @@ def stepover(text: str) -> Stepover:
     return asked
 
 
-def make_parser() -> OptionParser:
-    """Return the parser of `hitofude make`."""
+def add_make_options(parser: OptionParser) -> None:
+    """Add the options of `hitofude make`."""
     from .bitmap_options import add_bitmap_options
     from .machining_options import add_machining_options
 
-    parser = OptionParser(
-        "make",
-        ("drawing", "the drawing and the NC program to write"),
-        "Turn a drawing or a picture into tool paths for pockets, rests, contours and holes, and write them as an NC "
-        "program, read back and proven the same.",
-        EPILOG,
-    )
     parser.add_argument(
         "drawing",
         metavar="DRAWING",
@@ -60,6 +54,7 @@ def make_parser() -> OptionParser:
         help=f"the drawing or project, {' '.join(offered_suffixes())}, or a picture, .png .jpg .bmp",
     )
     _file_options(parser.add_argument_group("files"))
+    _proposal_options(parser.add_argument_group("proposed operations"))
     _tool_options(parser.add_argument_group("tools and cutting"))
     add_machining_options(
         parser.add_argument_group("how it is cut"), parser.add_argument_group("copies, tabs and clamps")
@@ -69,7 +64,6 @@ def make_parser() -> OptionParser:
         parser.add_argument_group("bitmap and picture"),
         "compute on N x N pixels, as in 1986, instead of exactly; a picture is always",
     )
-    return parser
 
 
 def _file_options(group: argparse._ArgumentGroup) -> None:
@@ -103,17 +97,43 @@ def _file_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
+def _proposal_options(group: argparse._ArgumentGroup) -> None:
+    group.add_argument(
+        "--propose",
+        action="store_true",
+        help="operations from how the curves lie in one another: outlines are cut out, with tabs, what lies in them is "
+        "a pocket, circles are holes, open lines are engraved; --depth is that of the pockets",
+    )
+    group.add_argument(
+        "--tools",
+        metavar="FILE",
+        type=Path,
+        help="tools to choose from, .toml, .csv or .tbl (default: those of the job, else the mills and drills that "
+        "come with the program)",
+    )
+    group.add_argument(
+        "--thickness",
+        metavar="MM",
+        type=number("thickness", least=LEAST_LENGTH),
+        help="of the stock, through which outlines and holes go (default: the job's, else 10)",
+    )
+    group.add_argument(
+        "--write-job", metavar="J.toml", type=Path, help="the job as a job file: its tools, operations and their curves"
+    )
+
+
 def _tool_options(group: argparse._ArgumentGroup) -> None:
+    diameter = number("diameter", least=LEAST_DIAMETER)
     group.add_argument(
         "--contour-tool",
         metavar="D",
-        type=number("diameter", least=LEAST_DIAMETER),
+        type=diameter,
         help="diameter of the tool that follows the walls",
     )
     group.add_argument(
         "--pocket-tool",
         metavar="D",
-        type=number("diameter", least=LEAST_DIAMETER),
+        type=diameter,
         help="diameter of the tool that clears the area",
     )
     group.add_argument(
@@ -186,25 +206,22 @@ def _drawing_options(group: argparse._ArgumentGroup) -> None:
     )
 
 
-def read_arguments(argv: Sequence[str]) -> argparse.Namespace:
-    """Return the arguments of `make`, each value read and in its range.
-
-    Raises:
-        InputError: one line that names the option, its value and what it must be.
-    """
-    return make_parser().parse_args(with_equals(argv))
-
-
 def make_options(arguments: argparse.Namespace) -> MakeOptions:
     """Return what was asked for, but for the job file, which is yet to be read.
 
     Raises:
-        HitofudeError: options of the bitmap that go neither with one another nor with the drawing.
+        HitofudeError: options of the bitmap that go neither with one another nor with the drawing, or an option without
+            the one that it belongs to.
     """
     from .bitmap_options import asked_bitmap
     from .machining_options import machining
 
     bitmap = asked_bitmap(arguments)
+    if not arguments.propose and (arguments.tools is not None or arguments.thickness is not None):
+        option = "tools" if arguments.tools is not None else "thickness"
+        raise InputError(f"--{option} has no effect without --propose; add that, or leave it away")
+    if arguments.propose and bitmap is not None:
+        raise InputError("--propose has no effect on pixels, where all is pockets; leave it away, or --bitmap")
     origin_xy, origin_z = arguments.origin or (None, None)
     return MakeOptions(
         contour_diameter=arguments.contour_tool,
@@ -228,4 +245,5 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         bitmap=bitmap,
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
+        propose=Proposing(thickness=arguments.thickness) if arguments.propose else None,
     )

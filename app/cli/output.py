@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Self
 
@@ -40,19 +39,6 @@ def show(text: str) -> None:
     if on_terminal():
         with suppress(OSError, ValueError):
             print(text, end="", file=sys.stderr, flush=True)
-
-
-def helped(argv: Sequence[str], parser: Callable[[], ArgumentParser]) -> bool:
-    """Print a command's help when its arguments ask for it; return whether they do.
-
-    Args:
-        argv: the arguments behind the command.
-        parser: makes the command's parser.
-    """
-    if not any(argument in ("-h", "--help") for argument in argv):
-        return False
-    tell(parser().format_help().rstrip())
-    return True
 
 
 def tell(text: str) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 from ..core.errors import HitofudeError
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
+from ..model.curve_selectors import HELP, Selector, read_selector
 from ..model.fields import Parameter, Placed, Unit
 from ..model.operation import parameters
 
@@ -28,6 +29,15 @@ def _add(group: argparse._ArgumentGroup, key: str, placed: Placed) -> None:
     declared, option = placed.parameter, f"--{placed.parameter.option}"
     if declared.unit is Unit.FLAG:
         group.add_argument(option, dest=key, action="store_true", default=None, help=declared.help.replace("%", "%%"))
+    elif declared.unit is Unit.CURVES:
+        group.add_argument(
+            option,
+            dest=key,
+            metavar="WHICH",
+            type=_selector,
+            action="append",
+            help=f"{declared.help}: {HELP.replace('%', '%%')}; may be repeated",
+        )
     elif placed.enum is not None:
         group.add_argument(
             option,
@@ -62,7 +72,7 @@ def asked_values(arguments: argparse.Namespace) -> dict[str, Any]:
         if placed.parameter.option
     }
     return {
-        key: placed.enum(value) if placed.enum is not None else value
+        key: placed.enum(value) if placed.enum is not None else tuple(value) if isinstance(value, list) else value
         for key, (placed, value) in given.items()
         if value is not None
     }
@@ -83,6 +93,13 @@ def reader_of(declared: Parameter) -> Callable[[str], Any]:
         return value
 
     return read
+
+
+def _selector(text: str) -> Selector:
+    try:
+        return read_selector(text)
+    except HitofudeError as error:
+        raise argparse.ArgumentTypeError(f"is wrong: {error}") from error
 
 
 def _length(text: str, declared: Parameter) -> float:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from ..model.read_options import ReadOptions
-from .parser import number
+from ..model.read_options import DrawingOptions
+from .values import number
 
 NAMES = ("skip_layer", "skip_type", "layout", "to_zero", "px_per_inch")
 """Where argparse keeps them."""
@@ -43,13 +43,13 @@ def add_reading_options(group: argparse._ArgumentGroup | argparse.ArgumentParser
     )
 
 
-def reading(arguments: argparse.Namespace) -> ReadOptions:
+def reading(arguments: argparse.Namespace) -> DrawingOptions:
     """Return what was asked for.
 
     Raises:
         ParameterError: a value is out of its range.
     """
-    return ReadOptions(
+    return DrawingOptions(
         layout=arguments.layout or "",
         to_zero=arguments.to_zero,
         pixels_per_inch=arguments.px_per_inch,

@@ -43,10 +43,12 @@ class Stopping(threading.Event):
         stage: what the command has told last of what it does; "" = nothing yet.
         number: the signal that asked for it.
         tick: is called about once a second, on the thread that listens beside the job.
+        waited: when the command was told last that it waits, s, `time.monotonic`; 0 = never.
     """
 
     stage, number = "", int(signal.SIGINT)
     tick: Callable[[], None] | None = None
+    waited = 0.0
 
 
 GRACE_S = 1.0

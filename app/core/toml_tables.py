@@ -17,6 +17,23 @@ from typing import Any, TypeVar
 from .errors import HitofudeError, InputError
 
 Kind = TypeVar("Kind")
+
+
+class Worded:
+    """A thing that stands as a word in a file, one of some that may grow: unlike an Enum, others can be added.
+
+    Attributes:
+        value: the word.
+    """
+
+    value: str
+
+    @classmethod
+    def words(cls) -> Mapping[str, Any]:
+        """Return all of them by their words."""
+        raise NotImplementedError
+
+
 Range = tuple[float, float]
 
 _LONGEST, QUOTED = 200, 60
@@ -213,10 +230,10 @@ def _value(kind: Any, value: Any, at: tuple[_Place, str], ranges: Mapping[str, R
     place, key = at
     if isinstance(kind, types.UnionType):
         return _value(_meant(kind, value, at), value, at, ranges)
-    if is_dataclass(kind) and isinstance(value, dict):
+    if _is_table(kind) and isinstance(value, dict):
         return _table(kind, value, place.inside(key), ranges)
-    if isinstance(kind, type) and issubclass(kind, Enum) and value in [choice.value for choice in kind]:
-        return kind(value)
+    if isinstance(value, str) and value in (words := _words(kind)):
+        return words[value]
     if typing.get_origin(kind) is tuple and isinstance(value, list) and _alike(typing.get_args(kind), value):
         whole = typing.get_args(kind) == (int, ...)
         return tuple(item if whole or isinstance(item, str) else float(_in_range(item, at, ranges)) for item in value)
@@ -252,15 +269,13 @@ def _either(words: typing.Iterable[str]) -> str:
 def _repeated(kind: Any) -> Any:
     """Return what a tuple of any number of tables or of tuples holds; None for other types."""
     parts = typing.get_args(kind) if typing.get_origin(kind) is tuple else ()
-    return (
-        parts[0] if parts[1:] == (...,) and (is_dataclass(parts[0]) or typing.get_origin(parts[0]) is tuple) else None
-    )
+    return parts[0] if parts[1:] == (...,) and (_is_table(parts[0]) or typing.get_origin(parts[0]) is tuple) else None
 
 
 def _item(kind: Any, value: Any, at: tuple[_Place, str], rest: tuple[int, Mapping[str, Range]]) -> Any:
     """Return one table or one tuple of a list of them, of which it is the number-th."""
     (place, key), (number, ranges) = at, rest
-    if is_dataclass(kind) and isinstance(value, dict):
+    if _is_table(kind) and isinstance(value, dict):
         return _table(kind, value, place.item(key, number), ranges)
     return _value(kind, value, at, ranges)
 
@@ -296,13 +311,26 @@ def _expected(kind: Any) -> str:
             if len(choices) == 1
             else f"a table with kind = {_either(part.kind for part in choices)}"
         )
-    if is_dataclass(kind):
+    if _is_table(kind):
         return f"a table with {', '.join(each.name for each in fields(kind))}"
-    if isinstance(kind, type) and issubclass(kind, Enum):
-        return " or ".join(repr(choice.value) for choice in kind)
+    if words := _words(kind):
+        return " or ".join(map(repr, words))
     if (part := _repeated(kind)) is not None:
         return f"a list, and in it {_expected(part)} each time"
     return EXPECTED.get(kind) or f"a list of {len(typing.get_args(kind))} numbers"
+
+
+def _is_table(thing: Any) -> bool:
+    """Tell whether a value, or all of a kind, stand as a table."""
+    kind = thing if isinstance(thing, type) else type(thing)
+    return is_dataclass(kind) and not issubclass(kind, Worded)
+
+
+def _words(kind: Any) -> Mapping[Any, Any]:
+    """Return what the words of an Enum, or of another kind of worded things, stand for; nothing of other kinds."""
+    if isinstance(kind, type) and issubclass(kind, Worded):
+        return kind.words()
+    return {choice.value: choice for choice in kind} if isinstance(kind, type) and issubclass(kind, Enum) else {}
 
 
 def write_tables(value: Any) -> str:
@@ -316,10 +344,10 @@ def _lines(value: Any, table: str) -> list[str]:
         plain.append(f"kind = {spelled(value.kind)}")
     for each in fields(value):
         item = getattr(value, each.name)
-        if is_dataclass(item):
+        if _is_table(item):
             path = f"{table}.{each.name}" if table else each.name
             tables += ["", f"[{path}]", *_lines(item, path)]
-        elif isinstance(item, tuple) and item and is_dataclass(item[0]):
+        elif isinstance(item, tuple) and item and _is_table(item[0]):
             path = f"{table}.{each.name}" if table else each.name
             tables += [line for one in item for line in ("", f"[[{path}]]", *_lines(one, path))]
         elif item is not None and not item == () == each.default:
@@ -329,7 +357,7 @@ def _lines(value: Any, table: str) -> list[str]:
 
 def spelled(item: Any) -> str:
     """Return a number, a flag, a text, an Enum by its value or a tuple of such as TOML spells it."""
-    if isinstance(item, Enum):
+    if isinstance(item, Enum | Worded):
         return spelled(item.value)
     if isinstance(item, bool):
         return "true" if item else "false"

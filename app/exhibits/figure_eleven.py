@@ -41,7 +41,7 @@ PRINTED = (
 )
 
 
-class Way(Enum):
+class Method(Enum):
     """A way to compute heights; the value is its key in reports."""
 
     PLAIN = "plain"
@@ -51,10 +51,10 @@ class Way(Enum):
 
 
 WAYS = {
-    Way.PLAIN: "plain software: one thread, every cell of each move's box",
-    Way.PUBLISHED: "as published: cylinders and wedges in facets of two cells, drawn into the depth buffer",
-    Way.QUADS: "a quad a move, the exact height in each cell, the least stays",
-    Way.RECORD: "the engine of record, on the processor",
+    Method.PLAIN: "plain software: one thread, every cell of each move's box",
+    Method.PUBLISHED: "as published: cylinders and wedges in facets of two cells, drawn into the depth buffer",
+    Method.QUADS: "a quad a move, the exact height in each cell, the least stays",
+    Method.RECORD: "the engine of record, on the processor",
 }
 
 
@@ -85,12 +85,12 @@ class FigureRow:
 
     name: str
     program: DieProgram
-    seconds: dict[Way, float]
-    apart: dict[Way, Apart]
+    seconds: dict[Method, float]
+    apart: dict[Method, Apart]
     polygons: PolygonCounts
     error: float
 
-    def ratio(self, slower: Way, faster: Way) -> float | None:
+    def ratio(self, slower: Method, faster: Method) -> float | None:
         """Return how many times as long one way takes as another; None where one is missing."""
         if slower not in self.seconds or faster not in self.seconds:
             return None
@@ -180,14 +180,14 @@ def _row(
             except (HitofudeError, Cancelled):
                 raise
             except Exception as trouble:  # whatever a driver comes up with; the other ways are worth telling
-                if way not in (Way.QUADS, Way.PUBLISHED):
+                if way not in (Method.QUADS, Method.PUBLISHED):
                     raise
                 faults.append(
                     f"{way.value} fails on program {name}: "
                     f"{' '.join(str(trouble).split())[:200] or type(trouble).__name__}"
                 )
-    found: dict[Way, Apart] = {
-        way: apart(heights[Way.RECORD], other) for way, other in heights.items() if way is not Way.RECORD
+    found: dict[Method, Apart] = {
+        way: apart(heights[Method.RECORD], other) for way, other in heights.items() if way is not Method.RECORD
     }
     facet = published(piece.grid).facet
     return FigureRow(
@@ -195,20 +195,22 @@ def _row(
     )
 
 
-def _ways(program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack) -> dict[Way, Run]:
+def _ways(
+    program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack
+) -> dict[Method, Run]:
     """Return what computes heights, by way; the stack gives back what they hold."""
     course, cutters, cells = program.course(), program.cutters, piece.grid.cols
-    ways: dict[Way, Run] = {
-        Way.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
-        Way.PLAIN: lambda told: plain_heights(program, cells, told),
+    ways: dict[Method, Run] = {
+        Method.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
+        Method.PLAIN: lambda told: plain_heights(program, cells, told),
     }
     if context is None:
         return ways
     engine = DepthBuffer(context, published(piece.grid))
     stack.callback(engine.release)
     return ways | {
-        Way.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
-        Way.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told),
+        Method.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
+        Method.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told),
     }
 
 
@@ -252,7 +254,7 @@ def _plain(row: FigureRow) -> dict[str, Any]:
         "program": row.name,
         "moves": row.program.moves,
         "radius_mm": row.program.radius,
-        "seconds": {way.value: row.seconds.get(way) for way in Way},
+        "seconds": {way.value: row.seconds.get(way) for way in Method},
         "ratios": ratios,
         "apart_from_record_mm": {way.value: _finite(found.largest) for way, found in row.apart.items()},
         "published_error_mm": row.error,
@@ -265,7 +267,12 @@ def _plain(row: FigureRow) -> dict[str, Any]:
     }
 
 
-_RATIOS = ((Way.PLAIN, Way.PUBLISHED), (Way.PLAIN, Way.RECORD), (Way.PUBLISHED, Way.QUADS), (Way.PUBLISHED, Way.RECORD))
+_RATIOS = (
+    (Method.PLAIN, Method.PUBLISHED),
+    (Method.PLAIN, Method.RECORD),
+    (Method.PUBLISHED, Method.QUADS),
+    (Method.PUBLISHED, Method.RECORD),
+)
 
 
 def _lines(figure: FigureEleven) -> Iterator[str]:
@@ -278,12 +285,12 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
         f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of "
         f"{options.repeat}, {WORKERS} threads; {drawn}"
     )
-    columns = [f"{way.value:>12}" for way in Way] + [
+    columns = [f"{way.value:>12}" for way in Method] + [
         f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS
     ]
     yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
     for row in figure.rows:
-        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in Way)
+        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in Method)
         ratios = "".join(
             f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS
         )

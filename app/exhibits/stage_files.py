@@ -58,7 +58,7 @@ WRONG = "#ff00ff"
 
 
 @dataclass(frozen=True)
-class Turn:
+class StepTurn:
     """One time that a step was done.
 
     Attributes:
@@ -88,7 +88,7 @@ class StagesRun:
     made: BitmapProgram
     variant: Variant
     last: tuple[Stage, ...]
-    turns: tuple[Turn, ...]
+    turns: tuple[StepTurn, ...]
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -169,7 +169,7 @@ def run_stages(
     ready.part.frame.ask_memory(STAGES_BYTES, is_picture(name))
     made = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.8))
     last: dict[int, Stage] = {}
-    turns: list[Turn] = []
+    turns: list[StepTurn] = []
     for stage in stages(ready.job, ready.part, made.paths, variant):
         progress.step(0.9, stage.name)
         if observer is not None:
@@ -177,7 +177,7 @@ def run_stages(
         last[stage.number] = stage
         kept = (len(turns) + 1) * stage.plane.size <= MOST_TURNS_PX
         turns.append(
-            Turn(stage.number, stage.region, stage.turn, stage.text, indexed_png(stage.plane) if kept else b"")
+            StepTurn(stage.number, stage.region, stage.turn, stage.text, indexed_png(stage.plane) if kept else b"")
         )
     return StagesRun(ready, made, variant, tuple(last[number] for number in STEPS if number in last), tuple(turns))
 

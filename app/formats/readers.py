@@ -7,7 +7,7 @@ from pathlib import PurePath
 
 from ..core.errors import InputError
 from ..model.part import Units
-from ..model.read_options import AS_DRAWN, OPTION_OF, ReadOptions
+from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
 from ..model.reading import Reading
 from . import known  # noqa: F401 (registers what comes with the program)
 from .drawing import Drawing
@@ -19,7 +19,7 @@ def read_drawing(
     data: bytes,
     units: Units | None = None,
     layers: tuple[str, ...] = (),
-    how: ReadOptions = AS_DRAWN,
+    how: DrawingOptions = AS_DRAWN,
 ) -> Drawing:
     """Return the drawing in a file's bytes, by the suffix of its name.
 
@@ -76,7 +76,7 @@ def format_of(name: str) -> DrawingFormat:
     return found
 
 
-def check_options(how: ReadOptions, name: str) -> None:
+def check_options(how: DrawingOptions, name: str) -> None:
     """Refuse what says nothing of a file.
 
     Raises:
@@ -92,7 +92,7 @@ def check_options(how: ReadOptions, name: str) -> None:
             )
 
 
-def fit_for(how: ReadOptions, name: str) -> ReadOptions:
+def fit_for(how: DrawingOptions, name: str) -> DrawingOptions:
     """Return options without those that say nothing of a file."""
     found = known_format(name)
     taken = found.takes if found else frozenset()
@@ -102,10 +102,10 @@ def fit_for(how: ReadOptions, name: str) -> ReadOptions:
 def _special() -> tuple[str, ...]:
     """Return the options that some formats alone take, in the order of their declaration."""
     special = {name for each in FORMATS.values() for name in each.takes}
-    return tuple(each.name for each in fields(ReadOptions) if each.name in special)
+    return tuple(each.name for each in fields(DrawingOptions) if each.name in special)
 
 
-def _without_layers(drawing: Drawing, how: ReadOptions, name: str) -> Drawing:
+def _without_layers(drawing: Drawing, how: DrawingOptions, name: str) -> Drawing:
     """Return the drawing without the curves on some layers.
 
     Raises:

@@ -15,6 +15,8 @@ from collections.abc import Callable, Sequence
 from enum import Enum
 from typing import Any
 
+from ..core.errors import ParameterError
+from ..model.curve_selectors import Selector, on_layers, read_selectors
 from ..model.fields import Placed, Unit, parameters_of
 from ..model.operation import Operation
 from .note_texts import ALLOWED, plain_numbers, spelled, unspelled
@@ -40,6 +42,8 @@ def read(kind: type[Operation], items: Sequence[str]) -> dict[str, Any] | None:
     known, values = parameters_of(kind), {}
     for item in items:
         key, _, text = item.partition("=")
+        if key.strip().lower() == "layers":  # as earlier versions told them
+            values["curves"] = on_layers(unspelled(name) for name in text.strip().split("/"))
         placed = known.get(key.strip().lower())
         if placed is not None:
             value = _READERS[placed.parameter.unit](text.strip(), placed)
@@ -58,8 +62,8 @@ def _text(placed: Placed, value: Any) -> str:
         return str(value.value)
     if unit is Unit.FLAG:
         return str(int(value))
-    if unit is Unit.NAMES:
-        return "/".join(spelled(name, _IN_LISTS) for name in value)
+    if unit is Unit.CURVES:
+        return "/".join(spelled(each.text, _IN_LISTS) for each in value)
     if unit is Unit.POINTS:
         return "/".join(plain_numbers(*point, decimals=_DECIMALS).replace(",", " ") for point in value)
     return plain_numbers(math.degrees(value) if unit is Unit.ANGLE else value, decimals=_DECIMALS)
@@ -87,8 +91,11 @@ def _choice(text: str, placed: Placed) -> Enum | None:
     return next((each for each in placed.enum if each.value == text.lower()), None)
 
 
-def _names(text: str, _: Placed) -> tuple[str, ...]:
-    return tuple(unspelled(name) for name in text.split("/"))
+def _curves(text: str, _: Placed) -> tuple[Selector, ...] | None:
+    try:
+        return read_selectors(unspelled(each) for each in text.split("/"))
+    except ParameterError:
+        return None
 
 
 def _points(text: str, _: Placed) -> tuple[tuple[float, float], ...] | None:
@@ -105,6 +112,6 @@ _READERS: dict[Unit, Callable[[str, Placed], Any]] = {
     Unit.COUNT: _count,
     Unit.FLAG: _flag,
     Unit.CHOICE: _choice,
-    Unit.NAMES: _names,
+    Unit.CURVES: _curves,
     Unit.POINTS: _points,
 }

@@ -60,6 +60,55 @@ def curve_rows(curve: Primitive) -> list[tuple[float, ...]]:
     return _arc_rows(curve.start, curve.end, curve.centre, curve.sweep)
 
 
+def rows_of(primitives: Sequence[Primitive]) -> tuple[Rows, Indices]:
+    """Return the rows (n, 8) of many lines, arcs and circles, as `curve_rows` has them, and which one each is from.
+
+    Raises:
+        GeometryError: an arc begins where it ends.
+    """
+    round_ones = [k for k, each in enumerate(primitives) if type(each) is Circle]
+    if round_ones:
+        return _one_by_one(primitives, np.array(round_ones))
+    ends = chain.from_iterable(chain.from_iterable((each.start, each.end) for each in primitives))
+    rows = np.zeros((len(primitives), 8))
+    rows[:, :4] = np.fromiter(ends, np.float64, 4 * len(rows)).reshape(-1, 4)
+    bent = [(k, each.centre, each.ccw) for k, each in enumerate(primitives) if type(each) is Arc]
+    if not bent:
+        return rows, np.arange(len(rows))
+    at, centres, left = zip(*bent, strict=True)
+    arcs, turn = np.array(at), np.where(np.array(left), 1.0, -1.0)
+    a, b, centre = rows[arcs, :2], rows[arcs, 2:4], np.array(centres)
+    if (same := np.flatnonzero((a == b).all(axis=1))).size:
+        raise _no_arc((float(a[same[0], 0]), float(a[same[0], 1])))
+    u, v = a - centre, b - centre
+    sweep = (turn * np.arctan2(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0], (u * v).sum(axis=1))) % math.tau
+    wide = arcs[sweep > _MAX_SWEEP - 1e-9]
+    if len(wide):
+        return _one_by_one(primitives, wide)
+    # the centre on the bisector of the ends, see `_arc_row`
+    d, middle = b - a, (a + b) / 2
+    along = ((centre - middle) * d).sum(axis=1) / (d * d).sum(axis=1)
+    rows[arcs, CX:R] = centre - along[:, None] * d
+    rows[arcs, R] = np.hypot(*(a - rows[arcs, CX:R]).T)
+    rows[arcs, TURN] = turn
+    return rows, np.arange(len(rows))
+
+
+def _one_by_one(primitives: Sequence[Primitive], split: Indices) -> tuple[Rows, Indices]:
+    """Return what `rows_of` does where some, by number, take several rows."""
+    parts, owners, done = [], [], 0
+    for k in (*split.tolist(), len(primitives)):
+        if k > done:
+            rows, owner = rows_of(primitives[done:k])
+            parts.append(rows)
+            owners.append(owner + done)
+        if k < len(primitives):
+            parts.append(np.array(curve_rows(primitives[k])))
+            owners.append(np.full(len(parts[-1]), k))
+        done = k + 1
+    return np.concatenate(parts), np.concatenate(owners)
+
+
 def _no_arc(at: tuple[float, float]) -> GeometryError:
     return GeometryError(f"An arc at ({at[0]:.3f}, {at[1]:.3f}) begins where it ends; delete it, or draw a circle.")
 
@@ -95,18 +144,9 @@ def _arc_row(
 def contour_rows(contour: Contour) -> Rows:
     """Return the rows (n, 8) of a contour, in its direction; they are the caller's own."""
     if "rows" not in contour.kept:
-        contour.kept["rows"] = _made(contour)
+        contour.kept["rows"] = rows_of(contour.primitives)[0]
     rows: Rows = contour.kept["rows"].copy()
     return rows
-
-
-def _made(contour: Contour) -> Rows:
-    if all(type(curve) is Line for curve in contour.primitives):  # most of the longest ones
-        ends = chain.from_iterable(chain.from_iterable((curve.start, curve.end) for curve in contour.primitives))
-        rows = np.zeros((len(contour.primitives), 8))
-        rows[:, :4] = np.fromiter(ends, np.float64, 4 * len(rows)).reshape(-1, 4)
-        return rows
-    return np.array([row for curve in contour.primitives for row in curve_rows(curve)], dtype=np.float64).reshape(-1, 8)
 
 
 def pack(regions: Sequence[Region]) -> Primitives:

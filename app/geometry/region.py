@@ -79,6 +79,14 @@ def nested(contours: Sequence[Contour]) -> Nesting:
     return Nesting(regions, tuple(turned[i] for i in outer if not thick[i]))
 
 
+def holders(contours: Sequence[Contour]) -> list[list[int]]:
+    """Return for each closed contour which larger ones hold an inner point of it, by their indices.
+
+    Of contours that cross, the smaller one may lie in the larger one or not, as that point of it does.
+    """
+    return _holders(Outlines.of(contours)) if contours else []
+
+
 def _thicknesses(outlines: Outlines) -> Floats:
     """Return area / length (m,), mm: half the width of something long and thin."""
     thickness: Floats = np.abs(outlines.areas) / np.maximum(outlines.lengths, tolerances.WELD)

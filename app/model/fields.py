@@ -31,7 +31,7 @@ class Unit(Enum):
     COUNT = "count"
     FLAG = "flag"
     CHOICE = "choice"  # of an enum
-    NAMES = "names"
+    CURVES = "curves"  # selectors, see curve_selectors
     POINTS = "points"
 
 

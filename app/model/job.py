@@ -8,7 +8,7 @@ from enum import Enum
 from ..core.errors import ParameterError
 from .operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
-from .tool import Tool, ToolKind
+from .tool import Tool
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""
@@ -36,10 +36,12 @@ class Stock:
     Attributes:
         margin: how far it reaches beyond the part's extent on every side, mm, >= 0.
         thickness: mm, > 0.
+        under: thickness of the waste that it lies on, mm, >= 0: so far below it may tools cut, as points of drills do.
     """
 
     margin: float = 0.0
     thickness: float = 10.0
+    under: float = 0.0
 
     def __post_init__(self) -> None:
         if not 0 <= self.margin < 1e5 or not 0 < self.thickness < 1e5:
@@ -47,6 +49,8 @@ class Stock:
                 f"Stock margin is {self.margin:g} mm and thickness {self.thickness:g} mm; "
                 "the margin must be 0 or more and the thickness greater than 0."
             )
+        if not 0 <= self.under < 1e5:
+            raise ParameterError(f"Waste under the stock is {self.under:g} mm thick; it must be 0 or more.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +161,7 @@ class Job:
             ParameterError: the job has no such tool, or it is a drill and the operation mills.
         """
         tool = self.tool(operation.cut.tool)
-        if tool.kind is ToolKind.DRILL and not operation.DRILLS:
+        if tool.kind.drills and not operation.DRILLS:
             raise ParameterError(
                 f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
                 "choose another tool, or make it a drill operation."

@@ -12,7 +12,7 @@ Triple = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Axis:
+class LinearAxis:
     """One linear axis.
 
     Attributes:
@@ -75,9 +75,9 @@ class Machine:
     """
 
     title: str
-    x: Axis
-    y: Axis
-    z: Axis
+    x: LinearAxis
+    y: LinearAxis
+    z: LinearAxis
     spindle: SpindleRange
     largest_feed: float
     tool_change: float = 0.0
@@ -96,6 +96,6 @@ class Machine:
             )
 
     @property
-    def axes(self) -> tuple[Axis, Axis, Axis]:
+    def axes(self) -> tuple[LinearAxis, LinearAxis, LinearAxis]:
         """X, Y, Z."""
         return (self.x, self.y, self.z)

@@ -8,6 +8,7 @@ from enum import Enum
 from typing import ClassVar
 
 from ..core.errors import ParameterError
+from .curve_selectors import Selector
 from .entry import Entry, Lead, Tabs
 from .fields import (
     Condition,
@@ -119,12 +120,13 @@ class Cut:
         on_pixels=True,
     )
     entry: Entry = part(Entry)
-    layers: tuple[str, ...] = parameter(
+    curves: tuple[Selector, ...] = parameter(
         (),
-        "layers",
-        "Layers",
+        "curves",
+        "Curves",
         "that it machines; none named: all that the job does",
-        Unit.NAMES,
+        Unit.CURVES,
+        option=True,
         group="Feed and layers",
     )
 

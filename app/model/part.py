@@ -9,7 +9,7 @@ from typing import Any
 
 from .curves import Curve, Primitive
 from .notes import Note, Shape
-from .read_options import AS_DRAWN, ReadOptions
+from .read_options import AS_DRAWN, DrawingOptions
 
 
 class Units(Enum):
@@ -74,7 +74,7 @@ class Part:
     name: str = "untitled"
     used_id: int = field(default=0, compare=False)
     notes: tuple[Note, ...] = ()
-    reading: ReadOptions = field(default=AS_DRAWN, compare=False)
+    reading: DrawingOptions = field(default=AS_DRAWN, compare=False)
 
     def next_id(self) -> int:
         """Return an entity id that was never given."""

@@ -21,7 +21,7 @@ OPTION_OF = {
 
 
 @dataclass(frozen=True, slots=True)
-class ReadOptions:
+class DrawingOptions:
     """How a drawing is to be read; the default leaves everything as the file has it.
 
     Attributes:
@@ -49,4 +49,4 @@ class ReadOptions:
             raise ParameterError(f"--px-per-inch is {given:g}; use {LEAST_PER_INCH:g} to {MOST_PER_INCH:g}.")
 
 
-AS_DRAWN = ReadOptions()
+AS_DRAWN = DrawingOptions()

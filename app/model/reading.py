@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from .part import Units
-from .read_options import AS_DRAWN, ReadOptions
+from .read_options import AS_DRAWN, DrawingOptions
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Reading:
 
     units: Units | None = None
     layers: tuple[str, ...] = ()
-    how: ReadOptions = AS_DRAWN
+    how: DrawingOptions = AS_DRAWN
 
     def in_units(self, units: Units) -> Reading:
         """Return it so that a drawing is in these units, whatever its file names, and pixels have no say."""

@@ -15,7 +15,8 @@ from .operation import LEAST_LENGTH
 from .part import Units
 from .scene_curves import Point2, Point3
 from .scene_shapes import MOST_LENGTH, Shape
-from .tool import LEAST_RATE, Tool, ToolKind
+from .tool import LEAST_RATE, Tool
+from .tool_kind import ToolKind
 
 Box = tuple[float, float, float, float, float, float]
 Rectangle = tuple[float, float, float, float]
@@ -30,7 +31,7 @@ class LineType(Enum):
     CHAIN = "chain"
 
 
-class Side(Enum):
+class KeptSide(Enum):
     """Which side of an outline is kept."""
 
     INSIDE = "inside"
@@ -52,7 +53,7 @@ class Strategy(Enum):
 
 
 @dataclass(frozen=True)
-class Outline:
+class SceneOutline:
     """A closed outline in XY, given in exactly one way.
 
     Attributes:
@@ -87,14 +88,14 @@ class Outline:
 
 
 @dataclass(frozen=True)
-class Trim(Outline):
+class Trim(SceneOutline):
     """Of a surface only what lies over one side of an outline counts."""
 
-    keep: Side = Side.INSIDE
+    keep: KeptSide = KeptSide.INSIDE
 
 
 @dataclass(frozen=True)
-class Boundary(Outline):
+class Boundary(SceneOutline):
     """Where passes go: the inside of an outline."""
 
     centre: Centre = Centre.ON
@@ -278,6 +279,6 @@ class Scene:
         tool = next((tool for tool in self.tools if tool.number == number), None)
         if tool is None:
             raise ParameterError(f"The scene has no tool T{number}; add it to the tools or choose another.")
-        if tool.kind is ToolKind.DRILL:
+        if tool.kind.drills:
             raise ParameterError(f"T{number} is a drill, which cannot cut sideways; choose a mill.")
         return tool

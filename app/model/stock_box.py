@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from ..core.errors import ParameterError
 from .curves import Arc, Circle, Point, Primitive
@@ -42,8 +44,11 @@ def extent(contours: Iterable[Contour]) -> tuple[float, float, float, float] | N
 
 def _box(contour: Contour) -> tuple[float, float, float, float]:
     if "box" not in contour.kept:
-        xs, ys = zip(*(point for primitive in contour.primitives for point in _extreme_points(primitive)), strict=True)
-        contour.kept["box"] = min(xs), min(ys), max(xs), max(ys)
+        points = np.array([point for each in _wide(contour.primitives) for point in _extreme_points(each)])
+        ends = np.array([(each.start, each.end) for each in contour.primitives]).reshape(-1, 2)
+        both = np.concatenate([points.reshape(-1, 2), ends])
+        (x0, y0), (x1, y1) = both.min(axis=0).tolist(), both.max(axis=0).tolist()
+        contour.kept["box"] = x0, y0, x1, y1
     box: tuple[float, float, float, float] = contour.kept["box"]
     return box
 
@@ -80,8 +85,6 @@ def _extreme_points(primitive: Primitive) -> Iterator[Point]:
     yield primitive.end
     if isinstance(primitive, (Arc, Circle)):
         cx, cy = primitive.centre
-        if isinstance(primitive, Arc) and _within_quadrant(primitive):
-            return
         yield from (
             (cx + primitive.radius * ux, cy + primitive.radius * uy)
             for ux, uy in QUADRANTS
@@ -89,14 +92,17 @@ def _extreme_points(primitive: Primitive) -> Iterator[Point]:
         )
 
 
-def _within_quadrant(arc: Arc) -> bool:
-    """Tell whether an arc surely passes no quadrant, as nearly all of the short ones of a fitted curve do: without an
-    angle.
-    """
-    x, y = arc.centre
-    ax, ay, bx, by = arc.start[0] - x, arc.start[1] - y, arc.end[0] - x, arc.end[1] - y
-    turn = ax * by - ay * bx
-    return ax * bx > 0 and ay * by > 0 and (turn > 0 if arc.ccw else turn < 0)
+def _wide(primitives: Sequence[Primitive]) -> list[Primitive]:
+    """Return circles, and the arcs that may pass a quadrant: hardly any of the short ones of a fitted curve does."""
+    found: list[Primitive] = [each for each in primitives if isinstance(each, Circle)]
+    arcs = [each for each in primitives if isinstance(each, Arc)]
+    if not arcs:
+        return found
+    places = np.array([(each.start, each.end, each.centre) for each in arcs])
+    a, b = places[:, 0] - places[:, 2], places[:, 1] - places[:, 2]
+    turn = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) * np.where([each.ccw for each in arcs], 1.0, -1.0)
+    within = (a * b > 0).all(axis=1) & (turn > 0)
+    return found + [arcs[k] for k in np.flatnonzero(~within).tolist()]
 
 
 def _passes(arc: Arc, angle: float) -> bool:

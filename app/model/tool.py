@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from enum import Enum
 from itertools import pairwise
 
 from ..core.errors import ParameterError
+from .tool_kind import ToolKind, ToolProfile, ToolShape, shape_keys
+
+__all__ = ["LEAST_RATE", "MOST_LENGTH", "FeedRow", "HolderPoint", "Tool", "ToolKind", "shape_keys"]
 
 LEAST_RATE = 1.0
 """mm/min; a slower feed would be rounded away in the digits of F."""
@@ -19,25 +21,6 @@ HolderPoint = tuple[float, float]
 """Height above the holder's lower face and radius there, mm."""
 
 
-class ToolKind(Enum):
-    """Shape of the cutter's end."""
-
-    FLAT = "flat"
-    BALL = "ball"
-    BULL = "bull"
-    V = "v"
-    DRILL = "drill"
-    TAPER = "taper"
-
-
-_SHAPE_OF_KIND: dict[ToolKind, frozenset[str]] = {
-    ToolKind.FLAT: frozenset(),
-    ToolKind.BALL: frozenset(),
-    ToolKind.BULL: frozenset({"corner_radius"}),
-    ToolKind.V: frozenset({"tip_angle", "tip_diameter"}),
-    ToolKind.DRILL: frozenset({"tip_angle"}),
-    ToolKind.TAPER: frozenset({"tip_angle", "tip_diameter"}),
-}
 LEAST_DIAMETER = 1e-3
 """mm; what is thinner is no cutter, and its paths in any drawing would have no end."""
 
@@ -45,11 +28,6 @@ _RATES = (("spindle_speed", "rpm"), ("feed_rate", "mm/min"), ("plunge_rate", "mm
 _LEAST = {"mm": LEAST_DIAMETER, "mm/min": LEAST_RATE}
 _LENGTHS = ("corner_radius", "tip_diameter", "flute_length", "overall_length", "stick_out", "shank_diameter")
 _NOT_ABOVE = (("flute_length", "overall_length"), ("stick_out", "overall_length"))
-
-
-def shape_keys(kind: ToolKind) -> frozenset[str]:
-    """Return which of corner_radius, tip_diameter and tip_angle tools of a kind have beside their diameter."""
-    return _SHAPE_OF_KIND[kind]
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,6 +182,16 @@ class Tool:
     def radius(self) -> float:
         """Half the diameter, mm."""
         return self.diameter / 2
+
+    @property
+    def shape(self) -> ToolShape:
+        """The numbers that give it its shape."""
+        return ToolShape(self.radius, self.corner_radius, self.tip_diameter / 2, self.tip_angle / 2)
+
+    @property
+    def profile(self) -> ToolProfile:
+        """Its lower side; without a cone where its angle is not known."""
+        return self.kind.profile(self.shape)
 
     @property
     def label(self) -> str:

@@ -21,6 +21,7 @@ from ..toolpath.coverage.flat import region_shapes
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.drawn import Drawn, drawn
 from ..toolpath.drill_holes import across_holes
+from ..toolpath.selected import about_selected, selected
 from ..toolpath.setting import Setting
 from ..toolpath.sheets import Sheets
 from ..toolpath.witness import about_regions
@@ -100,22 +101,41 @@ def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
 def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
     """Return the open lines that some operation follows."""
     cuts = [each.cut for each in job.operations if each.wall_side is Side.ON and each.cut.enabled]
-    return tuple(line for line in parts.open if any(not cut.layers or line.layer in cut.layers for cut in cuts))
+    followed = {id(line) for cut in cuts for line in selected(parts, cut.curves).open}
+    return tuple(line for line in parts.open if id(line) in followed)
 
 
 def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
     """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but
     followed.
     """
-    followed = {number for line in lines for number in line.entity_ids}
+    followed = {number for line in lines for number in line.entity_ids} | _only_followed(job, parts)
     kept = [
         each
         for each in across_holes(parts.findings, job, parts)
         if each.kind is not FindingKind.OPEN_CONTOUR or not (each.entity_ids and followed.issuperset(each.entity_ids))
     ]
-    if any(operation.cut.enabled and not operation.follows_lines for operation in job.operations):
-        return kept
-    return [replace(each, counts=False) if each.kind is FindingKind.SELF_INTERSECTION else each for each in kept]
+    only_followed = not any(operation.cut.enabled and not operation.follows_lines for operation in job.operations)
+    kept = [
+        replace(each, counts=False)
+        if each.kind is FindingKind.SELF_INTERSECTION
+        and (only_followed or (each.entity_ids and followed.issuperset(each.entity_ids)))
+        else each
+        for each in kept
+    ]
+    return [*kept, *about_selected(job, parts)]
+
+
+def _only_followed(job: Job, parts: Drawn) -> set[int]:
+    """Return the numbers of the curves that bound no area of any operation, since all that select them follow them."""
+    at_work = [each for each in job.operations if each.cut.enabled]
+    numbers: dict[bool, set[int]] = {True: set(), False: set()}
+    for operation in at_work:
+        found = selected(parts, operation.cut.curves)
+        contours = (*found.closed, *found.open) if operation.wall_side is Side.ON else found.closed
+        if not operation.DRILLS:
+            numbers[operation.wall_side is Side.ON].update(n for each in contours for n in each.entity_ids)
+    return numbers[True] - numbers[False]
 
 
 def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Finding]:

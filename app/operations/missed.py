@@ -12,7 +12,6 @@ from collections.abc import Iterable, Sequence
 from ..model.finding import Finding
 from ..model.operation import Operation
 from ..model.part import Region
-from ..model.tool import ToolKind
 from ..toolpath.sheets import Sheets
 from .compute import under_clamps
 from .registry import way_of
@@ -38,6 +37,6 @@ def _missed(operation: Operation, sheets: Sheets) -> Iterable[Finding]:
         return way.missed(sheets, operation, None)
     sheet, tool = sheets.of(operation), sheets.job.tool(operation.cut.tool)
     # of a program that tells no operations, each tool may be one that mills
-    if sheet is None or tool.kind is ToolKind.DRILL:
+    if sheet is None or tool.kind.drills:
         return ()
     return way.missed(sheets, operation, sheet)

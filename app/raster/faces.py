@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .peel import distance_px
-from .picture import Shows
+from .picture_options import Shows
 from .walls import Mask
 
 _THIN = 6.0

@@ -14,10 +14,7 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..model.motion import Floats
-from ..model.tool import Tool, ToolKind
-
-DRILL_ANGLE = math.radians(118.0)
-"""Full angle of a drill's point where the tool does not tell it (the trade's usual grind)."""
+from ..model.tool import Tool
 
 LEAST_ANGLE = math.radians(1.0)
 """A cone more pointed than this is a mistake."""
@@ -130,32 +127,24 @@ class Cutter:
 def cutter_of(tool: Tool) -> Cutter:
     """Return the cutter that a tool is.
 
-    A drill whose angle is not known has 118 degrees. Drills, balls, V tools and tapered mills cut at their centre; flat
-    and bull-nose mills with two or three flutes are taken to, with more they are not.
+    A drill whose angle is not known has the usual one of its kind. Drills, balls, V tools and tapered mills cut at
+    their centre; flat and bull-nose mills with two or three flutes are taken to, with more they are not.
 
     Raises:
         ParameterError: the tool lacks what its shape needs, or its numbers make no shape.
     """
-    centre = tool.kind not in (ToolKind.FLAT, ToolKind.BULL) or tool.flutes <= 3
-    radius = tool.radius
-    if tool.kind is ToolKind.BALL:
-        return Cutter(radius, 0.0, radius, math.inf, centre)
-    if tool.kind is ToolKind.FLAT:
-        return Cutter(radius, radius, 0.0, math.inf, centre)
-    if tool.kind is ToolKind.BULL:
-        return Cutter(radius, radius - tool.corner_radius, tool.corner_radius, math.inf, centre)
-    slope = _cone_slope(tool)
-    if tool.kind is ToolKind.TAPER:
-        return Cutter(radius, 0.0, tool.tip_diameter / 2, slope, centre)
-    return Cutter(radius, tool.tip_diameter / 2, 0.0, slope, centre)
+    centre = not tool.kind.level or tool.flutes <= 3
+    shape = replace(tool.shape, half_angle=_half_angle(tool)) if tool.kind.conical else tool.shape
+    profile = tool.kind.profile(shape)
+    return Cutter(tool.radius, profile.flat, profile.fillet, profile.cone or math.inf, centre)
 
 
-def _cone_slope(tool: Tool) -> float:
-    """Return how a tool's cone rises per mm of radius."""
-    angle = tool.tip_angle or (DRILL_ANGLE if tool.kind is ToolKind.DRILL else 0.0)
+def _half_angle(tool: Tool) -> float:
+    """Return the angle between a tool's axis and its cone, radians."""
+    angle = tool.tip_angle or tool.kind.assumed_angle
     if not LEAST_ANGLE <= angle < math.pi - LEAST_ANGLE:
         raise ParameterError(
             f"T{tool.number}: the full angle of its cone is {math.degrees(angle):g} degrees; a {tool.kind.value} tool "
             "needs one from 1 to 179 degrees to be cut with."
         )
-    return 1.0 / math.tan(angle / 2)
+    return angle / 2

@@ -81,6 +81,10 @@ class Stroke:
         """Return (n,) at which height each row is cut by a pass at z, mm."""
         return np.full(len(self.rows), z) if self.least_z is None else np.maximum(self.least_z, z)
 
+    def begins_at(self, z: float) -> float:
+        """Return at which height its first row is cut by a pass at z, mm."""
+        return z if self.least_z is None else max(float(self.least_z[0]), z)
+
     def part(self, first: int, stop: int) -> Stroke:
         """Return its rows from `first` up to `stop`, which is left out."""
         least_z = None if self.least_z is None else self.least_z[first:stop]
@@ -173,9 +177,7 @@ class MovesBuilder:
         )
         self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
 
-    def along(
-        self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: NDArray[np.float64]
-    ) -> None:
+    def along(self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: NDArray[np.float64]) -> None:
         """Append a path whose rows each end at their own height, mm, and have their own feed, mm/min, (n,) each."""
         self._path(stroke, heights, label, feed)
 

@@ -14,7 +14,7 @@ from ..core import tolerances
 from ..geometry.kernels import build_tree
 from ..geometry.primitives import Rows, boxes
 from ..model.curves import Point
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
 from . import cleared_kernels as kernels
 
 _SLACK = 0.01
@@ -155,7 +155,7 @@ class Cleared:
             return
         if flat_radius(tool) > 0:
             self._flat.add(rows, z, flat_radius(tool))
-        if tool.kind is not ToolKind.FLAT:
+        if not tool.kind.square:
             self._own.setdefault(tool.number, _Ground()).add(rows, z, 0.0)
 
     def floor(self, tool: Tool, place: Point, more: float = 0.0) -> float:
@@ -200,11 +200,7 @@ class Cleared:
 
 def flat_radius(tool: Tool) -> float:
     """Return the radius, mm, of the level ground that a tool leaves under its axis."""
-    if tool.kind is ToolKind.FLAT:
-        return tool.radius
-    if tool.kind is ToolKind.BULL:
-        return tool.radius - tool.corner_radius
-    return tool.tip_diameter / 2 if tool.kind is ToolKind.V else 0.0
+    return tool.profile.flat
 
 
 def _deepest(ground: _Ground, is_clear: Callable[[float], bool]) -> float:

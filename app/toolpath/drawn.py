@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -18,7 +19,8 @@ from ..geometry.chaining.chain import chain
 from ..geometry.even_odd import even_odd
 from ..geometry.overlay.overlay import without_crossings
 from ..geometry.primitives import contour_rows, sample, signed_area
-from ..geometry.region import reversed_contour
+from ..geometry.region import holders, reversed_contour
+from ..model.curve_selectors import layer_names
 from ..model.curves import Arc, Circle, Line, Point, Primitive
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
@@ -50,6 +52,16 @@ class Drawn:
     clamps: tuple[Region, ...] = ()
     findings: tuple[Finding, ...] = ()
 
+    @cached_property
+    def holders(self) -> list[list[int]]:
+        """Which closed contours lie round each closed one, by their indices."""
+        return holders(self.closed)
+
+    @cached_property
+    def inner(self) -> frozenset[int]:
+        """The identities of the closed contours that lie in another closed one."""
+        return frozenset(id(each) for each, held in zip(self.closed, self.holders, strict=True) if held)
+
 
 def layers_of(job: Job) -> frozenset[str]:
     """Return the names of the layers that a job machines.
@@ -59,7 +71,7 @@ def layers_of(job: Job) -> frozenset[str]:
     """
     known = {layer.name for layer in job.part.layers}
     visible = {layer.name for layer in job.part.layers if layer.visible}
-    asked = {name for operation in job.operations if operation.cut.enabled for name in operation.cut.layers}
+    asked = {name for each in job.operations if each.cut.enabled for name in layer_names(each.cut.curves)}
     for name in (*job.keep_out_layers, *sorted(asked)):
         if name not in known:
             raise ParameterError(f"The drawing has no layer '{name}'; it has {', '.join(sorted(known)) or 'none'}.")

@@ -15,9 +15,10 @@ from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import DrillOperation
 from ..model.part import Contour, Region
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
 from .coverage.flat import region_shapes
 from .drawn import Drawn
+from .selected import selected
 
 ALIKE = 0.1
 """mm; circles whose diameter is this near to a drill's are its own."""
@@ -64,12 +65,9 @@ def circle_of(contour: Contour) -> Hole | None:
 
 def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:
     """Return the circles of a drill operation, in the order of the drawing."""
-    tool, layers = job.tool(operation.cut.tool), frozenset(operation.cut.layers)
+    tool = job.tool(operation.cut.tool)
     circles = [
-        hole
-        for contour in drawn.closed
-        if not layers or contour.layer in layers
-        if (hole := circle_of(contour)) is not None
+        hole for contour in selected(drawn, operation.cut.curves).closed if (hole := circle_of(contour)) is not None
     ]
     least, most = _asked(operation, tool)
     asked = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
@@ -130,7 +128,7 @@ def tip_depth(job: Job, operation: DrillOperation) -> float:
 
 def tip_length(tool: Tool) -> float:
     """Return the length of a drill's point, mm; 0 of other tools, and where its angle is not known."""
-    return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind is ToolKind.DRILL and tool.tip_angle else 0.0
+    return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind.drills and tool.tip_angle else 0.0
 
 
 def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Region, ...]:

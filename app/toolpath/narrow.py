@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -69,7 +70,7 @@ class Need:
 
 def finest(job: Job, operation: Operation) -> float:
     """Return the least width, mm, of a region that some operation of the job machines in the layers of this one, as
-    deep, on its side.
+    deep, on its side; inf where none does.
     """
 
     alike = [
@@ -77,10 +78,10 @@ def finest(job: Job, operation: Operation) -> float:
         for each in job.operations
         if each.cut.enabled
         and each.wall_side is operation.wall_side
-        and each.cut.layers == operation.cut.layers
+        and set(each.cut.curves) == set(operation.cut.curves)
         and each.cut.floor >= operation.cut.floor
     ]
-    return min(2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike)
+    return min((2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike), default=math.inf)
 
 
 def too_small(regions: Sequence[Region], level: Level, tool: Tool, least: float) -> list[Finding]:

@@ -10,11 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.memory import ask, fitting, portion
+from ..core.pool import pool
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import Indices, Rows, pack, points_at, within_half_turn
@@ -32,6 +34,8 @@ _WORTH_ASKING = 1e8
 
 _AT_A_TIME, _SQUARE_BYTES = 1 << 20, 150
 """Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
+
+_BANDS, _WORTH_TWO_CORES = 4, 20_000
 
 CELL_BYTES, CHUNK_BYTES = 100, 250
 """What a cell in which metal is left takes until it is cleared, and a short row of a ring."""
@@ -76,8 +80,14 @@ class Ground:
 
     def holds(self, points: Floats, around: float) -> NDArray[np.bool_]:
         """Return for points (m, 2) whether all within `around` of them, mm, is cut by one stretch of a path."""
-        out = np.empty(len(points), np.bool_)
-        rest_kernels.hold(*self.tree, np.ascontiguousarray(points), around, out)
+        points, out = np.ascontiguousarray(points), np.empty(len(points), np.bool_)
+
+        def look(ends: tuple[int, int]) -> None:
+            band = slice(*ends)
+            rest_kernels.hold(*self.tree, points[band], around, out[band])
+
+        bands = np.linspace(0, len(points), (_BANDS if len(points) >= _WORTH_TWO_CORES else 1) + 1).astype(int)
+        list(pool().map(look, pairwise(bands.tolist())))
         return out
 
     def in_air(self, rows: Rows, radius: float, tolerance: float = _SAME) -> NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""The areas that each operation's cutter may be in, with their walls: of its layers, on its side of the lines, without
+"""The areas that each operation's cutter may be in, with their walls: of its curves, on its side of the lines, without
 the clamps.
 """
 
@@ -17,6 +17,7 @@ from ..geometry.offset.offset import Level, offset_levels
 from ..geometry.overlay.overlay import Overlaid, without_crossings, without_outlines
 from ..geometry.primitives import Primitives, contour_rows, pack, points_at
 from ..geometry.region import nested, polygon_contour
+from ..model.curve_selectors import Selector
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
@@ -26,6 +27,7 @@ from ..model.stock_box import extent
 from .drawn import Drawn
 from .drill_holes import Hole, circle_of, hole_regions, made_by_drills
 from .leads.lead import lead_size
+from .selected import selected
 from .witness import about_regions
 
 _ON_CLAMP = 2e-5
@@ -94,12 +96,12 @@ class Sheets:
     job: Job
     drawn: Drawn
     findings: list[Finding] = field(default_factory=list)
-    _made: dict[tuple[frozenset[str], Side], Sheet | None] = field(default_factory=dict)
+    _made: dict[tuple[frozenset[Selector], Side], Sheet | None] = field(default_factory=dict)
 
     def of(self, operation: Operation) -> Sheet | None:
         """Return the sheet of an operation; None where it has nothing to machine."""
         side = operation.wall_side or Side.INSIDE
-        key = frozenset(operation.cut.layers), side
+        key = frozenset(operation.cut.curves), side
         if key not in self._made:
             self._made[key] = self._sheet(*key)
         return self._made[key]
@@ -116,11 +118,9 @@ class Sheets:
             return Area()
         return Area(sheet.regions, sheet.lines, operation.CLEARS, sheet.outlines)
 
-    def _sheet(self, layers: frozenset[str], side: Side) -> Sheet | None:
-        closed, lines = (
-            [c for c in contours if not layers or c.layer in layers]
-            for contours in (self.drawn.closed, self.drawn.open)
-        )
+    def _sheet(self, curves: frozenset[Selector], side: Side) -> Sheet | None:
+        found = selected(self.drawn, tuple(curves))
+        closed, lines = list(found.closed), list(found.open)
         if self._made_by_drills:
             closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
         frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))

@@ -10,7 +10,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.part import Units
-from ..model.read_options import AS_DRAWN, ReadOptions
+from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.reading import Reading
 from ..model.tool import Tool
 from ..operations.compute import regions_of
@@ -39,7 +39,7 @@ class AdviceOptions:
     units: Units | None = None
     layers: tuple[str, ...] = ()
     join_tolerance: float | None = None
-    reading: ReadOptions = AS_DRAWN
+    reading: DrawingOptions = AS_DRAWN
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,8 @@ from ..operations.compute import regions_of
 from ..raster.doubts import Ambiguity, Doubt, Place, ambiguities, pixel_words
 from ..raster.faces import inner_faces, shows
 from ..raster.frame import Frame
-from ..raster.picture import Picture, PictureOptions, Shows, read_picture
+from ..raster.picture import Picture, read_picture
+from ..raster.picture_options import PictureOptions, Shows
 from ..raster.walls import Mask, free_contours
 from .bitmap_options import BitmapOptions, BitmapSize, is_picture
 from .bitmap_part import BitmapPart, part_of_mask, part_of_regions
@@ -87,6 +88,11 @@ def drawn_job(job: Job, size: BitmapSize, findings: tuple[Finding, ...] = ()) ->
     if job.keep_out_layers:
         raise ParameterError(
             "Paths made from pixels do not know clamps; compute the drawing exactly, or take the keep-out layers away."
+        )
+    if any(operation.cut.curves for operation in job.operations if operation.cut.enabled):
+        raise ParameterError(
+            "Paths made from pixels machine all that is drawn; compute the drawing exactly, or take curves out of the "
+            "operations."
         )
     regions, own = regions_of(job)
     if not regions:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..raster.frame import POINTS, Frame
-from ..raster.picture import PictureOptions
+from ..raster.picture_options import PictureOptions
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp")
 """Suffixes of pictures that can be read, in lower case."""

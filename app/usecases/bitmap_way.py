@@ -36,7 +36,7 @@ from ..toolpath.linking.link import link_by_proof
 from ..toolpath.setting import Setting, emit, passes_of
 from ..toolpath.sheets import Sheet, Sheets
 from .bitmap_part import BitmapPart
-from .pixel_path import TOLERANCE_PX, Keep, chain_points, pixel_path
+from .pixel_path import TOLERANCE_PX, WallLimits, chain_points, pixel_path
 
 LONG_LINE = 10.0
 """Tool diameters from which a line counts as long (step 403)."""
@@ -255,7 +255,7 @@ def _smoothed(
     result = []
     for k, (borders, distance) in enumerate(zip(levels, distances, strict=True)):
         progress.step((k + 1) / (len(levels) + 1), "Smooth paths")
-        keep = Keep(distance, distances[0], part.squares, part.frame, part.free)
+        keep = WallLimits(distance, distances[0], part.squares, part.frame, part.free)
         chains = [border.chain for border in borders]
         result.append(
             tuple(PixelPath(chain, pixel_path(chain_points(part.frame, chain), keep, options)) for chain in chains)

@@ -149,7 +149,7 @@ def cut(
         HitofudeError: a tool makes no shape, or is not among the tools; or there are more cells than memory holds.
         Cancelled: the job was asked to stop.
     """
-    run = _Run.of(setup, options, graphics)
+    run = _CutRun.of(setup, options, graphics)
     done = run.cut(progress.part(0.0, 0.4))
     judgement = run.judged(done.cut, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
@@ -191,7 +191,7 @@ class _Done:
 
 
 @dataclass(frozen=True, eq=False)
-class _Run:
+class _CutRun:
     """A setup made ready: what each program is cut along, the cutters, the metal."""
 
     setup: CutSetup
@@ -202,11 +202,11 @@ class _Run:
     graphics: Graphics
 
     @staticmethod
-    def of(setup: CutSetup, options: CutOptions, graphics: Graphics) -> _Run:
+    def of(setup: CutSetup, options: CutOptions, graphics: Graphics) -> _CutRun:
         grid = Grid.over(options.window or setup.stock.box, options.cells)
         ensure_memory(grid, BYTES_A_CELL if setup.part is not None and options.judge else TRIM_BYTES_A_CELL)
         courses = tuple(course_of(program) for program in setup.programs)
-        return _Run(
+        return _CutRun(
             setup,
             options,
             courses,
@@ -223,7 +223,7 @@ class _Run:
             replace(self.setup, part=None),
             replace(self.options, window=None, trace=False, engine=Engine.CPU),
         )
-        whole = _Run.of(setup, replace(options, cells=min(options.cells, CELLS)), self.graphics)._cut(
+        whole = _CutRun.of(setup, replace(options, cells=min(options.cells, CELLS)), self.graphics)._cut(
             progress.part(0.0, 0.5)
         )
         seen = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
@@ -272,10 +272,9 @@ class _Run:
         """Return a program as it was cut; `done` motions were before it."""
         metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
         header = self.setup.programs[k].header
-        rates = {} if header is None else dict(header.plunge_rates)
-        return Stage(
-            self.courses[k], before, after, metal, self.setup.tools, lambda row: self.setup.where(done + row), rates
-        )
+        rates, under = ({}, 0.0) if header is None else (dict(header.plunge_rates), header.under)
+        where = lambda row: self.setup.where(done + row)  # noqa: E731 (a place of this program)
+        return Stage(self.courses[k], before, after, metal, self.setup.tools, where, rates, under)
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""

@@ -17,13 +17,17 @@ from ..verify.exact import Exact
 from ..verify.parts import FlatPart
 from ..verify.verdict import Depths
 from .cut import CutProgram, CutSetup, cut
-from .written import Written
+from .written import WrittenProgram
 
 _TOLD_ELSEWHERE = (FindingKind.LEFT_REACHABLE, FindingKind.LEFT_UNREACHABLE, FindingKind.SKIN)
 
 
 def cut_job(
-    program: Program, job: Job, written: Written, measured: tuple[Depths, Coverage], progress: Progress = NO_PROGRESS
+    program: Program,
+    job: Job,
+    written: WrittenProgram,
+    measured: tuple[Depths, Coverage],
+    progress: Progress = NO_PROGRESS,
 ) -> CutProgram:
     """Cut what was written.
 

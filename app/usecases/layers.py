@@ -6,13 +6,14 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from ..core.errors import InputError
+from ..model.curve_selectors import OnLayer, Selector, layer_names
 from ..model.job import Job
 from ..model.part import Part
 
 
 def layers_to_read(job: Job) -> tuple[str, ...]:
     """Return the layers of a drawing that a job needs; empty = all."""
-    own = [name for operation in job.operations if operation.cut.enabled for name in operation.cut.layers]
+    own = [name for operation in job.operations if operation.cut.enabled for name in layer_names(operation.cut.curves)]
     return tuple(dict.fromkeys((*job.layer_names, *own, *job.keep_out_layers))) if job.layer_names else ()
 
 
@@ -24,7 +25,9 @@ def with_layers_spelled(job: Job) -> Job:
         InputError: the part has no such layer.
     """
     operations = tuple(
-        replace(each, cut=replace(each.cut, layers=_spelled(each.cut.layers, job.part))) if each.cut.enabled else each
+        replace(each, cut=replace(each.cut, curves=_curves_spelled(each.cut.curves, job.part)))
+        if each.cut.enabled
+        else each
         for each in job.operations
     )
     return replace(
@@ -32,6 +35,13 @@ def with_layers_spelled(job: Job) -> Job:
         operations=operations,
         layer_names=_spelled(job.layer_names, job.part),
         keep_out_layers=_spelled(job.keep_out_layers, job.part),
+    )
+
+
+def _curves_spelled(curves: Iterable[Selector], part: Part) -> tuple[Selector, ...]:
+    """Return selectors whose layers are called as the part calls them."""
+    return tuple(
+        dict.fromkeys(OnLayer(*_spelled((each.name,), part)) if isinstance(each, OnLayer) else each for each in curves)
     )
 
 

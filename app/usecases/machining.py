@@ -10,7 +10,8 @@ from ..core.errors import ParameterError
 from ..model.fields import Placed, parameters_of, with_values
 from ..model.job import Copies, Job
 from ..model.operation import OPERATION_KINDS, Cut, DrillOperation, Operation, Order, parameters
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
+from ..model.tool_kind import ToolKind
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,6 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
 from ..gcode.posts.posts import load_post
-from ..gcode.rework.frame import Frame, frame_text
 from ..gcode.timing.extent import Extent
 from ..gcode.writer.write import NcFile, NcText
 from ..model.finding import Finding, FindingKind, worst_first
@@ -23,7 +22,6 @@ from ..model.job import Job
 from ..model.machine import Machine
 from ..model.moves import Program
 from ..model.stock_box import stock_box, work_origin
-from ..model.tool import ToolKind
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
 from ..toolpath.coverage.wanted import CHORD
 from ..toolpath.witness import about_floors
@@ -39,10 +37,13 @@ from ..verify.verdict import (
 from .bitmap_options import is_picture
 from .cut import CutProgram
 from .cut_job import cut_job, news
+from .engagement_proofs import engagement_proofs
 from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
 from .plausible import read_for
+from .proposal.into_job import with_proposal
+from .proposal.propose import Proposal
 from .report import Measured, Report, make_report, rings_in_words
 from .written import write_and_check
 
@@ -68,6 +69,7 @@ class Made:
         findings: everything there is to say, what counts first.
         coverage: what is left on the floor, with outlines.
         cut: the files cut out of the stock and compared with the drawing; None when no move was made.
+        proposal: that the operations are of; None where none was asked for.
     """
 
     job: Job
@@ -78,6 +80,7 @@ class Made:
     findings: tuple[Finding, ...]
     coverage: Coverage
     cut: CutProgram | None
+    proposal: Proposal | None = None
 
     @property
     def nc(self) -> NcText:
@@ -90,6 +93,8 @@ class Made:
         Raises:
             ParameterError: nothing is cut.
         """
+        from ..gcode.rework.frame import Frame, frame_text
+
         program = self.program
         top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
         height = self.job.travel_z - top if self.files else 0.0
@@ -131,8 +136,12 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     if options.bitmap is not None or is_picture(name):
         return _make_on_bitmap(name, data, options, progress)
     drawing = read_for(name, data, options)
+    options, proposal = with_proposal(drawing.part, options, progress.part(0.05, 0.1))
     job = job_from_drawing(drawing, options)
-    made = export(job, progress.part(0.1, 1.0), drawing.findings, options.machine)
+    told = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
+    made = export(job, progress.part(0.1, 1.0), told, options.machine)
+    if proposal is not None:
+        made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
     if not len(made.program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made
@@ -213,7 +222,8 @@ def finish(
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    depths = gouge_depths(program, job, progress=progress.part(0.2, 0.28))
+    proofs = engagement_proofs(program, job, written, progress.part(0.2, 0.22))
+    depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
     coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
@@ -223,6 +233,7 @@ def finish(
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
+        *(finding for proof in proofs.values() for finding in proof.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if machine else ()),
@@ -232,7 +243,7 @@ def finish(
     )
     findings = worst_first((*own, *program.findings, *drawing_findings))
     progress.step(1.0, "Done")
-    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal))
+    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal, proofs))
     return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 
 
@@ -249,7 +260,7 @@ def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
             f"{tool.diameter:g} mm: walls and floor will not come out as they are shown; choose a flat cutter.",
         )
         for tool in tools
-        if tool.kind is not ToolKind.FLAT
+        if not tool.kind.square
     )
 
 

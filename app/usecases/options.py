@@ -15,11 +15,12 @@ from ..model.operation import (
     Side,
 )
 from ..model.part import Part, Units
-from ..model.read_options import AS_DRAWN, ReadOptions
+from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
 from .bitmap_options import BitmapOptions
 from .layers import layers_to_read, with_layers_spelled
 from .machining import Machining, contours_alone, no_effect, with_drills, with_machining
+from .proposal.propose import Proposing
 
 LEAST_PER_CENT = 1.0
 """Of the diameter; a smaller stepover is a slip of the pen."""
@@ -64,6 +65,7 @@ class MakeOptions:
         bitmap: compute on pixels, and how they are made; None = exactly, but for pictures.
         machining: sides, entries, leads, tabs, drills, copies, clamps.
         reading: what else is said about reading the drawing.
+        propose: propose the operations; None = they are those of the job.
     """
 
     job: Job | None = None
@@ -87,7 +89,8 @@ class MakeOptions:
     machine: Machine | None = None
     bitmap: BitmapOptions | None = None
     machining: Machining = field(default_factory=Machining)
-    reading: ReadOptions = AS_DRAWN
+    reading: DrawingOptions = AS_DRAWN
+    propose: Proposing | None = None
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:

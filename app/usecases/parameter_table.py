@@ -37,7 +37,7 @@ def _values(placed: Placed) -> str:
     declared = placed.parameter
     if placed.enum is not None:
         return ", ".join(str(each.value) for each in placed.enum)
-    words = {Unit.FLAG: "true, false", Unit.NAMES: "names", Unit.POINTS: "points [x, y], mm"}
+    words = {Unit.FLAG: "true, false", Unit.CURVES: "selectors", Unit.POINTS: "points [x, y], mm"}
     return words.get(declared.unit) or declared.range_words()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, Picture, Points, Style
+from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathStyle, Picture, Points
 from ..geometry.primitives import contour_rows
 from ..model.moves import MoveKind, Moves, Program, Purpose
 from ..toolpath.coverage.coverage import Coverage
@@ -46,7 +46,7 @@ def _rings(coverage: Coverage, reachable: bool) -> tuple[Points, ...]:
     return tuple(ring for place in places for ring in (place.outline, *place.holes))
 
 
-def _runs(moves: Moves) -> list[tuple[Style, np.ndarray]]:
+def _runs(moves: Moves) -> list[tuple[PathStyle, np.ndarray]]:
     """Return style and rows of each run of moves of one purpose; moves straight up or down are left out."""
     if not len(moves):
         return []

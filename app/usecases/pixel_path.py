@@ -69,7 +69,7 @@ def clearance(rows: Rows, field: DistanceField, step: float, limit: float) -> Fl
 
 
 @dataclass(frozen=True)
-class Keep:
+class WallLimits:
     """What a path has to keep from the walls' squares.
 
     Attributes:
@@ -106,7 +106,7 @@ class Keep:
         return bool(self.free[lines, cols].all() and spare.min() >= self.least - self.level - _EXACT * self.pitch)
 
 
-def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
+def pixel_path(points: Floats, keep: WallLimits, options: SmoothOptions) -> Smoothed:
     """Return the path along a chain's points, as near to its level as pixels allow (steps 401-407).
 
     Where no smoothed path keeps the least distance, not even a less smooth one, it stays a line from pixel to pixel,
@@ -127,7 +127,7 @@ def pixel_path(points: Floats, keep: Keep, options: SmoothOptions) -> Smoothed:
     return as_it_is(points)
 
 
-def _moved_out(path: Smoothed, points: Floats, keep: Keep, tolerance: float) -> Smoothed | None:
+def _moved_out(path: Smoothed, points: Floats, keep: WallLimits, tolerance: float) -> Smoothed | None:
     """Return the path moved to its level, rows that touch all alike; None where nothing keeps the least distance.
 
     Rows that come too near go back and then stay, so that neighbours in a corner do not take turns. Rows that vanish on

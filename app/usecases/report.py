@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -23,8 +23,9 @@ from ..toolpath.coverage.wanted import CHORD
 from ..verify.judgement import SpotKind
 from ..verify.verdict import Gouge, RapidInMaterial
 from .cut import CutProgram
+from .engagement_proofs import OperationProof
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
-from .written import Written
+from .written import WrittenProgram
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
 BITMAP_ENGINE = "pixels alone, smoothed into lines and arcs that keep clear of the pixels' squares"
@@ -59,16 +60,18 @@ class Measured:
         written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
         cut: the files, cut out of the stock; None without files.
+        proofs: of the engaged angle, by index of the operation.
     """
 
     program: Program
     job: Job
-    written: Written
+    written: WrittenProgram
     gouge: Gouge
     rapids: tuple[RapidInMaterial, ...]
     coverage: Coverage
     findings: tuple[Finding, ...]
     cut: CutProgram | None
+    proofs: Mapping[int, OperationProof] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -89,17 +92,28 @@ class Report:
         """Return it with the wall time of each stage of the job, s, in their order."""
         return Report({**self.data, "timings_s": dict(seconds)})
 
+    def with_proposal(self, proposal: Json) -> Report:
+        """Return it with what was proposed, and why."""
+        return Report({**self.data, "proposal": proposal})
+
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
         data = self.data
+        beyond = out_of_reach(data["left"])
         minutes, seconds = divmod(round(data["time_s"]), 60)
         length = sum(data["length_mm"].values())
         return (
             f"{output}: {data['gouge']['max_mm']:.4f} mm gouge, {data['left']['reachable_mm2']:.3f} mm2 left within "
-            f"reach, {len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
+            f"reach, {beyond}{len(data['rapids_in_material'])} rapids in material; {data['strokes']} pocket strokes, "
             f"{data['retracts']} retracts, {length:.0f} mm, {minutes}:{seconds:02d} min; read back within "
             f"{data['check']['largest_distance_mm']:.4f} mm"
         )
+
+
+def out_of_reach(left: Json) -> str:
+    """Return how many places are out of reach of every tool, with a comma behind; nothing where there is none."""
+    count = left["out_of_reach_places"]
+    return "" if not count else "1 place out of reach, " if count == 1 else f"{count} places out of reach, "
 
 
 def make_report(measured: Measured) -> Report:
@@ -118,6 +132,7 @@ def make_report(measured: Measured) -> Report:
                 "method": COVERAGE_METHOD,
                 "places": [_place(place) for place in measured.coverage.places[:100]],
                 "places_count": len(measured.coverage.places),
+                "out_of_reach_places": sum(not place.reachable for place in measured.coverage.places),
                 **({"given_up_mm2": measured.coverage.given_up_mm2} if program.given_up_mm is not None else {}),
             },
             "rapids_in_material": [
@@ -153,12 +168,19 @@ def make_report(measured: Measured) -> Report:
                 "pitch_mm": program.pitch_mm,
             },
             "tools": [_tool(tool, measured) for tool in job.tools],
-            "operations": [operation_values(job, index, program, written, top) for index in range(len(job.operations))],
+            "operations": [
+                operation_values(job, index, program, written, top) | _proven(measured, index)
+                for index in range(len(job.operations))
+            ],
             **_setup(measured),
             "post": job.post,
             "out_units": "in" if job.out_units.value == 25.4 else "mm",
         }
     )
+
+
+def _proven(measured: Measured, index: int) -> Json:
+    return {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
 
 
 def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:
@@ -172,7 +194,7 @@ def _line(measured: Measured, move: int) -> Json:
     return {"line": line} | ({"file": files[-1] + 1} if len(measured.written.files) > 1 and files else {})
 
 
-def _check(written: Written) -> Json:
+def _check(written: WrittenProgram) -> Json:
     checks = written.checks
     return {
         "largest_distance_mm": written.largest_distance_mm,
@@ -206,7 +228,7 @@ def _box(box: Extent) -> Json:
     return {end: [value if np.isfinite(value) else None for value in getattr(box, end)] for end in ("low", "high")}
 
 
-def _times(written: Written) -> Json:
+def _times(written: WrittenProgram) -> Json:
     parts = [each.parts for each in written.durations]
     waits = written.changes_s + sum(part["wait"] for part in parts)
     return {

@@ -14,7 +14,7 @@ from ..model.motion import MotionKind
 from ..model.moves import MoveKind, Moves, Program, Purpose
 from ..model.operation import Operation
 from ..verify.verdict import in_stock
-from .written import Written
+from .written import WrittenProgram
 
 LENGTHS_METHOD = (
     "cut: in metal or where it was; link: between rings; lead: to walls and away from them; entry: ways down below the "
@@ -27,7 +27,7 @@ Json = dict[str, Any]
 Mask = NDArray[np.bool_]
 
 
-def path_lengths(moves: Moves, written: Written, top: float, operation: int | None = None) -> dict[str, float]:
+def path_lengths(moves: Moves, written: WrittenProgram, top: float, operation: int | None = None) -> dict[str, float]:
     """Return lengths of what was written, mm: cut, link, lead, entry, air, rapid; they add up to the whole.
 
     Args:
@@ -45,7 +45,7 @@ def path_lengths(moves: Moves, written: Written, top: float, operation: int | No
     return {"cut": cut, **found, "air": air, "rapid": float(np.sum(written.length[mine & rapid]))}
 
 
-def _share_above(written: Written, top: float) -> NDArray[np.float64]:
+def _share_above(written: WrittenProgram, top: float) -> NDArray[np.float64]:
     """Return (m,) which share of each motion lies above the stock's top; along each, Z changes evenly."""
     if not written.programs:
         return np.zeros(0)
@@ -78,7 +78,7 @@ def _runs(moves: Moves, chosen: Mask) -> int:
     return len(np.unique(np.cumsum(~feed)[feed & chosen]))
 
 
-def operation_values(job: Job, index: int, program: Program, written: Written, top: float) -> Json:
+def operation_values(job: Job, index: int, program: Program, written: WrittenProgram, top: float) -> Json:
     """Return an operation as a report lists it.
 
     Args:
@@ -124,6 +124,8 @@ def _suffix(placed: Placed) -> str:
 def _plain(placed: Placed, value: Any) -> Any:
     if isinstance(value, Enum):
         return value.value
+    if placed.parameter.unit is Unit.CURVES:
+        return [each.text for each in value]
     if isinstance(value, tuple):
         return [list(each) if isinstance(each, tuple) else each for each in value]
     return placed.parameter.shown(value) if placed.parameter.unit is Unit.ANGLE and value is not None else value

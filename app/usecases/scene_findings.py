@@ -14,7 +14,7 @@ from ..model.finding import Finding, FindingKind
 from ..model.moves import Purpose
 from ..model.scene_shapes import MeshShape
 from ..model.stock_box import StockBox
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
 from ..operations.parallel.surface_moves import SurfaceMoves
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
@@ -162,8 +162,8 @@ def _dip(tool: Tool, radius: float) -> float:
     """
     if radius >= tool.radius:
         return math.inf
-    rounded = tool.radius if tool.kind is ToolKind.BALL else tool.corner_radius if tool.kind is ToolKind.BULL else 0.0
+    if tool.kind.conical:
+        return radius
+    rounded = tool.profile.fillet
     inner = radius - (tool.radius - rounded)
-    if tool.kind in (ToolKind.BALL, ToolKind.BULL):
-        return rounded - math.sqrt(rounded**2 - inner**2) if inner > 0 else 0.0
-    return 0.0 if tool.kind is ToolKind.FLAT else radius
+    return rounded - math.sqrt(rounded**2 - inner**2) if inner > 0 else 0.0

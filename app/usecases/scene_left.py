@@ -20,7 +20,7 @@ from ..simulation.field.workpiece import Grid, Workpiece
 from ..verify.parts import TOLERANCE
 from ..verify.places import places_of
 from .ridges import MOST, ridges
-from .scene_reach import Floats, Heights, Sheet, Wish, reached, slopes
+from .scene_reach import FamilyReach, Floats, Heights, SurfaceGrid, reached, slopes
 
 Mask = NDArray[np.bool_]
 
@@ -40,7 +40,7 @@ CELLS_WIDE = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class FamilyRequest:
     """What one family of passes is to do.
 
     Attributes:
@@ -51,7 +51,7 @@ class Asked:
         overrun: whether it is kept from going on beside the surfaces as far as it touches them.
     """
 
-    wish: Wish
+    wish: FamilyReach
     angle: float
     spacing: float
     ridge: float | None
@@ -73,7 +73,7 @@ class Ridge:
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class SceneLeft:
     """What a program leaves within reach of its tools; places in the coordinates of the grid.
 
     Attributes:
@@ -100,8 +100,8 @@ class Left:
 
 
 def left_of(
-    metal: Workpiece, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress = NO_PROGRESS
-) -> Left:
+    metal: Workpiece, triangles: Floats, error: float, asked: Sequence[FamilyRequest], progress: Progress = NO_PROGRESS
+) -> SceneLeft:
     """Return what is left of a part's metal.
 
     Args:
@@ -112,7 +112,7 @@ def left_of(
         Cancelled: the job was asked to stop.
     """
     grid = metal.grid
-    sheet = Sheet.of(triangles, grid)
+    sheet = SurfaceGrid.of(triangles, grid)
     on = np.isfinite(sheet.heights)
     allowed, low = _allowed(sheet, triangles, error, asked, progress)
     over = np.where(on & np.isfinite(low), metal.heights - np.where(np.isfinite(low), low, 0.0), 0.0).astype(np.float32)
@@ -122,17 +122,17 @@ def left_of(
     ridge = _ridge(sheet, over, mask, low, asked)
     within = min((_level(each) * BENT + each.chord for each in asked), default=0.0) + TOLERANCE + error
     if not found:
-        return Left(0.0, 0, 0.0, 0.0, 0.0, 0.0, ridge, within, grid.pitch)
+        return SceneLeft(0.0, 0, 0.0, 0.0, 0.0, 0.0, ridge, within, grid.pitch)
     row, col = found[0].cell
     x, y = grid.place(row * grid.cols + col)
     area = float(np.count_nonzero(mask)) * grid.pitch**2
     rim = _at_rim(on, row, col, math.ceil(max(each.wish.cutter.radius for each in asked) / grid.pitch))
     short = rim and any(each.overrun for each in asked)
-    return Left(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
+    return SceneLeft(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
 
 
 def _allowed(
-    sheet: Sheet, triangles: Floats, error: float, asked: Sequence[Asked], progress: Progress
+    sheet: SurfaceGrid, triangles: Floats, error: float, asked: Sequence[FamilyRequest], progress: Progress
 ) -> tuple[Floats, Heights]:
     """Return how much higher than within reach metal may stand, mm straight up, and how low is within reach."""
     grid, found = sheet.grid, []
@@ -154,7 +154,7 @@ def _allowed(
     return allowed, low
 
 
-def _ridges(asked: Asked, across: Floats, grid: Grid) -> Floats:
+def _ridges(asked: FamilyRequest, across: Floats, grid: Grid) -> Floats:
     """Return how high ridges may stand at each cell, square to the surface: on sides as high as at the steepest place
     near.
     """
@@ -168,7 +168,7 @@ def _ridges(asked: Asked, across: Floats, grid: Grid) -> Floats:
     return ridges(asked.wish.cutter, asked.spacing, np.where(across >= STEEP, near, across))
 
 
-def _upright(sheet: Sheet, low: Heights, asked: Asked, square: Floats) -> Floats:
+def _upright(sheet: SurfaceGrid, low: Heights, asked: FamilyRequest, square: Floats) -> Floats:
     """Return what heights square to what is within reach are straight up, and beside them how much too low that may be
     told, mm.
 
@@ -189,7 +189,7 @@ def _upright(sheet: Sheet, low: Heights, asked: Asked, square: Floats) -> Floats
     return np.asarray(square * np.hypot(1.0, rise) + bent + np.where(corner, nearer, 0.0))
 
 
-def _across(own: tuple[Floats, Floats], asked: Asked) -> Floats:
+def _across(own: tuple[Floats, Floats], asked: FamilyRequest) -> Floats:
     """Return how steep places are across passes."""
     return np.asarray(np.abs(own[1] * math.cos(asked.angle) - own[0] * math.sin(asked.angle)))
 
@@ -209,12 +209,12 @@ def _wide(mask: Mask) -> Mask:
     return np.asarray(kept[labels])
 
 
-def _level(asked: Asked) -> float:
+def _level(asked: FamilyRequest) -> float:
     """Return how high ridges are on a level floor, mm."""
     return asked.ridge if asked.ridge is not None else float(ridges(asked.wish.cutter, asked.spacing, np.zeros(1))[0])
 
 
-def _ridge(sheet: Sheet, over: Heights, mask: Mask, low: Heights, asked: Sequence[Asked]) -> Ridge | None:
+def _ridge(sheet: SurfaceGrid, over: Heights, mask: Mask, low: Heights, asked: Sequence[FamilyRequest]) -> Ridge | None:
     """Return the highest ridge on the surfaces: of what is not left, and where the tools come down to them."""
     own = slopes(sheet.heights, sheet.grid.pitch)
     rise = np.hypot(*own)
@@ -237,7 +237,7 @@ def _at_rim(on: Mask, row: int, col: int, reach: int) -> bool:
     return not bool(framed[row : row + 2 * reach + 1, col : col + 2 * reach + 1].all())
 
 
-def left_findings(left: Left, origin: Floats, angles: Sequence[float]) -> Iterator[Finding]:
+def left_findings(left: SceneLeft, origin: Floats, angles: Sequence[float]) -> Iterator[Finding]:
     """Yield what there is to say of it, in the scene's coordinates.
 
     Args:
@@ -270,7 +270,7 @@ def left_findings(left: Left, origin: Floats, angles: Sequence[float]) -> Iterat
         )
 
 
-def _remedy(left: Left, angles: Sequence[float]) -> str:
+def _remedy(left: SceneLeft, angles: Sequence[float]) -> str:
     if left.cut_short:
         return "let the passes go on beside the surfaces: leave overrun out, or make it the tool's radius"
     free = next(

@@ -63,7 +63,7 @@ class SceneCut:
 
 
 @dataclass(frozen=True, eq=False)
-class Block:
+class SceneBlank:
     """What a scene is cut from.
 
     Attributes:
@@ -90,7 +90,10 @@ class Block:
 
 
 def scene_cut(
-    programs: Sequence[NcProgram], tools: Sequence[Mapping[int, Tool]], block: Block, progress: Progress = NO_PROGRESS
+    programs: Sequence[NcProgram],
+    tools: Sequence[Mapping[int, Tool]],
+    block: SceneBlank,
+    progress: Progress = NO_PROGRESS,
 ) -> SceneCut:
     """Cut a scene's program, and say, by tool, where it takes more metal at a time than it can be meant to.
 

@@ -24,7 +24,7 @@ Heights = NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class FamilyReach:
     """What one family of passes may do, in the coordinates of the grid.
 
     Attributes:
@@ -40,7 +40,7 @@ class Wish:
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class SurfaceGrid:
     """Surfaces over a grid, seen from above.
 
     Attributes:
@@ -51,14 +51,14 @@ class Sheet:
     heights: Heights
 
     @staticmethod
-    def of(triangles: Floats, grid: Grid) -> Sheet:
+    def of(triangles: Floats, grid: Grid) -> SurfaceGrid:
         """Return the tops of triangles (n, 3, 3) at the cells' centres."""
         heights = np.full((grid.rows, grid.cols), -np.inf, np.float32)
         met = np.zeros(heights.shape, np.int32)
         drop(np.ascontiguousarray(triangles), (grid.x0, grid.y0, grid.pitch), 0, len(triangles), heights, met)
-        return Sheet(grid, heights)
+        return SurfaceGrid(grid, heights)
 
-    def left_thick(self, leave: float) -> Sheet:
+    def left_thick(self, leave: float) -> SurfaceGrid:
         """Return it with stock left on it, square to it: on planes exactly, beside walls to a cell, in corners a little
         more.
         """
@@ -93,7 +93,7 @@ def slopes(heights: Heights, pitch: float) -> tuple[Floats, Floats]:
     return found[0], found[1]
 
 
-def reached(triangles: Floats, grid: Grid, wish: Wish, progress: Progress = NO_PROGRESS) -> Heights:
+def reached(triangles: Floats, grid: Grid, wish: FamilyReach, progress: Progress = NO_PROGRESS) -> Heights:
     """Return (rows, cols) the lowest that a tool cuts without going into surfaces; infinite where it does not come.
 
     Args:
@@ -105,7 +105,7 @@ def reached(triangles: Floats, grid: Grid, wish: Wish, progress: Progress = NO_P
     pitch = max(grid.pitch, wish.cutter.radius / MOST_REACH)
     reach = math.ceil((wish.cutter.radius + min(wish.leave, wish.cutter.radius)) / pitch) + 1
     wide = _over(grid, pitch, reach)
-    sheet = Sheet.of(triangles, wide).left_thick(wish.leave)
+    sheet = SurfaceGrid.of(triangles, wide).left_thick(wish.leave)
     form = cutter_profile(wish.cutter, pitch)
     tip = np.maximum(dilated(sheet.heights, form, progress), np.float32(wish.lowest))
     if wish.area is not None:

@@ -8,12 +8,12 @@ import shapely.affinity
 from ..core.progress import NO_PROGRESS, Progress
 from ..simulation.cutter import cutter_of
 from ..simulation.field.workpiece import Workpiece
-from .scene_left import Asked, Left, left_of
-from .scene_reach import Wish
+from .scene_left import FamilyRequest, SceneLeft, left_of
+from .scene_reach import FamilyReach
 from .surface import Computed, Family
 
 
-def left_in(computed: Computed, metal: Workpiece, progress: Progress = NO_PROGRESS) -> Left:
+def left_in(computed: Computed, metal: Workpiece, progress: Progress = NO_PROGRESS) -> SceneLeft:
     """Return what a computed scene's program leaves within reach.
 
     Args:
@@ -28,15 +28,15 @@ def left_in(computed: Computed, metal: Workpiece, progress: Progress = NO_PROGRE
     return left_of(metal, triangles, float(facets.error.max()), asked, progress)
 
 
-def _asked(computed: Computed, family: Family) -> Asked:
+def _asked(computed: Computed, family: Family) -> FamilyRequest:
     passes, tool = family.passes, family.tool
     x, y, z = computed.origin
     floor = computed.stock.z0 if passes.floor is None else max(passes.floor, computed.stock.z0)
     area = None if family.area is None else shapely.affinity.translate(family.area, -x, -y)
-    wish = Wish(cutter_of(tool), passes.stock_to_leave, floor - z, area)
+    wish = FamilyReach(cutter_of(tool), passes.stock_to_leave, floor - z, area)
     spacing = _spacing(family)
     short = passes.overrun is not None and passes.overrun < tool.radius
-    return Asked(wish, family.planes.angle, spacing, passes.scallop, passes.chord_tolerance, short)
+    return FamilyRequest(wish, family.planes.angle, spacing, passes.scallop, passes.chord_tolerance, short)
 
 
 def closest_passes(computed: Computed) -> float:

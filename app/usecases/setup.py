@@ -23,7 +23,7 @@ from ..model.moves import DogBone, Tab
 from ..model.operation import Cut, Operation, PocketOperation
 from ..model.part import Contour, Region, Units
 from ..model.part import Part as DrawnPart
-from ..model.read_options import AS_DRAWN, ReadOptions
+from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.reading import Reading
 from ..model.scene import Scene
 from ..model.stock_box import stock_box, work_origin
@@ -73,7 +73,7 @@ class Wishes:
     join_tolerance: float | None = None
     tolerance: float | None = None
     held: Mapping[int, Held] = field(default_factory=dict)
-    reading: ReadOptions = AS_DRAWN
+    reading: DrawingOptions = AS_DRAWN
 
 
 @dataclass(frozen=True, eq=False)
@@ -396,7 +396,8 @@ def _job_stock(
         thickness = note.size[2]
     else:
         thickness = max([base.stock.thickness, *(each.cut.depth for each in operations)])
-    return replace(base.stock, thickness=thickness)
+    told = (each.program.header.under for each in programs if each.program.header is not None)
+    return replace(base.stock, thickness=thickness, under=max([base.stock.under, *told]))
 
 
 def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Operation, ...]:

@@ -15,8 +15,8 @@ from ..gcode.interpreter.program import NcProgram, ToolNote
 from ..gcode.timing.duration import duration
 from ..model.finding import Finding, FindingKind
 from ..model.motion import MotionKind
-from ..model.tool import HolderPoint, Tool, ToolKind, shape_keys
-from ..simulation.cutter import DRILL_ANGLE
+from ..model.tool import HolderPoint, Tool
+from ..model.tool_kind import ToolKind, shape_keys
 from .examine import Examined
 
 NAMELESS = 0
@@ -202,10 +202,11 @@ def _by(told: ToolsTold, number: int) -> KnownTool:
             f"T{number}: {told.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says "
             "otherwise."
         )
-    elif tool.kind is ToolKind.DRILL and not tool.tip_angle:
+    elif tool.kind.assumed_angle and not tool.tip_angle:
         assumed = (
-            f"T{number}: {told.source} tells a drill of {tool.diameter:g} mm but no angle; it is taken to have "
-            f"{np.degrees(DRILL_ANGLE):g} degrees; --tool {number}=drill:{tool.diameter:g}:ANGLE says otherwise."
+            f"T{number}: {told.source} tells a {tool.kind.value} of {tool.diameter:g} mm but no angle; "
+            f"it is taken to have {np.degrees(tool.kind.assumed_angle):g} degrees; --tool "
+            f"{number}={tool.kind.spelled(f'{tool.diameter:g}')} says otherwise."
         )
     return KnownTool(tool, told.source, assumed)
 
@@ -217,11 +218,10 @@ def _noted(note: ToolNote, place: str) -> KnownTool:
         InputError: it lacks what its shape needs, or is none.
     """
     kind = _kind(note)
-    if kind in (ToolKind.V, ToolKind.TAPER) and not note.angle:
-        example = "v:DIAMETER:ANGLE" if kind is ToolKind.V else "taper:TIP:ANGLE:DIAMETER"
+    if kind.conical and not kind.assumed_angle and not note.angle:
         raise InputError(
             f"T{note.number}: {place} tells of a {kind.value} tool of {note.diameter:g} mm but not of its angle; "
-            f"give it: --tool {note.number}={example}."
+            f"give it: --tool {note.number}={kind.spelled('DIAMETER')}."
         )
     told = {"corner_radius": note.corner_radius, "tip_angle": note.angle, "tip_diameter": note.tip_diameter}
     shape: dict[str, Any] = {key: value for key, value in told.items() if key in shape_keys(kind)}
@@ -236,8 +236,7 @@ def _kind(note: ToolNote) -> ToolKind:
     """Return the kind that a comment names, or that its corner radius makes it; flat where there is neither."""
     if 0 < note.diameter <= 2 * note.corner_radius:
         return ToolKind.BALL
-    named = next((kind for kind in ToolKind if kind.value == note.kind), None)
-    return named or (ToolKind.BULL if note.corner_radius else ToolKind.FLAT)
+    return ToolKind.words().get(note.kind) or (ToolKind.BULL if note.corner_radius else ToolKind.FLAT)
 
 
 def _assumed(note: ToolNote, kind: ToolKind, place: str) -> str:
@@ -246,8 +245,8 @@ def _assumed(note: ToolNote, kind: ToolKind, place: str) -> str:
     example = f"--tool {note.number}=KIND:DIAMETER says otherwise"
     if not note.kind and kind is ToolKind.FLAT:
         return f"{said} shape; it is taken to be flat; {example}."
-    if kind is ToolKind.DRILL and not note.angle:
-        return f"{said} angle; the drill is taken to have {np.degrees(DRILL_ANGLE):g} degrees; {example}."
+    if kind.assumed_angle and not note.angle:
+        return f"{said} angle; the {kind.value} is taken to have {np.degrees(kind.assumed_angle):g} degrees; {example}."
     if kind is ToolKind.BULL and not note.corner_radius:
         return f"{said} corner radius; the bull-nose mill is taken to have a square corner; {example}."
     return ""

@@ -8,30 +8,27 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.errors import HitofudeError, InputError, ParameterError
+from ..core.errors import HitofudeError, InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..fitting.fitted import FittedPath
-from ..fitting.line_arcs.arc_fit import BEND, ArcOptions, fit_arcs
-from ..fitting.point_curves.corners import LEAST_LEG, bends, corners
+from ..fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
+from ..fitting.point_curves.corners import bends, corners
 from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, without_repeats
 from ..fitting.point_curves.proven_curve import SplineOptions, fit_splines
-from ..fitting.point_curves.smoothness import Smoothness, of_curve, of_points
+from ..fitting.point_curves.smoothness import of_curve, of_points
 from ..fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, joined
 from ..fitting.point_curves.through_points import through_points
 from ..fitting.point_curves.tube import Answer, Judgement, Tube, judge
-from ..gcode.interpreter.dialect import Dialect
 from ..gcode.interpreter.options import PATIENT, ReadOptions
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.interpreter.reader import read_program
 from ..gcode.interpreter.text import Text
-from ..gcode.posts.post import NurbsForm, Post
+from ..gcode.posts.post import NurbsForm
 from ..gcode.rework.rewrite import Rewritten, rewrite
-from ..gcode.rework.stretches import Found, Stretch, find_stretches
+from ..gcode.rework.stretches import Found, find_stretches
 from ..gcode.writer.blocks import Blocks
 from ..gcode.writer.curve_blocks import Spelling, curve_blocks
 from ..gcode.writer.linuxcnc_biarcs import driven
@@ -39,152 +36,17 @@ from ..geometry.same_places import near
 from ..model.motion import Floats, MotionKind, Motions, Nurbs
 from .smooth_report import certificate
 from .smooth_source import SourceProgram, read_source
+from .smoothed import REACH, TOLERANCES, Form, Piece, Smoothed, SmoothOptions
 
-TOLERANCES = (1e-4, 10.0)
-"""mm; what a tolerance may be."""
+__all__ = ["TOLERANCES", "Form", "Piece", "SmoothOptions", "Smoothed", "smooth"]
 
 _FOR_CUBICS = 0.25
 """Of the tolerance: what cubics in place of a spline of degree 5 take up."""
 _FINE = 0.1
 """Of the nearness: how far chords may be from the splines that they stand for."""
-_REACH = 4.0
-"""Corners are looked for over so many tolerances of the path."""
 
 LARGEST_RADIUS = 10_000.0
 """mm; what is flatter is written as a line."""
-
-
-class Form(Enum):
-    """What stretches are written as."""
-
-    LINES = "lines"
-    ARCS = "arcs"
-    NURBS = "nurbs"
-
-
-@dataclass(frozen=True)
-class SmoothOptions:
-    """How to smooth.
-
-    Attributes:
-        tolerance: by how much curve and moves may be apart, both ways, mm.
-        form: what is written.
-        middle: half way between two points the curve may be so far away, mm; None: no farther than at them.
-        degree: of splines, 3 or 5; no control knows degree 5, which goes out as cubics that take up part of the
-            tolerance.
-        corner: bends of more than this are kept exactly, radians.
-        post: in whose words all of the program is written; None = those of the control that it is for.
-        dialect: how the program is read; None = as the text looks, whatever the post.
-        effective: method D; None: the curve goes by all points.
-        bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the
-            moves do there.
-    """
-
-    tolerance: float = 0.01
-    form: Form = Form.ARCS
-    middle: float | None = None
-    degree: int = 3
-    corner: float = math.radians(30.0)
-    post: Post | None = None
-    dialect: Dialect | None = None
-    effective: EffectiveMethod | None = None
-    bend: float = BEND
-
-    @property
-    def least_leg(self) -> float:
-        """Bends above `corner` whose legs are both so long or longer are kept exactly, whatever is beside them, mm."""
-        return LEAST_LEG * _REACH * max(self.tolerance, self.middle or 0.0)
-
-    def __post_init__(self) -> None:
-        if not TOLERANCES[0] <= self.tolerance <= TOLERANCES[1]:
-            raise ParameterError(
-                f"the tolerance is {self.tolerance:g} mm; use {TOLERANCES[0]:g} to {TOLERANCES[1]:g} mm."
-            )
-        if self.degree not in (3, 5):
-            raise ParameterError(f"a spline of degree {self.degree}; use 3 or 5.")
-        if not 0 < self.corner <= math.pi:
-            raise ParameterError(
-                f"a corner of {math.degrees(self.corner):g} degrees; use more than 0 and not more than 180."
-            )
-        if not 0 < self.bend <= math.pi:
-            raise ParameterError(
-                f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180."
-            )
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """One stretch, before and after.
-
-    Attributes:
-        stretch: of the program that came in.
-        points: its places, none twice in a row, mm.
-        blocks: that it had and has.
-        curve: what the written text drives along; None where the stretch stayed as it was.
-        judgement: of that curve against the points; None where it stayed.
-        kept: why it stayed, or "".
-        before, after: how smooth it is.
-        corners: numbers of its points that are kept exactly, the outer ones among them.
-        classes: what its points are by method D; None without it, and of a stretch that is too short.
-        near: of the curve against the points that method D goes by; None without it.
-        lines: its first and last one in the text that came in, 1-based.
-        rounded: how many bends above the corner's angle, beside shorter legs than corners have, are kept no more.
-    """
-
-    stretch: Stretch
-    points: Floats
-    blocks: tuple[int, int]
-    curve: SpaceCurve | None
-    judgement: Judgement | None
-    kept: str
-    before: Smoothness
-    after: Smoothness
-    corners: NDArray[np.int64]
-    classes: PointClasses | None = None
-    near: Judgement | None = None
-    lines: tuple[int, int] = (0, 0)
-    rounded: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Smoothed:
-    """A program, smoothed.
-
-    Attributes:
-        name: of the file that came in.
-        options: what was asked.
-        source: the program as its own control reads it.
-        before, after: the same in the words that it is written in, before and after smoothing, both as the control of
-            those reads them.
-        data: the new text.
-        pieces: every stretch, in the order of the text.
-        found: stretches, and what is in none.
-        dialects: of the control that the program came for, and of the one that it is written for.
-        off: how far from the source all else may be in the other control's words, mm; 0 where it is the same control.
-        nearness: how far from the points of method D curves may be, mm; None without it.
-    """
-
-    name: str
-    options: SmoothOptions
-    source: NcProgram
-    before: NcProgram
-    after: NcProgram
-    data: bytes
-    pieces: tuple[Piece, ...]
-    found: Found
-    dialects: tuple[Dialect, Dialect]
-    off: float = 0.0
-    nearness: float | None = None
-
-    @property
-    def farthest_point(self) -> float:
-        """How far from the curve a point of method D was found at most, mm."""
-        return max((piece.near.from_points for piece in self.pieces if piece.near), default=0.0)
-
-    @property
-    def bound(self) -> float:
-        """Proven: nowhere are curve and moves farther apart than this, mm."""
-        return max((piece.judgement.bound for piece in self.pieces if piece.judgement), default=0.0)
 
 
 def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> Smoothed:
@@ -202,7 +64,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
     """
     ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
     found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
-    work = _Work(options, ready, found)
+    work = _SmoothingRun(options, ready, found)
     blocks, kept = work.written(progress.part(0.2, 0.7))
     while True:
         new = rewrite(ready.data, found.stretches, blocks, ())
@@ -259,7 +121,7 @@ class _Judged:
         return "as it was written it would lose a corner" if self.cut else ""
 
 
-class _Work:
+class _SmoothingRun:
     """A program's stretches, on their way."""
 
     def __init__(self, options: SmoothOptions, source: SourceProgram, found: Found) -> None:
@@ -308,7 +170,7 @@ class _Work:
             )
         if self._options.effective is not None:
             classes = self._options.effective.classes(
-                points, corners(points, self._options.corner, _REACH * self._tube.widest)
+                points, corners(points, self._options.corner, REACH * self._tube.widest)
             )
             self._classes[k] = classes
             points, spent = classes.passed, classes.off
@@ -322,7 +184,7 @@ class _Work:
             if self._options.effective.on_shape:
                 fine = _FINE * tube.radius
                 tube = Tube(tube.radius - fine)
-                at = corners(points, self._options.corner, _REACH * self._tube.widest)
+                at = corners(points, self._options.corner, REACH * self._tube.widest)
                 points = through_points(points, at, fine, self._tube.widest - slack - spent - tube.radius)
         else:
             tube = self._tube.narrower(slack)
@@ -448,7 +310,7 @@ class _Work:
         """Return one stretch, before and after."""
         stretch, points, classes = self._found.stretches[k], self._points[k], self._classes.get(k)
         count = stretch.stop - stretch.first
-        at = corners(points, self._options.corner, _REACH * self._tube.widest) if len(points) > 2 else np.array([0])
+        at = corners(points, self._options.corner, REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
         alike = Piece(
             stretch,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,9 +12,7 @@ from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.effective_points import PointState
 from ..gcode.interpreter.dialect import HABITS
 from ..model.finding import Finding, FindingKind
-
-if TYPE_CHECKING:
-    from .smooth import Piece, Smoothed
+from .smoothed import Piece, Smoothed
 
 Json = dict[str, Any]
 LISTED = 1000

@@ -28,8 +28,8 @@ from ..model.motion_path import anchored
 from ..model.tool import Tool
 from ..surfaces.passes.path import ALLOWED
 from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind
-from .scene_left import Left, left_findings
-from .scene_load import Block, SceneCut, scene_cut
+from .scene_left import SceneLeft, left_findings
+from .scene_load import SceneBlank, SceneCut, scene_cut
 from .scene_wishes import closest_passes, left_in
 from .surface import Computed, Family, job_of
 
@@ -55,7 +55,7 @@ class WrittenScene:
     programs: tuple[NcProgram, ...]
     unproven: Floats
     loads: tuple[Finding, ...] = ()
-    left: Left | None = None
+    left: SceneLeft | None = None
 
     @property
     def time_s(self) -> float:
@@ -125,7 +125,7 @@ def _cut(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgr
     tools = {family.tool.number: family.tool for family in computed.families}
     numbers = computed.moves.moves.tool
     known = [tools | {0: tools[int(numbers[file.first])]} for file in files]
-    block = Block(computed.stock, np.array(computed.origin), closest_passes(computed))
+    block = SceneBlank(computed.stock, np.array(computed.origin), closest_passes(computed))
     return scene_cut(
         [replace(program, motions=anchored(program.motions)) for program in programs], known, block, progress
     )

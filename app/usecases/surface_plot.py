@@ -15,7 +15,7 @@ from ..formats.plot.hpgl import hpgl_bytes
 from ..formats.plot.layout import PlotOptions, lay_out
 from ..formats.plot.page_pdf import pages_pdf
 from ..formats.plot.page_svg import page_svg
-from ..formats.plot.surface_plot import VIEWS, BySurface, Kind, Look, Piece, View
+from ..formats.plot.surface_plot import VIEWS, BySurface, PlotColouring, PlottedKind, Projection, RunPiece
 from ..model.moves import Purpose
 from ..model.scene import Passes
 from ..model.tool import Tool
@@ -44,8 +44,8 @@ class PlotScene:
         layout: paper, scale, frame.
     """
 
-    view: View = VIEWS["isometric"]
-    look: Look = Look.COLOURS
+    view: Projection = VIEWS["isometric"]
+    look: PlotColouring = PlotColouring.COLOURS
     drawn: Drawn = Drawn.PATHS
     marks: bool = True
     labels: bool = True
@@ -80,7 +80,7 @@ def by_surface(computed: Computed, what: PlotScene = PlotScene()) -> BySurface:
     """Return what is drawn of a computed scene, for `lay_out`."""
     tools = list({family.tool.number: family.tool for family in computed.families}.values())
     number = {tool.number: at for at, tool in enumerate(tools)}
-    pieces: list[Piece] = []
+    pieces: list[RunPiece] = []
     marks: list[tuple[NDArray[np.float64], str]] = []
     if what.drawn is not Drawn.PATHS:
         for family in computed.families:
@@ -91,14 +91,14 @@ def by_surface(computed: Computed, what: PlotScene = PlotScene()) -> BySurface:
         if what.drawn is Drawn.PATHS:
             marks = [mark for family in computed.families for mark in _boundary_marks(family.path.boundaries)]
     surfaces = [
-        *(Kind(surface.name, surface.colour, surface.line) for surface in computed.scene.surfaces),
-        Kind(computed.names[-1]),
+        *(PlottedKind(surface.name, surface.colour, surface.line) for surface in computed.scene.surfaces),
+        PlottedKind(computed.names[-1]),
     ]
     places = np.array([place for place, _ in marks]).reshape(-1, 3) if what.marks else np.zeros((0, 3))
     return BySurface(
         computed.scene.name,
         surfaces,
-        [Kind(_tool_words(tool)) for tool in tools],
+        [PlottedKind(_tool_words(tool)) for tool in tools],
         pieces,
         places,
         [label for _, label in marks] if what.marks and what.labels else (),
@@ -109,19 +109,19 @@ def by_surface(computed: Computed, what: PlotScene = PlotScene()) -> BySurface:
     )
 
 
-def _surface_pieces(family: Family, tool: int) -> Iterator[Piece]:
+def _surface_pieces(family: Family, tool: int) -> Iterator[RunPiece]:
     for run in family.surface.runs:
         for first, last in _stretches(run.owner):
-            yield Piece(int(run.owner[first]), tool, run.points[first : last + 1], fine=True)
+            yield RunPiece(int(run.owner[first]), tool, run.points[first : last + 1], fine=True)
 
 
-def _path_pieces(computed: Computed, tools: dict[int, int]) -> Iterator[Piece]:
+def _path_pieces(computed: Computed, tools: dict[int, int]) -> Iterator[RunPiece]:
     """Yield what the cutters follow on the surfaces, in the order of the moves."""
     moves, start = computed.moves.moves, computed.moves.moves.start
     on = np.where(moves.purpose == Purpose.CONTOUR, computed.moves.surface, NO_SURFACE)
     for first, last in _stretches(np.stack([on, moves.operation], axis=1)):
         if on[first] != NO_SURFACE:
-            yield Piece(
+            yield RunPiece(
                 int(on[first]),
                 tools[int(moves.tool[first])],
                 np.concatenate([start[first : first + 1], moves.end[first:last]]),

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 from ..formats.readers import fit_for
 from ..model.finding import Finding, FindingKind
 from ..model.part import Units
-from ..model.read_options import AS_DRAWN, OPTION_OF, ReadOptions
+from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,11 +22,11 @@ class ToldReading:
         findings: where what was asked is not what the program tells.
     """
 
-    how: ReadOptions
+    how: DrawingOptions
     findings: tuple[Finding, ...] = ()
 
 
-def told_reading(asked: ReadOptions, told: ReadOptions, name: str, units: Units | None = None) -> ToldReading:
+def told_reading(asked: DrawingOptions, told: DrawingOptions, name: str, units: Units | None = None) -> ToldReading:
     """Return how a drawing is read: what was asked stands before what a program tells.
 
     Args:
@@ -38,14 +38,14 @@ def told_reading(asked: ReadOptions, told: ReadOptions, name: str, units: Units 
     told = told if units is None else replace(told, pixels_per_inch=None)
     given = {
         each.name: value
-        for each in fields(ReadOptions)
+        for each in fields(DrawingOptions)
         if (value := getattr(asked, each.name)) != getattr(AS_DRAWN, each.name)
     }
     lenient = "without_layers" not in given and bool(told.without_layers)
     return ToldReading(replace(told, **given, lenient=lenient), tuple(_differing(given, told)))
 
 
-def _differing(given: dict[str, object], told: ReadOptions) -> Iterator[Finding]:
+def _differing(given: dict[str, object], told: DrawingOptions) -> Iterator[Finding]:
     for field, option in OPTION_OF.items():
         before = getattr(told, field)
         if field in given and before != getattr(AS_DRAWN, field) and _plain(before) != _plain(given[field]):

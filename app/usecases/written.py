@@ -34,7 +34,7 @@ COARSE = 0.005
 
 
 @dataclass(frozen=True, eq=False)
-class Written:
+class WrittenProgram:
     """What was written: m motions in all files.
 
     Attributes:
@@ -125,7 +125,7 @@ class Written:
 
 def write_and_check(
     program: Program, job: Job, post: Post, machine: Machine | None, progress: Progress = NO_PROGRESS
-) -> Written:
+) -> WrittenProgram:
     """Return the files of a computed program, each read back and found to be the program's moves.
 
     Args:
@@ -140,7 +140,7 @@ def write_and_check(
     """
     machine = machine or load_machine(DEFAULT_MACHINE)
     if not len(program.moves):
-        return Written(post, (), (), machine)
+        return WrittenProgram(post, (), (), machine)
     files = write_files(program, job, post, progress.part(0.0, 0.6))
     checks: list[Check] = []
     for k, file in enumerate(files):
@@ -148,7 +148,7 @@ def write_and_check(
         share.step(0.0, "Reading the program back")
         checks.append(check(file.nc.text.encode(), file, Meant(program, job, post), share))
         checks[-1].require(f"{post.title} program{_in_file(file)}")
-    return Written(post, files, tuple(checks), machine)
+    return WrittenProgram(post, files, tuple(checks), machine)
 
 
 def _in_file(file: NcFile) -> str:

@@ -41,6 +41,7 @@ class Stage:
         metal: of the setup, as it is at any time of this program. tools: by T number.
         where: words for the place of a motion in the text, such as "NC line 7", by its row.
         plunge_rates: that the program's header names, mm/min, by T number.
+        under: thickness of the waste below the stock that its header tells of, mm.
     """
 
     known: KnownCourse
@@ -50,6 +51,7 @@ class Stage:
     tools: Mapping[int, Tool]
     where: Callable[[int], str]
     plunge_rates: Mapping[int, float]
+    under: float = 0.0
 
     @property
     def motions(self) -> Motions:
@@ -298,7 +300,7 @@ def _below_table(stage: Stage) -> Iterator[Finding]:
     low = reach(stage.motions)[0][:, 2].copy()
     low[list(stage.known.course.left_out)] = np.inf
     floor = stage.before.floor
-    below = np.flatnonzero(low < floor - LEVEL)
+    below = np.flatnonzero(low < floor - stage.under - LEVEL)
     if not len(below):
         return
     row, first = int(np.argmin(low)), int(below[0])

@@ -16,8 +16,8 @@ from ..model.job import Job
 from ..model.moves import Area, DogBone, Moves, Program
 from ..model.operation import Operation
 from ..model.part import Contour, Region
-from ..model.tool import Tool, ToolKind
-from ..simulation.cutter import DRILL_ANGLE, cutter_of
+from ..model.tool import Tool
+from ..simulation.cutter import cutter_of
 from ..toolpath.coverage.wanted import areas_of_operations
 
 Floats = NDArray[np.float64]
@@ -82,7 +82,7 @@ def deepest(operation: Operation, job: Job) -> float:
 
 def tip_length(tool: Tool) -> float:
     """Return the length of a drill's tip, mm; 0 of other tools."""
-    return tool.radius / tan((tool.tip_angle or DRILL_ANGLE) / 2) if tool.kind is ToolKind.DRILL else 0.0
+    return tool.radius / tan((tool.tip_angle or tool.kind.assumed_angle) / 2) if tool.kind.drills else 0.0
 
 
 def cutting_radius(moves: Moves, job: Job) -> Floats:
@@ -95,7 +95,7 @@ def cutting_radius(moves: Moves, job: Job) -> Floats:
     wide = np.zeros(len(moves))
     for tool in job.tools:
         mine = moves.tool == tool.number
-        if tool.kind is ToolKind.FLAT:
+        if tool.kind.square:
             wide[mine] = tool.radius
         else:
             cutter = cutter_of(tool)

@@ -12,7 +12,6 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..model.job import Job
 from ..model.moves import Moves
 from ..model.stock_box import StockBox
-from ..model.tool import ToolKind
 from ..simulation.sweeps.course import Course
 from ..toolpath.coverage.coverage import Coverage, measure
 from .motion_moves import moves_of
@@ -66,4 +65,5 @@ def _joined(parts: Sequence[Moves]) -> Moves:
 
 def _flat(moves: Moves, job: Job) -> bool:
     """Return whether all tools that move are flat, but for drills, which clear no floor."""
-    return all(job.tool(number).kind in (ToolKind.FLAT, ToolKind.DRILL) for number in np.unique(moves.tool).tolist())
+    kinds = [job.tool(number).kind for number in np.unique(moves.tool).tolist()]
+    return all(kind.square or kind.drills for kind in kinds)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..model.motion import Floats, MotionKind
-from ..model.tool import Tool, ToolKind
+from ..model.tool import Tool
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from .closer import NARROW, Metal, Way
@@ -147,12 +147,7 @@ def _rates(metal: Metal, tools: Mapping[int, Tool], rates: Mapping[int, float], 
     for number, tool in tools.items():
         mine = (course.tool == number) & (motions.feed > 0)
         along, slowly = motions.feed[mine & sideways], motions.feed[mine & down]
-        if (
-            tool.kind is ToolKind.DRILL
-            or number not in metal.cutters
-            or not len(slowly)
-            or not (len(along) or number in rates)
-        ):
+        if tool.kind.drills or number not in metal.cutters or not len(slowly) or not (len(along) or number in rates):
             continue
         least = float(slowly.min())
         found[number] = rates.get(number, least if len(along) and least < SHARE * float(along.max()) else None)

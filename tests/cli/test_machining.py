@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from app.cli.commands.make import COMMAND as MAKE
 from app.cli.main import main
-from app.cli.make_options import make_options, read_arguments
+from app.cli.make_options import make_options
 from app.core.errors import InputError
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies
@@ -24,7 +25,7 @@ FIG2 = ROOT / "resources/samples/fig2.dxf"
 
 def asked(text: str, drawing: str = "part.dxf") -> Machining:
     return make_options(
-        read_arguments([drawing, "-o", "out.ngc", *text.split(" ")] if text else [drawing, "-o", "out.ngc"])
+        MAKE.arguments([drawing, "-o", "out.ngc", *text.split(" ")] if text else [drawing, "-o", "out.ngc"])
     ).machining
 
 
@@ -120,7 +121,7 @@ def test_pixels_take_few_of_them(text: str) -> None:
 
 
 def test_the_whole_diameter_is_a_stepover() -> None:
-    options = make_options(read_arguments(["part.dxf", "-o", "out.ngc", "--stepover", "100%"]))
+    options = make_options(MAKE.arguments(["part.dxf", "-o", "out.ngc", "--stepover", "100%"]))
     assert options.stepover is not None
     assert options.stepover.of(6.0) == 6.0
 

@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from app.cli.signals import Stopping
 from app.cli.timings import StageTimes
 from app.core.progress import Progress
 
+pytestmark = pytest.mark.usefixtures("lines_by_the_clock")
 FIG2 = Path(__file__).parents[2] / "resources" / "samples" / "fig2.dxf"
 
 
@@ -88,7 +90,26 @@ def test_a_pipe_hears_of_a_stage_that_tells_nothing(
     assert stopped.stage == "Link rings"
 
 
+def test_a_pipe_hears_nothing_while_the_command_waits(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    clock, stopped = [100.0], Stopping()
+    monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
+    progress = cli_files.shown_progress(quiet=False, stopped=stopped)
+    assert stopped.tick is not None
+    progress.step(0.3, "Link rings")
+    for clock[0] in (104.0, 106.0, 109.0):
+        stopped.waited = clock[0]
+        stopped.tick()
+    progress.step(0.3, "Link rings")
+    assert capsys.readouterr().err == ""
+    clock[0] = 114.1
+    stopped.tick()
+    assert capsys.readouterr().err == "hitofude: 30% Link rings\n"
+
+
 def test_a_short_job_says_nothing_of_it_on_a_pipe(tmp_path: Path) -> None:
+    begun = time.monotonic()
     done = subprocess.run(
         [sys.executable, "-P", "-m", "app", "make", str(FIG2), "-o", str(tmp_path / "a.ngc")],
         check=False,
@@ -96,4 +117,5 @@ def test_a_short_job_says_nothing_of_it_on_a_pipe(tmp_path: Path) -> None:
         text=True,
         cwd=FIG2.parents[2],
     )
-    assert "%" not in done.stderr
+    seconds = time.monotonic() - begun
+    assert done.stderr.count("%") <= seconds / 5, "a job is short on a machine that does nothing else"

@@ -6,6 +6,7 @@ import pytest
 
 from app.core.errors import InputError
 from app.drafting.document import Document
+from app.model.curve_selectors import CurveNumber, on_layers
 
 
 @pytest.fixture
@@ -30,13 +31,15 @@ def test_a_renamed_layer_keeps_its_curves_its_look_and_its_place(document: Docum
 
 def test_the_job_calls_a_renamed_layer_by_its_new_name(document: Document) -> None:
     job = document.job
-    operation = replace(job.operations[0], cut=replace(job.operations[0].cut, layers=("holes", "0")))
+    operation = replace(
+        job.operations[0], cut=replace(job.operations[0].cut, curves=(*on_layers(("holes", "0")), CurveNumber(1)))
+    )
     changed = replace(
         job, operations=(operation, *job.operations[1:]), layer_names=("holes",), keep_out_layers=("clamps", "holes")
     )
     document.change_job("layers", changed)
     document.run("rename layer holes to bores")
-    assert document.job.operations[0].cut.layers == ("bores", "0")
+    assert document.job.operations[0].cut.curves == (*on_layers(("bores", "0")), CurveNumber(1))
     assert (document.job.layer_names, document.job.keep_out_layers) == (("bores",), ("clamps", "bores"))
     document.undo()
     assert document.job == changed

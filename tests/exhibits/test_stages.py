@@ -139,9 +139,9 @@ def test_smoothing_names_every_pixel_of_a_path(walk: Walk) -> None:
 
 
 def test_more_than_thirty_stages_a_second(walk: Walk) -> None:
-    began = time.perf_counter()
+    began = time.process_time()
     count = sum(1 for _ in stages(walk[0].job, walk[0].part, walk[1].paths))
-    assert count / (time.perf_counter() - began) > 30
+    assert count / (time.process_time() - began) > 30
 
 
 def test_the_published_variant_marks_what_it_gets_wrong() -> None:

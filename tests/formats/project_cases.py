@@ -10,6 +10,7 @@ from app.drafting.expressions.values import Curves
 from app.drafting.history import State
 from app.formats.project.beside import Beside
 from app.formats.project.project import Look, Project
+from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, Selector, on_layers
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
@@ -25,9 +26,10 @@ from app.model.operation import (
     Side,
 )
 from app.model.part import Entity, Layer, Part, Units
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from app.model.reading import Reading, Source
-from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.tool import FeedRow, Tool, shape_keys
+from app.model.tool_kind import tool_kinds
 from app.model.underlay import Underlay
 
 
@@ -92,7 +94,7 @@ def parts(draw: st.DrawFn) -> Part:
 
 @st.composite
 def tools(draw: st.DrawFn, number: int) -> Tool:
-    kind, diameter = draw(st.sampled_from(ToolKind)), draw(floats(0.1, 100))
+    kind, diameter = draw(st.sampled_from(tool_kinds())), draw(floats(0.1, 100))
     known = {
         "corner_radius": floats(0, diameter / 2.01),
         "tip_diameter": floats(0, diameter / 1.01),
@@ -124,6 +126,17 @@ def tools(draw: st.DrawFn, number: int) -> Tool:
     )
 
 
+def selectors() -> st.SearchStrategy[tuple[Selector, ...]]:
+    """Return what operations may say of their curves."""
+    circles = st.tuples(floats(0.01, 99), floats(0.01, 99)).map(
+        lambda ends: CirclesOf(*(round(e, 9) for e in sorted(ends)))
+    )
+    others = st.one_of(st.integers(1, 10**9 - 1).map(CurveNumber), circles, st.sampled_from(ContourKind))
+    return st.tuples(NAMES.map(on_layers), st.lists(others, unique=True, max_size=3)).map(
+        lambda two: (*two[0], *two[1])
+    )
+
+
 @st.composite
 def operations(draw: st.DrawFn) -> ContourOperation | PocketOperation | RestOperation | DrillOperation:
     entry = Entry(draw(st.sampled_from(EntryKind)), draw(floats(1e-3, math.pi / 4)))
@@ -138,7 +151,7 @@ def operations(draw: st.DrawFn) -> ContourOperation | PocketOperation | RestOper
         draw(floats(0, 0.2)),
         draw(floats(0, 0.5)),
         entry,
-        tuple(draw(NAMES)),
+        draw(selectors()),
     )
     maybe = st.one_of(st.none(), floats(0.1, 50))
     share = floats(0.05, 1)
@@ -241,6 +254,8 @@ def projects(draw: st.DrawFn) -> Project:
 def sources() -> st.SearchStrategy[Source]:
     """Return drawings that parts were read from, in every way that they can be read."""
     names = NAMES.map(tuple)
-    how = st.builds(ReadOptions, st.booleans(), TEXT, st.booleans(), st.one_of(st.none(), floats(1, 1e5)), names, names)
+    how = st.builds(
+        DrawingOptions, st.booleans(), TEXT, st.booleans(), st.one_of(st.none(), floats(1, 1e5)), names, names
+    )
     reading = st.builds(Reading, st.one_of(st.none(), st.sampled_from(Units)), names, how)
     return st.builds(Source, TEXT.map(lambda name: f"d{name}.dxf"), reading)

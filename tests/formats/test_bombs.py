@@ -18,7 +18,8 @@ from app.formats.svg.xml import MOST_USES
 from app.formats.tools.files import read_tools
 from app.geometry.arcs.arcs import lines_and_arcs
 from app.model.curves import Spline
-from app.raster.picture import PictureOptions, read_picture
+from app.raster.picture import read_picture
+from app.raster.picture_options import PictureOptions
 from app.simulation.heights_file import read_heights
 
 
@@ -119,12 +120,12 @@ def spline_dxf(count: int) -> bytes:
 
 def test_a_spline_of_too_many_points_is_refused_before_it_is_read() -> None:
     data = spline_dxf(MOST_POINTS + 1)
-    begun = time.perf_counter()
+    begun = time.process_time()
     with pytest.raises(
         InputError, match=rf"^s\.dxf:5: a spline has {MOST_POINTS + 1} points; {MOST_POINTS} are the most"
     ):
         load(data, "s.dxf")
-    assert time.perf_counter() - begun < 5
+    assert time.process_time() - begun < 5
 
 
 def test_a_spline_takes_time_by_its_points_and_not_by_their_square() -> None:
@@ -133,9 +134,9 @@ def test_a_spline_takes_time_by_its_points_and_not_by_their_square() -> None:
     """
     count = 8000
     knots = (0.0,) * 4 + tuple(map(float, range(1, count - 3))) + (count - 3.0,) * 4
-    begun = time.perf_counter()
+    begun = time.process_time()
     made = lines_and_arcs(Spline(3, tuple((0.01 * k, 0.0) for k in range(count)), knots))
-    assert time.perf_counter() - begun < 8 and made.deviation <= 1e-3
+    assert time.process_time() - begun < 8 and made.deviation <= 1e-3
     assert made.primitives[0].start == (0, 0) and made.primitives[-1].end == pytest.approx((79.99, 0))
 
 
@@ -144,10 +145,10 @@ def test_entities_that_are_used_without_end_are_refused() -> None:
         head = '<!DOCTYPE svg [<!ENTITY e "1 2 ">]><svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm">'
         return f'{head}<polyline points="0 0 {"&e;" * count} 5 5"/></svg>'.encode()
 
-    begun = time.perf_counter()
+    begun = time.process_time()
     with pytest.raises(InputError, match=rf"^x\.svg: entities are used 200000 times, and {MOST_USES} are the most"):
         read_svg(svg(200_000), "x.svg")
-    assert time.perf_counter() - begun < 2
+    assert time.process_time() - begun < 2
     assert read_svg(svg(MOST_USES), "x.svg").part.entities[0].curve.start == pytest.approx((0, 9))
 
 

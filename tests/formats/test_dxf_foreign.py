@@ -16,7 +16,7 @@ from app.formats.reading_question import UndecidedError, size_words
 from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from app.model.reading import Reading
 from app.usecases.plausible import read_plausible
 
@@ -34,7 +34,7 @@ def bytes_of(document: Any) -> bytes:
 
 
 def read(document: Any, layers: tuple[str, ...] = (), **how: Any) -> Drawing:
-    return read_drawing("x.dxf", bytes_of(document), None, layers, ReadOptions(**how))
+    return read_drawing("x.dxf", bytes_of(document), None, layers, DrawingOptions(**how))
 
 
 def telling(drawing: Drawing, word: str) -> Finding:
@@ -269,7 +269,7 @@ def test_layers_and_types_are_left_out_as_asked() -> None:
 )
 def test_options_that_say_nothing_of_a_kind_of_file_are_refused(name: str, how: dict[str, Any], option: str) -> None:
     with pytest.raises(InputError, match=f"^{option} is for .* and says nothing of {name}"):
-        read_drawing(name, b"", None, (), ReadOptions(**how))
+        read_drawing(name, b"", None, (), DrawingOptions(**how))
 
 
 def test_units_that_would_be_no_better_are_not_offered() -> None:

@@ -21,7 +21,7 @@ from app.geometry.lettering import engraving
 from app.model.curves import Circle, Curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from tests.examples import examples
 from tests.formats.block_font import boxes, fonts, forget_fonts, save
 
@@ -39,7 +39,9 @@ def new(version: str = "R2010") -> Any:
 def read(document: Any, layers: tuple[str, ...] = (), **how: Any) -> Drawing:
     stream = io.StringIO()
     document.write(stream)
-    return read_drawing("x.dxf", stream.getvalue().encode(document.output_encoding), None, layers, ReadOptions(**how))
+    return read_drawing(
+        "x.dxf", stream.getvalue().encode(document.output_encoding), None, layers, DrawingOptions(**how)
+    )
 
 
 def text(words: str, style: str = "BLOCK", **attributes: Any) -> Any:

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.formats.job.toml import TOOL_KEYS, parse_origin, read_job
+from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
@@ -248,6 +249,11 @@ def test_bytes_that_are_no_text() -> None:
 
 
 LENGTH = st.floats(0.01, 50).map(lambda value: round(value, 6))
+SELECTORS = st.one_of(
+    st.sampled_from((OnLayer("a"), OnLayer("Außen"), OnLayer("x y"), OnLayer("layer:#1"), *ContourKind)),
+    st.integers(1, 10**9 - 1).map(CurveNumber),
+    st.tuples(LENGTH, LENGTH).map(lambda ends: CirclesOf(*sorted(ends))),
+)
 CUT = st.builds(
     Cut,
     tool=st.integers(1, 2),
@@ -259,7 +265,7 @@ CUT = st.builds(
     finish_depth=st.floats(0, 5),
     floor_to_leave=st.floats(0, 9),
     entry=st.builds(Entry, st.sampled_from(EntryKind), st.floats(0.1, 45).map(math.radians)),
-    layers=st.lists(st.sampled_from(("a", "Außen", "x y")), unique=True, max_size=2).map(tuple),
+    curves=st.lists(SELECTORS, unique=True, max_size=3).map(tuple),
 )
 HOLE_CUT = st.builds(Cut, tool=st.integers(1, 2), depth=st.floats(20, 90), enabled=st.booleans())
 SHARE, STEP = st.floats(0.05, 1), st.none() | LENGTH
@@ -308,7 +314,7 @@ def written(operation: Operation) -> str:
         "tool": cut.tool,
         "depth": cut.depth,
         "enabled": cut.enabled,
-        "layers": list(cut.layers),
+        "curves": [each.text for each in cut.curves],
     }
     if not isinstance(operation, DrillOperation):
         keys |= {

@@ -16,7 +16,7 @@ from app.formats.project.files import ChangedElsewhere, load_project, save_proje
 from app.formats.project.project import Project, read_project
 from app.model.job import Job
 from app.model.part import Part, Units
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from app.model.reading import Reading, Source
 from app.model.underlay import Underlay
 from tests.formats.project_cases import plate
@@ -164,7 +164,7 @@ def test_stamps(tmp_path: Path) -> None:
 
 
 def test_the_drawing_it_was_read_from_is_told_from_its_folder_where_it_lies_in_that(tmp_path: Path) -> None:
-    reading = Reading(Units.MM, (), ReadOptions(overrule=True, to_zero=True))
+    reading = Reading(Units.MM, (), DrawingOptions(overrule=True, to_zero=True))
     for drawing, told in (
         (tmp_path / "cad" / "a.dxf", 'path = "cad/a.dxf"'),
         (tmp_path.parent / "b.dxf", f'path = "{tmp_path.parent}'),

@@ -15,7 +15,7 @@ from app.formats.readers import check_options, fit_for, format_of, formats, know
 from app.formats.registry import DrawingFormat, Writer, register, withdraw
 from app.model.curves import Line
 from app.model.part import Part
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from app.model.reading import Reading
 
 
@@ -62,19 +62,19 @@ def test_the_command_line_reads_it(tmp_path: Path, capsys: pytest.CaptureFixture
 
 
 def test_what_it_takes_is_asked_of_it() -> None:
-    check_options(ReadOptions(layout="A4"), "x.foo")
+    check_options(DrawingOptions(layout="A4"), "x.foo")
     with pytest.raises(InputError, match=r"--to-zero is for \.dxf and \.svg drawings and says nothing of x\.foo; take"):
-        read_drawing("x.foo", b"0 0 1 1", how=ReadOptions(to_zero=True))
+        read_drawing("x.foo", b"0 0 1 1", how=DrawingOptions(to_zero=True))
     with pytest.raises(InputError, match=r"--layout is for \.dxf and \.foo drawings and says nothing of a\.svg"):
-        check_options(ReadOptions(layout="A4"), "a.svg")
-    both = ReadOptions(layout="A4", to_zero=True, without_layers=("a",))
-    assert fit_for(both, "x.FOO") == ReadOptions(layout="A4", without_layers=("a",))
-    assert fit_for(both, "solid.stl") == ReadOptions(without_layers=("a",))
+        check_options(DrawingOptions(layout="A4"), "a.svg")
+    both = DrawingOptions(layout="A4", to_zero=True, without_layers=("a",))
+    assert fit_for(both, "x.FOO") == DrawingOptions(layout="A4", without_layers=("a",))
+    assert fit_for(both, "solid.stl") == DrawingOptions(without_layers=("a",))
 
 
 def test_layers_are_left_out_of_it_as_of_any_other() -> None:
     with pytest.raises(InputError, match="there is no layer walls to leave out"):
-        read_drawing("x.foo", b"0 0 1 1", how=ReadOptions(without_layers=("walls",)))
+        read_drawing("x.foo", b"0 0 1 1", how=DrawingOptions(without_layers=("walls",)))
 
 
 def test_it_is_known_by_its_suffix_alone() -> None:

@@ -10,7 +10,7 @@ from app.core.errors import InputError
 from app.formats.scene.toml import read_scene, write_scene
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
-from app.model.scene import Boundary, Centre, LineType, Passes, Scene, SceneStock, Side, Strategy, Surface, Trim
+from app.model.scene import Boundary, Centre, KeptSide, LineType, Passes, Scene, SceneStock, Strategy, Surface, Trim
 from app.model.scene_curves import CurveForm, SectionCurve, Spacing
 from app.model.scene_shapes import (
     BicubicShape,
@@ -67,7 +67,7 @@ SHAPES: tuple[Shape, ...] = (
     MeshShape("part.STL", 25.4),
 )
 TRIMS = (
-    Trim(outline=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), keep=Side.OUTSIDE),
+    Trim(outline=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), keep=KeptSide.OUTSIDE),
     Trim(circle=(1.0, 2.0, 3.0)),
     Trim(drawing="a.dxf", layer="x"),
 )

@@ -22,7 +22,17 @@ from app.formats.plot.page_pdf import pages_pdf
 from app.formats.plot.page_png import page_png
 from app.formats.plot.page_svg import page_svg
 from app.formats.plot.surface_labels import free_places
-from app.formats.plot.surface_plot import DASHES, VIEWS, BySurface, Kind, Look, Piece, View, colour_of, line_of
+from app.formats.plot.surface_plot import (
+    DASHES,
+    VIEWS,
+    BySurface,
+    PlotColouring,
+    PlottedKind,
+    Projection,
+    RunPiece,
+    colour_of,
+    line_of,
+)
 from app.model.scene import LineType
 from tests.formats.hpgl_player import Plotter
 
@@ -30,10 +40,12 @@ SVG = "{http://www.w3.org/2000/svg}"
 RNG = np.random.default_rng(9)
 CURVES = [np.column_stack([np.linspace(0, 80, 41), np.full(41, 10.0 * k), RNG.normal(size=41)]) for k in range(4)]
 PARTS = ((0, 0, 15), (2, 14, 30), (1, 29, 41))
-PIECES = tuple(Piece(owner, owner % 2, points[first:last]) for points in CURVES for owner, first, last in PARTS)
+PIECES = tuple(RunPiece(owner, owner % 2, points[first:last]) for points in CURVES for owner, first, last in PARTS)
 MARKS = np.array([points[at] for points in CURVES for at in (14, 29)])
-SURFACES = (Kind("left"), Kind("dome", "#112233"), Kind("right", line=LineType.CHAIN))
-PLOT = BySurface("part", SURFACES, (Kind("T1"), Kind("T2")), PIECES, MARKS, ("CR13", "CR32") * 4, VIEWS["isometric"])
+SURFACES = (PlottedKind("left"), PlottedKind("dome", "#112233"), PlottedKind("right", line=LineType.CHAIN))
+PLOT = BySurface(
+    "part", SURFACES, (PlottedKind("T1"), PlottedKind("T2")), PIECES, MARKS, ("CR13", "CR32") * 4, VIEWS["isometric"]
+)
 
 
 def a_page(plot: BySurface) -> Page:
@@ -45,39 +57,39 @@ def on_paper(plot: BySurface, page: Page) -> list[np.ndarray]:
     return [np.array([page.place((x, y)) for x, y in plot.view.seen(piece.points).tolist()]) for piece in plot.pieces]
 
 
-@pytest.mark.parametrize("look", list(Look))
-def test_a_plotter_draws_each_part_in_one_stroke_with_its_pen_in_the_order_of_generation(look: Look) -> None:
+@pytest.mark.parametrize("look", list(PlotColouring))
+def test_a_plotter_draws_each_part_in_one_stroke_with_its_pen_in_the_order_of_generation(look: PlotColouring) -> None:
     plot = replace(PLOT, look=look)
     page = a_page(plot)
     (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     strokes = sheet.strokes[: len(PIECES)]
     pens = {
-        Look.COLOURS: [2 + p.surface for p in PIECES],
-        Look.TOOLS: [2 + p.tool for p in PIECES],
-        Look.LINES: [1 for _ in PIECES],
+        PlotColouring.COLOURS: [2 + p.surface for p in PIECES],
+        PlotColouring.TOOLS: [2 + p.tool for p in PIECES],
+        PlotColouring.LINES: [1 for _ in PIECES],
     }
     assert [stroke.pen for stroke in strokes] == pens[look]
-    lines = [(0, 1, 4)[(0, 1, 2)[p.surface]] if look is Look.LINES else 0 for p in PIECES]
+    lines = [(0, 1, 4)[(0, 1, 2)[p.surface]] if look is PlotColouring.LINES else 0 for p in PIECES]
     assert [stroke.line for stroke in strokes] == lines
     assert {stroke.line: stroke.dashed for stroke in strokes if stroke.line} == (
-        {1: 1.0, 4: 7.95} if look is Look.LINES else {}
+        {1: 1.0, 4: 7.95} if look is PlotColouring.LINES else {}
     )
     for stroke, points in zip(strokes, on_paper(plot, page), strict=True):
         assert np.abs(np.array(stroke.points) - points).max() <= 0.5 / 40 + 1e-9
     assert len(sheet.circles) == len(MARKS) + 1
-    kinds = {"T1", "T2"} if look is Look.TOOLS else {"1  left", "2  dome", "3  right"}
+    kinds = {"T1", "T2"} if look is PlotColouring.TOOLS else {"1  left", "2  dome", "3  right"}
     assert {"CR13", "CR32", *kinds} <= {text for _, text, _ in sheet.labels}
 
 
 def test_a_part_as_small_as_a_plotter_unit_is_a_dot() -> None:
-    plot = replace(PLOT, pieces=(*PIECES, Piece(0, 0, np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 3.000001]]))))
+    plot = replace(PLOT, pieces=(*PIECES, RunPiece(0, 0, np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 3.000001]]))))
     (sheet,) = Plotter(hpgl_bytes((a_page(plot),))).sheets
     dot = sheet.strokes[len(PIECES)]
     assert (dot.pen, dot.length, len(dot.points)) == (2, 0.0, 2)
 
 
 def test_svg_has_the_same_strokes_in_the_same_order_with_dashes_in_mm_of_paper() -> None:
-    plot = replace(PLOT, look=Look.LINES)
+    plot = replace(PLOT, look=PlotColouring.LINES)
     page = a_page(plot)
     paths = ElementTree.fromstring(page_svg(page, "part")).findall(f"{SVG}g[@id='drawing']/{SVG}path")
     for path, piece, points in zip(paths, PIECES, on_paper(plot, page), strict=False):
@@ -91,7 +103,7 @@ def test_svg_has_the_same_strokes_in_the_same_order_with_dashes_in_mm_of_paper()
 
 
 def test_pdf_has_the_same_strokes_in_the_same_order_with_the_same_dashes() -> None:
-    plot = replace(PLOT, look=Look.LINES)
+    plot = replace(PLOT, look=PlotColouring.LINES)
     page = a_page(plot)
     data = pages_pdf((page, page), "täst")
     assert int(re.findall(rb"startxref\n(\d+)", data)[0]) == data.index(b"xref\n0 8")
@@ -135,7 +147,7 @@ def test_views_are_parallel_projections() -> None:
     np.testing.assert_allclose(seen["side"], (2, 3), atol=1e-12)
     axes = VIEWS["isometric"].seen(np.eye(3))
     np.testing.assert_allclose(np.hypot(*axes.T), np.sqrt(2 / 3), atol=1e-12)
-    np.testing.assert_allclose(View(90, 90).seen(point)[0], (2, -1), atol=1e-12)
+    np.testing.assert_allclose(Projection(90, 90).seen(point)[0], (2, -1), atol=1e-12)
     np.testing.assert_allclose(VIEWS["isometric"].seen(np.array([[1.0, -1.0, 1.0]])), 0, atol=1e-12)
 
 
@@ -179,7 +191,7 @@ def test_the_legend_stands_under_the_drawing_and_costs_nothing_without() -> None
 
 def test_a_hundred_thousand_points_are_all_there_and_joined() -> None:
     t = np.linspace(0, 60, 1001)
-    pieces = tuple(Piece(k % 3, 0, np.column_stack([t, np.full_like(t, 0.6 * k), np.sin(t)])) for k in range(100))
+    pieces = tuple(RunPiece(k % 3, 0, np.column_stack([t, np.full_like(t, 0.6 * k), np.sin(t)])) for k in range(100))
     plot = BySurface("many", PLOT.surfaces, PLOT.tools, pieces, np.zeros((0, 3)))
     page = a_page(plot)
     assert page_svg(page, "many").count(b"L") >= 100_000

@@ -11,7 +11,7 @@ from app.formats.svg.svg import read_svg
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from app.model.finding import FindingKind
 from app.model.part import Layer, Units
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 
 PIXEL = 25.4 / 96
 NAMESPACES = (
@@ -491,18 +491,18 @@ def test_a_file_without_units_is_as_the_editor_had_it_that_wrote_it(
         if who
         else "written by" not in found.text
     )
-    asked = read_svg(text.encode(), "x.svg", None, (), ReadOptions(pixels_per_inch=100.0))
+    asked = read_svg(text.encode(), "x.svg", None, (), DrawingOptions(pixels_per_inch=100.0))
     assert asked.part.entities[0].curve.end[0] == pytest.approx(91.44) and not asked.findings
 
 
 def test_pixels_to_the_inch_change_nothing_of_a_real_size_and_exclude_units() -> None:
     text = f'<svg {NAMESPACES} width="50mm" height="50mm" viewBox="0 0 100 100"><line x2="100"/></svg>'.encode()
-    drawing = read_svg(text, "x.svg", None, (), ReadOptions(pixels_per_inch=72.0))
+    drawing = read_svg(text, "x.svg", None, (), DrawingOptions(pixels_per_inch=72.0))
     assert (
         drawing.part.entities[0].curve.end[0] == pytest.approx(50) and "tells its real size" in drawing.findings[0].text
     )
     with pytest.raises(InputError, match="in two ways"):
-        read_svg(text, "x.svg", Units.MM, (), ReadOptions(pixels_per_inch=72.0))
+        read_svg(text, "x.svg", Units.MM, (), DrawingOptions(pixels_per_inch=72.0))
 
 
 @pytest.mark.parametrize(
@@ -527,5 +527,5 @@ def test_an_svg_is_moved_to_zero() -> None:
     )
     with pytest.raises(InputError, match=r"beyond 1 km; move the drawing to zero .* --to-zero"):
         read_svg(text.encode(), "x.svg")
-    part = read_svg(text.encode(), "x.svg", None, (), ReadOptions(to_zero=True)).part
+    part = read_svg(text.encode(), "x.svg", None, (), DrawingOptions(to_zero=True)).part
     assert {entity.curve.start for entity in part.entities} == {(0, 0), (4, 0), (4, 2), (0, 2)}

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import argparse
 import io
 import random
 import shutil
 import signal
 import time
 import unicodedata
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 
-from app.cli.commands.check import _parser as check_parser
-from app.cli.commands.smooth import _parser as smooth_parser
-from app.cli.commands.stages import _parser as stages_parser
-from app.cli.commands.surface import _parser as surface_parser
-from app.cli.commands.tools import _parser as tools_parser
-from app.cli.cut_options import cut_parser
 from app.cli.main import main
-from app.cli.make_options import make_parser
+from app.cli.program import load_command
 from tests.fuzz import seeds
 from tests.fuzz.mutations import mutated
 
@@ -78,13 +71,12 @@ class Command:
 
     Attributes:
         argv: with the placeholders IN and OUT for the input's path and the folder of outputs.
-        name, data: of the input. parser: makes that of its options. others: more inputs to mutate.
+        name, data: of the input. others: more inputs to mutate.
     """
 
     argv: tuple[str, ...]
     name: str
     data: bytes
-    parser: Callable[[], argparse.ArgumentParser]
     others: tuple[bytes, ...] = ()
 
 
@@ -93,13 +85,13 @@ def commands() -> dict[str, Command]:
     small = tuple(text for text in seeds.programs() if len(text) < 2000)
     cut = ("cut", "IN", "--stock=0,0,-3,14,12,0", "--tool=1=flat:2", "--grid=64", "--report=OUT/r.json", "--quiet")
     return {
-        "make": Command(("make", "IN", "-o", "OUT/o.ngc", "--quiet"), "d.draw", DRAWING, make_parser),
-        "cut": Command(cut, "p.ngc", PROGRAM, cut_parser, small),
-        "smooth": Command(("smooth", "IN", "-o", "OUT/o.ngc", "--quiet"), "p.ngc", PROGRAM, smooth_parser, small),
-        "check": Command(("check", "IN", "--report=OUT/r.json", "--quiet"), "p.ngc", PROGRAM, check_parser, small),
-        "surface": Command(("surface", "IN", "-o", "OUT/o.ngc", "--quiet"), "s.toml", SCENE, surface_parser),
-        "tools": Command(("tools", "IN", "--report=OUT/r.json", "--quiet"), "d.draw", DRAWING, tools_parser),
-        "stages": Command(("stages", "IN", "-o", "OUT/s", "--bitmap=64", "--quiet"), "d.draw", DRAWING, stages_parser),
+        "make": Command(("make", "IN", "-o", "OUT/o.ngc", "--quiet"), "d.draw", DRAWING),
+        "cut": Command(cut, "p.ngc", PROGRAM, small),
+        "smooth": Command(("smooth", "IN", "-o", "OUT/o.ngc", "--quiet"), "p.ngc", PROGRAM, small),
+        "check": Command(("check", "IN", "--report=OUT/r.json", "--quiet"), "p.ngc", PROGRAM, small),
+        "surface": Command(("surface", "IN", "-o", "OUT/o.ngc", "--quiet"), "s.toml", SCENE),
+        "tools": Command(("tools", "IN", "--report=OUT/r.json", "--quiet"), "d.draw", DRAWING),
+        "stages": Command(("stages", "IN", "-o", "OUT/s", "--bitmap=64", "--quiet"), "d.draw", DRAWING),
     }
 
 
@@ -107,9 +99,11 @@ def numeric_options(command: Command) -> list[str]:
     """Return the options of a command that read a value with a function of their own: numbers, lengths, angles, boxes,
     tools.
     """
+    parser = load_command(command.argv[0]).parser()
+    assert parser.command
     return [
         action.option_strings[-1]
-        for action in command.parser()._actions
+        for action in parser._actions
         if action.option_strings and action.type is not None and action.type is not Path
     ]
 

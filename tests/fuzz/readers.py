@@ -27,7 +27,8 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import read_post
 from app.geometry.typeface import outlined
-from app.raster.picture import PictureOptions, read_picture
+from app.raster.picture import read_picture
+from app.raster.picture_options import PictureOptions
 from app.simulation.field.solid import read_solid
 from app.simulation.heights_file import read_heights
 from app.surfaces.meshes.read import read_mesh

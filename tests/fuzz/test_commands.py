@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -75,7 +76,7 @@ def test_the_judge_of_commands_sees(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     def crash(*given: object) -> int:
         raise KeyError("k")
 
-    monkeypatch.setattr(cli_check, "check_command", crash)
+    monkeypatch.setattr(cli_check, "COMMAND", replace(cli_check.COMMAND, run=crash))
     assert "should not have happened (KeyError" in fault(check, tmp_path, check.data)
-    monkeypatch.setattr(cli_check, "check_command", lambda *given: 7)
+    monkeypatch.setattr(cli_check, "COMMAND", replace(cli_check.COMMAND, run=lambda *given: 7))
     assert fault(check, tmp_path, check.data) == "status 7"

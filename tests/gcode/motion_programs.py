@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.gcode.interpreter.program import Event, ModalState, NcProgram
-from app.model.machine import Axis, Machine, SpindleRange
+from app.model.machine import LinearAxis, Machine, SpindleRange
 from app.model.motion import MotionKind, Motions, Nurbs, Plane
 
 Point = tuple[float, float, float]
@@ -19,7 +19,7 @@ def machine(acceleration: float = 100.0, rapid: float = 6000.0, **changes: objec
     """A machine whose three axes are alike: 100 mm/s rapids, 100 mm/s2; stops at every corner but for a servo
     period.
     """
-    axis = Axis(-500.0, 500.0, rapid, acceleration)
+    axis = LinearAxis(-500.0, 500.0, rapid, acceleration)
     values: dict[str, object] = {"largest_feed": 60000.0, "corner": 0.0} | changes
     return Machine("Test mill", axis, axis, axis, SpindleRange(100.0, 10000.0), **values)  # type: ignore[arg-type]
 

@@ -323,9 +323,9 @@ def test_checking_fifty_thousand_moves_takes_well_under_a_second() -> None:
     written.check(file)
     took = []
     for _ in range(3):
-        start = time.perf_counter()
+        start = time.process_time()
         found = written.check(file)
-        took.append(time.perf_counter() - start)
+        took.append(time.process_time() - start)
     assert found.problems == ()
     assert len(found.program.motions) >= 50_000
     assert min(took) < 1.0

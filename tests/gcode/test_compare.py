@@ -339,8 +339,8 @@ def test_200_000_motions_are_compared_in_seconds():
             for name in ("start", "end", "centre", "kind", "plane", "turns", "feed", "line", "state")
         },
     )
-    begin = time.perf_counter()
+    begin = time.process_time()
     found = compare(NcProgram(motions), NcProgram(changed), TOLERANCE)
-    assert time.perf_counter() - begin < 10
+    assert time.process_time() - begin < 10
     assert len([item for item in found.items if item.kind is DifferenceKind.PATH]) >= len(chosen) - 1
     assert sum(run.count for run in found.runs) >= 200_000 - 200 - 2 * len(chosen) - 4

@@ -273,7 +273,7 @@ def test_two_hundred_thousand_motions_take_well_under_a_tenth_of_a_second() -> N
     duration(program, machine())
     took = []
     for _ in range(5):
-        before = time.perf_counter()
+        before = time.process_time()
         duration(program, machine(corner=0.01))
-        took.append(time.perf_counter() - before)
+        took.append(time.process_time() - before)
     assert min(took) < 0.3

@@ -4,12 +4,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from app.geometry.primitives import contour_rows
+from app.geometry.primitives import (
+    contour_rows,
+    fraction_on,
+    lengths,
+    path_length,
+    point_on,
+    points_at,
+    sweep_of,
+    sweeps,
+)
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Contour
 from app.model.stock_box import extent
+from app.toolpath.linking.bridge import fractions_at
 
 HALF_DISC = Contour((Line((0.0, 0.0), (4.0, 0.0)), Arc((4.0, 0.0), (0.0, 0.0), (2.0, 0.0))))
 
@@ -42,3 +53,25 @@ def test_an_arc_within_a_quadrant_reaches_no_farther_than_its_ends_and_the_rest_
 ) -> None:
     box = extent([Contour((Arc(start, end, (0.0, 0.0), ccw),), closed=False)])
     assert box is not None and box[3] == pytest.approx(top)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_one_row_measures_as_many_do(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    ends, turn = rng.uniform(-9, 9, (12, 4)), rng.choice([-1.0, 0.0, 1.0], 12)
+    middle, across = (ends[:, :2] + ends[:, 2:]) / 2, (ends[:, 2:] - ends[:, :2]) @ np.array([[0.0, 1.0], [-1.0, 0.0]])
+    centre = np.where(turn[:, None] == 0, 0.0, middle + across * rng.uniform(-2, 2, (12, 1)))
+    radius = np.where(turn == 0, 0.0, np.hypot(*(ends[:, :2] - centre).T))
+    rows = np.column_stack([ends, centre, radius, turn])
+    parts, places = rng.uniform(0, 1, 12), rng.uniform(-9, 9, (12, 2))
+    parts[0] = 0.0
+    each = rows.tolist()
+    assert [sweep_of(row) for row in each] == pytest.approx(sweeps(rows))
+    assert np.array([point_on(row, part) for row, part in zip(each, parts.tolist(), strict=True)]) == pytest.approx(
+        points_at(rows, parts)
+    )
+    assert [fraction_on(row, (x, y)) for row, (x, y) in zip(each, places.tolist(), strict=True)] == pytest.approx(
+        fractions_at(rows, places)
+    )
+    assert path_length(rows[:5]) == pytest.approx(lengths(rows[:5]).sum()) and path_length(rows[:0]) == 0
+    assert path_length(rows) == pytest.approx(lengths(rows).sum())

@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from app.cli.make_options import make_options, make_parser, read_arguments
+from app.cli.commands.make import COMMAND as MAKE
+from app.cli.make_options import make_options
 from app.core.errors import InputError, ParameterError
 from app.core.resources import resource
 from app.formats.job.toml import read_job
@@ -76,17 +77,17 @@ def engraving(**values: Any) -> Operation:
 
 
 def test_the_command_line_has_it() -> None:
-    text = make_parser().format_help()
+    text = MAKE.parser().format_help()
     for words in ("--overcut MM", "how far lines go on", "--grain {along,across}", "--slant DEG", "--twice"):
         assert words in text
     asked = ["--overcut", "0.125cm", "--grain", "across", "--slant", "12.5", "--twice"]
-    options = make_options(read_arguments(["a.dxf", "-o", "o.ngc", *asked]))
+    options = make_options(MAKE.arguments(["a.dxf", "-o", "o.ngc", *asked]))
     own = Job(Part(), operations=(EngraveOperation(Cut(2)),))
     assert job_with_options(Part(), replace(options, job=own)).operations == (engraving(**ASKED),)
     with pytest.raises(InputError, match="--overcut is 10 mm; the overcut must be 0 to 9 mm"):
-        read_arguments(["a.dxf", "-o", "o.ngc", "--overcut", "10"])
+        MAKE.arguments(["a.dxf", "-o", "o.ngc", "--overcut", "10"])
     with pytest.raises(ParameterError, match="--twice has no effect: the job has no engrave operation"):
-        job_with_options(Part(), make_options(read_arguments(["a.dxf", "-o", "o.ngc", "--twice"])))
+        job_with_options(Part(), make_options(MAKE.arguments(["a.dxf", "-o", "o.ngc", "--twice"])))
 
 
 def test_job_files_and_projects_have_it() -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from app.core.errors import ParameterError
-from app.model.scene import Outline, Passes, Scene, SceneStock, Surface
+from app.model.scene import Passes, Scene, SceneOutline, SceneStock, Surface
 from app.model.scene_curves import CurveForm, SectionCurve
 from app.model.scene_shapes import (
     BicubicShape,
@@ -59,12 +59,12 @@ WRONG: dict[str, Callable[[], object]] = {
     "Weights belong to control points": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), weights=(1.0, 1.0)),
     "one greater than 0 each": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), CurveForm.CONTROL, weights=(1.0, -1.0)),
     "An axis has no length": lambda: SectionCurve(((0.0, 0.0), (1.0, 0.0)), x_axis=ZERO),
-    "An outline is given in one way": Outline,
-    "give exactly one of them": lambda: Outline(circle=(0.0, 0.0, 1.0), drawing="a.dxf"),
-    "An outline has 2 corners": lambda: Outline(outline=((0.0, 0.0), (1.0, 0.0))),
-    "A circle's radius is 0 mm": lambda: Outline(circle=ZERO),
-    "A rectangle is x0, y0, x1, y1": lambda: Outline(rectangle=(1.0, 0.0, 0.0, 1.0)),
-    "An outline holds a number that is too large": lambda: Outline(circle=(math.nan, 0.0, 1.0)),
+    "An outline is given in one way": SceneOutline,
+    "give exactly one of them": lambda: SceneOutline(circle=(0.0, 0.0, 1.0), drawing="a.dxf"),
+    "An outline has 2 corners": lambda: SceneOutline(outline=((0.0, 0.0), (1.0, 0.0))),
+    "A circle's radius is 0 mm": lambda: SceneOutline(circle=ZERO),
+    "A rectangle is x0, y0, x1, y1": lambda: SceneOutline(rectangle=(1.0, 0.0, 0.0, 1.0)),
+    "An outline holds a number that is too large": lambda: SceneOutline(circle=(math.nan, 0.0, 1.0)),
     "The place of passes is out of range": lambda: Passes(1, pitch=1.0, floor=math.nan),
     "out of range; stay within 1e+06 mm and degrees": lambda: Passes(1, pitch=1.0, through=(math.inf, 0.0)),
     "each greater than its partner": lambda: SceneStock((0.0, 0.0, -math.inf, 1.0, 1.0, 0.0)),

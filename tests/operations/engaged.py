@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+HAIR = 1e-6
+"""mm; thinner metal than this is none."""
+
 
 def distances(points: Floats, row: Floats) -> Floats:
     """Return how far points (n, 2) are from a line or an arc of any sweep (x0, y0, x1, y1, cx, cy, r, turn)."""
@@ -48,34 +51,57 @@ def size(row: Floats) -> float:
     return math.dist(row[:2], row[2:4]) if row[7] == 0 else float(row[6]) * sweep(row)
 
 
-def engaged(rows: Floats, radius: float, *, step: float = 0.1, rim: int = 180, hair: float = 1e-6) -> list[Floats]:
-    """Return, row by row, the engaged angle at places not farther apart than `step` mm, radians.
+HALVINGS = 7
+"""By which each end of what is in metal is narrowed down."""
+
+
+def engaged(rows: Floats, radius: float, *, step: float = 0.4, rim: int = 90) -> list[Floats]:
+    """Return, row by row, the engaged angle at places not farther apart than `step` mm, radians, within pi / rim / 100
+    for each end of what is in metal.
 
     Args:
         rows: the whole path in the order of cutting; at its beginning the cutter stands in a hole of its own size.
-        rim: points of the front half of the rim.
-        hair: mm; thinner metal than this is none.
+        rim: points of the front half of the rim that are looked at first.
     """
     boxes = np.array([[r[:4:2].min(), r[1:4:2].min(), r[:4:2].max(), r[1:4:2].max()] for r in rows])
     arcs = rows[:, 7] != 0
     boxes[arcs, :2] = rows[arcs, 4:6] - rows[arcs, 6:7]
     boxes[arcs, 2:] = rows[arcs, 4:6] + rows[arcs, 6:7]
-    front = (np.arange(rim) + 0.5) / rim * math.pi - math.pi / 2
     found = []
     for k, row in enumerate(rows):
         count = max(1, math.ceil(size(row) / step))
-        share = (np.arange(count) + 0.5) / count
-        places, ahead = at(row, share)
-        angle = ahead[:, None] + front
-        points = places[:, None] + radius * np.stack([np.cos(angle), np.sin(angle)], -1)
-        metal = np.hypot(*(points - rows[0, :2]).reshape(-1, 2).T) > radius + hair
-        flat = points.reshape(-1, 2)
-        low, high = flat.min(axis=0) - radius, flat.max(axis=0) + radius
+        places, ahead = at(row, (np.arange(count) + 0.5) / count)
+        low, high = places.min(axis=0) - 2 * radius, places.max(axis=0) + 2 * radius
         near = np.flatnonzero((boxes[:k, :2] <= high).all(axis=1) & (boxes[:k, 2:] >= low).all(axis=1))
-        for j in near[::-1].tolist():
-            left = np.flatnonzero(metal)
+        before = np.concatenate([rows[near[::-1]], [[*rows[0, :2], *rows[0, :2], 0, 0, 0, 0]]])
+        found.append(_angles(before, places, ahead, (radius, rim)))
+    return found
+
+
+def _angles(before: Floats, places: Floats, ahead: Floats, cutter: tuple[float, int]) -> Floats:
+    radius, rim = cutter
+    each = math.pi / rim
+
+    def metal(place: NDArray[np.int64], angle: Floats) -> NDArray[np.bool_]:
+        points = places[place] + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        left = np.arange(len(points))
+        for row in before:
             if not len(left):
                 break
-            metal[left[distances(flat[left], rows[j]) <= radius - hair]] = False
-        found.append(metal.reshape(count, rim).sum(axis=1) * math.pi / rim)
-    return found
+            left = left[distances(points[left], row) > radius - HAIR]
+        standing = np.zeros(len(points), np.bool_)
+        standing[left] = True
+        return standing
+
+    front = (np.arange(rim) + 0.5) * each - math.pi / 2
+    number = np.repeat(np.arange(len(places)), rim)
+    seen = metal(number, (ahead[:, None] + front).ravel()).reshape(len(places), rim)
+    total = seen.sum(axis=1) * each
+    place, k = np.nonzero(seen[:, 1:] != seen[:, :-1])
+    into, low, high = seen[place, k], np.zeros(len(place)), np.ones(len(place))
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        same = metal(place, ahead[place] + front[k] + middle * each) == into
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    np.add.at(total, place, np.where(into, 1, -1) * ((low + high) / 2 - 0.5) * each)
+    return np.asarray(total)

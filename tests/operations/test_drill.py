@@ -12,6 +12,7 @@ from app.core.errors import ParameterError
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.write import write_program
 from app.geometry.region import polygon_contour
+from app.model.curve_selectors import on_layers
 from app.model.curves import Arc
 from app.model.finding import Finding, FindingKind
 from app.model.job import Copies, Job, Stock
@@ -219,7 +220,7 @@ def test_copies_are_drilled_too() -> None:
 
 def test_layers() -> None:
     part = layered_part({"a": PLATE, "b": [circle(2.5, 30, 70)]})
-    program = compute(Job(part, (DRILL,), (DrillOperation(Cut(1, layers=("b",))),)))
+    program = compute(Job(part, (DRILL,), (DrillOperation(Cut(1, curves=on_layers(("b",)))),)))
     assert places(program.moves) == {(30, 70)}
 
 

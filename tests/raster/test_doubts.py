@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from app.raster.doubts import Ambiguity, Doubt, ambiguities
-from app.raster.picture import PictureOptions, thresholded
+from app.raster.picture import thresholded
+from app.raster.picture_options import PictureOptions
 from tests.raster.test_picture import ink_of, paper
 
 

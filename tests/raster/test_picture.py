@@ -11,8 +11,9 @@ import pytest
 
 from app.core.errors import InputError, ParameterError
 from app.raster.faces import inner_faces, shows
-from app.raster.picture import PictureOptions, Shows, pitch_of, read_picture, thresholded
+from app.raster.picture import pitch_of, read_picture, thresholded
 from app.raster.picture_file import picture_size
+from app.raster.picture_options import PictureOptions, Shows
 
 SIZED = PictureOptions(pitch=0.2)
 

@@ -8,7 +8,7 @@ import pytest
 from app.core.errors import Cancelled, GeometryError, InputError
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.curves import Circle
-from app.model.scene import Scene, Side, Surface, Trim
+from app.model.scene import KeptSide, Scene, Surface, Trim
 from app.model.scene_shapes import MeshShape, PlaneShape, SphereShape
 from app.surfaces.patches.build import build, build_surface
 from tests.surfaces.surface_places import NO_FILES, anywhere
@@ -55,7 +55,7 @@ def test_a_missing_file_is_told_by_who_reads_it() -> None:
 def test_trims_are_regions_with_exact_arcs() -> None:
     trims = (
         Trim(circle=(50.0, 25.0, 10.0)),
-        Trim(rectangle=(0.0, 0.0, 20.0, 10.0), keep=Side.OUTSIDE),
+        Trim(rectangle=(0.0, 0.0, 20.0, 10.0), keep=KeptSide.OUTSIDE),
         Trim(outline=((0.0, 0.0), (0.0, 9.0), (9.0, 0.0))),
         Trim(drawing="frame.draw"),
     )
@@ -63,7 +63,7 @@ def test_trims_are_regions_with_exact_arcs() -> None:
         Surface("a", PLANE, trims=trims), sources_of(lambda _: FRAME)
     ).trims
     assert circle.regions[0].boundary.primitives == (Circle((50.0, 25.0), 10.0),)
-    assert [each.keep for each in (circle, rectangle)] == [Side.INSIDE, Side.OUTSIDE]
+    assert [each.keep for each in (circle, rectangle)] == [KeptSide.INSIDE, KeptSide.OUTSIDE]
     assert len(rectangle.regions[0].boundary.primitives) == 4
     corners = [each.start for each in outline.regions[0].boundary.primitives]
     assert sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(corners, corners[1:] + corners[:1], strict=True)) == 81

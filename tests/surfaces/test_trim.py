@@ -9,7 +9,7 @@ import shapely
 
 from app.core.errors import Cancelled, GeometryError
 from app.core.progress import Progress
-from app.model.scene import Side, Surface, Trim
+from app.model.scene import KeptSide, Surface, Trim
 from app.model.scene_shapes import BsplineShape, Shape
 from app.model.tool import Tool, ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
@@ -76,7 +76,7 @@ def test_a_path_over_half_a_ball_is_proven_and_ends_where_the_surface_does() -> 
 
 @pytest.mark.parametrize("radius", [2.0, 4.0, 9.0])
 def test_a_cutter_dips_into_a_round_hole_as_far_as_its_rim_lets_it(radius: float) -> None:
-    holed = trimmed(plane(-20, -20, 20, 20), Trim(circle=(1.0, 2.0, radius), keep=Side.OUTSIDE))
+    holed = trimmed(plane(-20, -20, 20, 20), Trim(circle=(1.0, 2.0, radius), keep=KeptSide.OUTSIDE))
     facets = facets_of(holed, plane(-20, -20, 20, 20, z=-2.5))
     x = np.linspace(-8, 8, 161)
     found = drop(facets, BALL, np.column_stack([x + 1.0, np.full_like(x, 2.0)])).height
@@ -97,14 +97,14 @@ def bumps(seed: int) -> BsplineShape:
 
 
 @pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("keep", list(Side))
-def test_cutters_over_what_is_left_of_a_bumpy_surface_against_dense_sampling(seed: int, keep: Side) -> None:
+@pytest.mark.parametrize("keep", list(KeptSide))
+def test_cutters_over_what_is_left_of_a_bumpy_surface_against_dense_sampling(seed: int, keep: KeptSide) -> None:
     circle = Trim(circle=(18.0, 21.0, 11.0), keep=keep)
     facets = facets_of(trimmed(bumps(seed), circle))
     whole = facets_of(bumps(seed)).patches
     u, v = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, 120), np.linspace(0, 1, 120)))
     samples = np.concatenate([whole.points(np.full(len(u), patch), u, v) for patch in range(len(whole))])
-    out = (np.hypot(samples[:, 0] - 18.0, samples[:, 1] - 21.0) - 11.0) * (1 if keep is Side.INSIDE else -1)
+    out = (np.hypot(samples[:, 0] - 18.0, samples[:, 1] - 21.0) - 11.0) * (1 if keep is KeptSide.INSIDE else -1)
     where = np.random.default_rng(seed).uniform(5, 35, (60, 2))
     found = drop(facets, BALL, where).height
     for (x, y), height in zip(where.tolist(), found.tolist(), strict=True):
@@ -122,14 +122,14 @@ def test_cutters_over_what_is_left_of_a_bumpy_surface_against_dense_sampling(see
     [
         Trim(circle=(3.0, -2.0, 9.0)),
         Trim(outline=((-8.0, -8.0), (9.0, -3.0), (-2.0, 11.0))),
-        Trim(circle=(0.0, 0.0, 7.0), keep=Side.OUTSIDE),
+        Trim(circle=(0.0, 0.0, 7.0), keep=KeptSide.OUTSIDE),
     ],
     ids=["circle", "triangle", "hole"],
 )
 def test_what_is_left_covers_the_area_once(trim: Trim) -> None:
     """Seen from above a ball has two sides."""
     inside = math.pi * trim.circle[2] ** 2 if trim.circle else shapely.Polygon(trim.outline).area
-    area = inside if trim.keep is Side.INSIDE else math.pi * RADIUS**2 - inside
+    area = inside if trim.keep is KeptSide.INSIDE else math.pi * RADIUS**2 - inside
     facets = facets_of(trimmed(ball(0, 0, 0, RADIUS), trim))
     assert area_seen(facets) / 2 == pytest.approx(area, rel=1e-3)  # chords of facets as coarse as the scene allows
 

@@ -9,6 +9,7 @@ import shapely
 
 from app.core.errors import ParameterError
 from app.geometry.region import polygon_contour
+from app.model.curve_selectors import on_layers
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job
@@ -32,7 +33,10 @@ def test_layers_of_a_job() -> None:
     assert layers_of(Job(part)) == {"a", "c"}
     assert layers_of(Job(part, layer_names=("b",))) == {"b"}
     assert layers_of(Job(part, keep_out_layers=("c",))) == {"a"}
-    asked = (PocketOperation(Cut(1, layers=("b",))), ContourOperation(Cut(2, enabled=False, layers=("nowhere",))))
+    asked = (
+        PocketOperation(Cut(1, curves=on_layers(("b",)))),
+        ContourOperation(Cut(2, enabled=False, curves=on_layers(("nowhere",)))),
+    )
     assert layers_of(Job(part, operations=asked)) == {"a", "b", "c"}
 
 
@@ -40,10 +44,10 @@ def test_layers_of_a_job() -> None:
     ("changes", "words"),
     [
         ({"keep_out_layers": ("d",)}, "no layer 'd'; it has a, b, c"),
-        ({"operations": (PocketOperation(Cut(1, layers=("A",))),)}, "no layer 'A'"),
+        ({"operations": (PocketOperation(Cut(1, curves=on_layers(("A",)))),)}, "no layer 'A'"),
         ({"layer_names": ("a",), "keep_out_layers": ("a",)}, "Layer 'a' is to be machined and to be kept off"),
         (
-            {"operations": (PocketOperation(Cut(1, layers=("b",))),), "keep_out_layers": ("b",)},
+            {"operations": (PocketOperation(Cut(1, curves=on_layers(("b",)))),), "keep_out_layers": ("b",)},
             "Layer 'b' is to be machined and to be kept",
         ),
     ],

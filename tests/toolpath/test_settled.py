@@ -37,6 +37,21 @@ def _job(corners: bool) -> tuple[Program, Job]:
     return compute(job), job
 
 
+def _plate() -> tuple[Program, Job]:
+    """A plate of 40 mm with nine holes of 6 mm, and a notch with corners inside that a cutter of 2 mm cannot reach."""
+    document = ezdxf.new("R2000", units=4)
+    for k in range(9):
+        document.modelspace().add_circle((10 * (k % 3) + 10, 10 * (k // 3) + 10), 3)
+    document.modelspace().add_lwpolyline(
+        [(0, 0), (40, 0), (40, 18), (36, 18), (36, 22), (40, 22), (40, 40), (0, 40)], close=True
+    )
+    text = io.StringIO()
+    document.write(text)
+    options = MakeOptions(contour_diameter=2.0, pocket_diameter=2.0)
+    job = job_from_drawing(read_for("plate.dxf", text.getvalue().encode(), options), options)
+    return compute(job), job
+
+
 def _both(program: Program, job: Job) -> tuple[Coverage, Coverage]:
     """What is measured with the moves that are clear told, and without."""
     return measure_beside_clear(program, job, clear_moves(program.moves, gouge_depths(program, job), 1e-3)), measure(
@@ -66,6 +81,30 @@ def test_corners_beside_settled_circles_are_told_as_before() -> None:
     assert quick.unreachable_mm2 == pytest.approx(slow.unreachable_mm2, abs=1e-9)
     assert quick.reachable_left_mm2 == 0
     assert quick.wanted[0].floor.area == pytest.approx(slow.area_mm2, abs=1e-9)
+
+
+def test_of_a_plate_only_what_is_round_open_squares_is_asked() -> None:
+    program, job = _plate()
+    quick, slow = _both(program, job)
+    assert quick.reachable_left_mm2 == slow.reachable_left_mm2 == 0
+    assert len(quick.places) == len(slow.places) == 6
+    assert quick.unreachable_mm2 == pytest.approx(slow.unreachable_mm2, rel=1e-3)
+    assert quick.unreachable_mm2 == pytest.approx(6 * (1 - np.pi / 4), rel=0.05)
+    assert quick.area_mm2 == pytest.approx(slow.area_mm2, abs=1e-6)
+    (wanted,) = quick.wanted
+    assert wanted.out_of_reach is not None
+    assert wanted.out_of_reach.area == pytest.approx(quick.unreachable_mm2, rel=0.05)
+
+
+def test_of_a_plate_what_has_no_path_is_left() -> None:
+    """Every move is gone that ends within 4 mm of one place between holes, and so is what they cut."""
+    program, job = _plate()
+    end = program.moves.end
+    keep = np.hypot(end[:, 0] - 15, end[:, 1] - 15) > 4
+    fewer = replace(program, moves=Moves(**{name: column[keep] for name, column in program.moves.columns().items()}))  # type: ignore[arg-type]
+    quick, slow = _both(fewer, job)
+    assert slow.reachable_left_mm2 > 1
+    assert quick.reachable_left_mm2 == pytest.approx(slow.reachable_left_mm2, rel=1e-3)
 
 
 def test_a_circle_without_its_paths_is_left() -> None:

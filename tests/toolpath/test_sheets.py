@@ -10,6 +10,7 @@ import shapely
 
 from app.geometry.overlay.overlay import without_outlines
 from app.geometry.region import nest, polygon_contour
+from app.model.curve_selectors import on_layers
 from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Region
@@ -132,7 +133,10 @@ def test_a_region_wholly_under_a_clamp_is_none() -> None:
 
 def test_operations_machine_their_own_layers() -> None:
     layers = {"a": [square(60)], "b": [circle(5, 20, 20)]}
-    inner, outer = PocketOperation(Cut(1, layers=("b",))), ContourOperation(Cut(2, layers=("a",)), Side.OUTSIDE)
+    inner, outer = (
+        PocketOperation(Cut(1, curves=on_layers(("b",)))),
+        ContourOperation(Cut(2, curves=on_layers(("a",))), Side.OUTSIDE),
+    )
     made = sheets(layers, inner, outer, RestOperation(Cut(2)), INSIDE)
     small, beyond, rest, walls = made.areas()
     assert shape(small.regions).area == pytest.approx(np.pi * 25, rel=1e-4)

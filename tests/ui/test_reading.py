@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QLabel, QPushButton
 
 from app.formats.project.files import load_project
 from app.model.part import Units
-from app.model.read_options import ReadOptions
+from app.model.read_options import DrawingOptions
 from app.model.reading import Reading, Source
 from app.ui.shell.translation import translate_all
 from app.ui.shell.wiring import Wiring
@@ -117,21 +117,21 @@ def reread(qtbot, wiring: Wiring, act: Callable[[], object]) -> None:
             6,
             "40\u2009000 \u00d7 20\u2009000 mm, and the largest tool 6 mm. The file names m",
             "Take it as mm",
-            Reading(Units.MM, (), ReadOptions(overrule=True)),
+            Reading(Units.MM, (), DrawingOptions(overrule=True)),
         ),
         (
             far,
             4,
             "more than 1 km from zero: its first curve, at (2300000.000, 410000.000) mm, 2.3 km away",
             "Move it to zero",
-            Reading(None, (), ReadOptions(to_zero=True)),
+            Reading(None, (), DrawingOptions(to_zero=True)),
         ),
         (
             on_paper,
             4,
             "all that is drawn stands on the layout A3",
             "Take layout A3",
-            Reading(None, (), ReadOptions(layout="A3")),
+            Reading(None, (), DrawingOptions(layout="A3")),
         ),
         (frozen, 4, "Nothing of it is shown", "Read layer Old", Reading(None, ("Old",))),
     ],
@@ -306,7 +306,7 @@ def test_the_page_shows_how_it_was_read_and_reads_it_again(qtbot, wiring, tmp_pa
     )
     assert len(wiring.document.part.entities) == 4 and section.layers.text.text() == "Holes"
     reread(qtbot, wiring, lambda: section.layout_.chosen.emit("A3"))
-    assert source(wiring).reading.how == ReadOptions(layout="A3", to_zero=True, without_layers=("Holes",))
+    assert source(wiring).reading.how == DrawingOptions(layout="A3", to_zero=True, without_layers=("Holes",))
     assert wiring.document.undo_name == "Read both.dxf"
     for _ in range(3):
         wiring.document.undo()

@@ -9,6 +9,7 @@ import pytest
 from PySide6.QtGui import QColor
 
 from app.drafting.document import Document
+from app.model.curve_selectors import on_layers
 from app.model.curves import Line
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
@@ -35,7 +36,7 @@ def slot_beside_a_slot() -> tuple[Program, Job]:
         name: [Contour((Line((x, y), (40.0, y)),), closed=False)]
         for name, x, y in (("first", 20.0, 2.0), ("then", 0.0, 0.0))
     }
-    operations = tuple(ContourOperation(Cut(1, layers=(name,)), side=Side.ON) for name in lines)
+    operations = tuple(ContourOperation(Cut(1, curves=on_layers((name,))), side=Side.ON) for name in lines)
     job = Job(layered_part(lines), (Tool(1, 6.0),), operations, Stock(margin=10.0))
     return compute(job), job
 

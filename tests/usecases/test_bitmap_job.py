@@ -6,7 +6,8 @@ import pytest
 
 from app.core.errors import GeometryError
 from app.model.finding import FindingKind
-from app.raster.picture import PictureOptions, thresholded
+from app.raster.picture import thresholded
+from app.raster.picture_options import PictureOptions
 from app.usecases.bitmap_job import BitmapJob, picture_job
 from app.usecases.options import MakeOptions
 from tests.raster.test_doubts import plate

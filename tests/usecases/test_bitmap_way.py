@@ -62,8 +62,9 @@ def deepest_gouge(result: BitmapProgram, job: Job, step: float) -> float:
     for tool in job.tools:
         points = along(result, tool.number, step)
         if len(points):
-            assert np.all(inside(points, walls) | (distance(points, walls) < 0.02))
-            worst = max(worst, tool.radius - float(distance(points, walls).min()))
+            away = distance(points, walls)
+            assert np.all(inside(points, walls) | (away < 0.02))
+            worst = max(worst, tool.radius - float(away.min()))
     return worst
 
 

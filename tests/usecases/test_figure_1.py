@@ -12,7 +12,7 @@ import pytest
 
 from app.core.errors import InputError
 from app.formats.plot.layout import PlotOptions, lay_out
-from app.formats.plot.surface_plot import VIEWS, Look, View
+from app.formats.plot.surface_plot import VIEWS, PlotColouring, Projection
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.moves import Purpose
 from app.usecases.surface import Computed, compute
@@ -22,7 +22,10 @@ from tests.formats.hpgl_player import Plotter
 
 SAMPLES = ROOT / "resources" / "samples"
 FIGURES = ROOT / "tests" / "data" / "figures"
-FIGURE_1 = {"compound-colours.png": PlotScene(), "compound-lines.png": PlotScene(View(25, 40), Look.LINES)}
+FIGURE_1 = {
+    "compound-colours.png": PlotScene(),
+    "compound-lines.png": PlotScene(Projection(25, 40), PlotColouring.LINES),
+}
 
 
 @cache

@@ -13,6 +13,7 @@ import pytest
 
 from app.core.errors import Cancelled, HitofudeError, InputError, ParameterError
 from app.core.progress import Progress
+from app.model.curve_selectors import on_layers
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies, Job
 from app.model.operation import (
@@ -126,7 +127,10 @@ def test_copies_and_clamps() -> None:
 def test_layers_that_are_read_are_all_that_the_job_needs() -> None:
     job = Job(
         Part(),
-        operations=(PocketOperation(Cut(1, layers=("p",))), ContourOperation(Cut(2, enabled=False, layers=("q",)))),
+        operations=(
+            PocketOperation(Cut(1, curves=on_layers(("p",)))),
+            ContourOperation(Cut(2, enabled=False, curves=on_layers(("q",)))),
+        ),
     )
     machining = Machining.of(keep_out=("k",))
     assert layers_of_drawing(MakeOptions(job=job, machining=machining)) == ()

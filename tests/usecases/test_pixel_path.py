@@ -26,7 +26,7 @@ from app.toolpath.coverage.flat import move_rows
 from app.usecases.bitmap_job import drawn_job
 from app.usecases.bitmap_options import BitmapSize
 from app.usecases.make import finish
-from app.usecases.pixel_path import TOLERANCE_PX, Keep, chain_points, clearance, pixel_path
+from app.usecases.pixel_path import TOLERANCE_PX, WallLimits, chain_points, clearance, pixel_path
 from tests.part_shapes import circle, fig2, square
 from tests.plain_distance import distance
 from tests.raster.shapes import KINDS
@@ -35,12 +35,12 @@ from tests.usecases.test_bitmap_way import job_of, made
 FRAME = Frame(200, 200, 0.5)
 
 
-def kept(contours: list[Contour], radius: float) -> tuple[Keep, list[np.ndarray]]:
+def kept(contours: list[Contour], radius: float) -> tuple[WallLimits, list[np.ndarray]]:
     """What paths of a tool have to keep, and the chains to make them from."""
     free = free_pixels(FRAME, contours)
     field = DistanceField.of(wall_rows(FRAME, free))
     chains = [border.chain for border in borders_of(offset_area(free, radius / FRAME.pitch, TOLERANCE_PX))]
-    return Keep(radius, radius, field, FRAME, free), [chain_points(FRAME, chain) for chain in chains]
+    return WallLimits(radius, radius, field, FRAME, free), [chain_points(FRAME, chain) for chain in chains]
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "beyond"])

@@ -12,6 +12,7 @@ from ezdxf.document import Drawing
 from app.formats.readers import read_drawing
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.write import write_files
+from app.model.curve_selectors import on_layers
 from app.model.entry import Lead, LeadKind
 from app.model.job import Copies, Job
 from app.model.moves import Area, DogBone, Program, Tab
@@ -51,16 +52,19 @@ def drawing() -> bytes:
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "pocket": (PocketOperation(Cut(1, 3.0, floor_to_leave=0.5)),),
     "layers": (
-        PocketOperation(Cut(1, 3.0, layers=("Holes",))),
-        ContourOperation(Cut(1, 5.0, layers=("outline",)), Side.OUTSIDE),
+        PocketOperation(Cut(1, 3.0, curves=on_layers(("Holes",)))),
+        ContourOperation(Cut(1, 5.0, curves=on_layers(("outline",))), Side.OUTSIDE),
     ),
     "holes": (
-        DrillOperation(Cut(2, 4.0, layers=("Holes",)), through=1.0),
-        ContourOperation(Cut(1, 2.0, layers=("text",)), Side.ON),
+        DrillOperation(Cut(2, 4.0, curves=on_layers(("Holes",))), through=1.0),
+        ContourOperation(Cut(1, 2.0, curves=on_layers(("text",))), Side.ON),
     ),
     "leads": (
         ContourOperation(
-            Cut(1, 2.0, 1.0, 0.25, layers=("outline",)), Side.OUTSIDE, Lead(LeadKind.LINE, 35.5), finish_width=1.5
+            Cut(1, 2.0, 1.0, 0.25, curves=on_layers(("outline",))),
+            Side.OUTSIDE,
+            Lead(LeadKind.LINE, 35.5),
+            finish_width=1.5,
         ),
     ),
     "wide holes": (DrillOperation(Cut(2, 4.0), least=4.0, most=20.0),),
@@ -107,7 +111,7 @@ def test_comments_lead_to_the_same_areas(name: str, post: str) -> None:
     assert found.job.travel_z == job.travel_z
     for asked, told in zip(job.operations, found.job.operations, strict=True):
         assert type(told) is type(asked)
-        assert (told.cut.depth, told.cut.floor, told.cut.layers) == (asked.cut.depth, asked.cut.floor, asked.cut.layers)
+        assert (told.cut.depth, told.cut.floor, told.cut.curves) == (asked.cut.depth, asked.cut.floor, asked.cut.curves)
         if isinstance(asked, DrillOperation) and isinstance(told, DrillOperation):
             assert (told.least, told.most, told.through) == (asked.least, asked.most, asked.through)
 

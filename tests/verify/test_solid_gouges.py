@@ -113,9 +113,9 @@ def test_a_gouge_far_deeper_than_any_number_of_cells_is_told_as_it_is(deep: floa
 
 @pytest.mark.parametrize("cells", [256, pytest.param(1024, marks=pytest.mark.exhaustive)])
 def test_a_floor_that_is_too_deep_is_told_in_seconds(cells: int) -> None:
-    begin = time.perf_counter()
+    begin = time.process_time()
     done = judged(pocketing(0.0, 0.0, -4.3), cells)
-    assert time.perf_counter() - begin < 20.0  # some 2 s; 97 s before
+    assert time.process_time() - begin < 20.0  # some 2 s; 97 s before
     assert done.judgement is not None and done.judgement.gouge.max_mm == pytest.approx(0.3, abs=1e-5)
     assert done.judgement.gouge.count == 1
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from ...core.atomic import write_together
@@ -15,10 +15,11 @@ from ...gcode.interpreter.program import Problem, Severity
 from ...gcode.rework.compare import Differences
 from ...model.part import Units
 from ...usecases.examine import CONTROLS, Examined, ExamineOptions, compared, examine
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
-from ..output import helped, tell
-from ..parser import MACHINE_HELP, OptionParser, machine_named, typed
+from ..output import tell
 from ..signals import Stopping, undisturbed
+from ..values import MACHINE_HELP, machine_named, typed
 
 TOLD = 20
 """Problems and differences that are printed; the report has all."""
@@ -30,20 +31,8 @@ taken off.
 """
 
 
-def check_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `check` and return its exit status: 0 clean, 1 with problems or differences.
-
-    Args:
-        argv: the arguments behind `check`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, _parser):
-        return 0
-    arguments = _parser().parse_args(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 clean, 1 with problems or differences."""
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     data = read_input(arguments.program)
@@ -58,9 +47,7 @@ def check_command(argv: Sequence[str], stopped: Stopping) -> int:
     return 1 if examined.problems or (differences is not None and not differences.same_motion) else 0
 
 
-def _parser() -> OptionParser:
-    about = "Read an NC program as its control would, and tell what there is to know of it."
-    parser = OptionParser("check", ("program", "the NC program"), about, EPILOG)
+def _add_options(parser: OptionParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
     parser.add_argument("--dialect", choices=list(CONTROLS), help="the control's language (default: as the text looks)")
     parser.add_argument("--tools", metavar="FILE", type=Path, help="tools: LinuxCNC's .tbl, or a library .toml or .csv")
@@ -90,7 +77,6 @@ def _parser() -> OptionParser:
     parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, help="of --restart-at")
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was found, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-    return parser
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
@@ -202,3 +188,14 @@ def _difference_lines(path: Path | None, differences: Differences | None) -> lis
     ]
     more = [f"  - {len(differences.items) - TOLD} more differences"] if len(differences.items) > TOLD else []
     return [f"{path.name}: {'the same motion' if differences.same_motion else 'other motion'}", *lines, *more]
+
+
+COMMAND = CliCommand(
+    "check",
+    "program",
+    "the NC program",
+    "Read an NC program as its control would, and tell what there is to know of it.",
+    EPILOG,
+    _add_options,
+    _run,
+)

@@ -5,7 +5,7 @@ for.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,27 +25,16 @@ from ...usecases.examine import Examined, ExamineOptions, examine
 from ...usecases.setup import Ready, Wishes, setup_of
 from ...usecases.setup_stock import box_stock, read_stock
 from ...usecases.setup_tools import ToolsTold
-from ..cut_options import Corners, cut_parser, read_arguments
+from ..command import CliCommand
+from ..cut_options import EPILOG, Corners, add_cut_options, check_cut_arguments
 from ..files import check_outputs, read_input, shown_progress
-from ..output import REMARKS, finding_lines, helped, tell
+from ..output import REMARKS, finding_lines, tell
 from ..reading_options import reading
 from ..signals import Stopping, undisturbed
 
 
-def cut_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `cut` and return its exit status: 0 clean, 1 with findings.
-
-    Args:
-        argv: the arguments behind `cut`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, cut_parser):
-        return 0
-    arguments = read_arguments(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 clean, 1 with findings."""
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     wishes = _wishes(arguments)
@@ -186,3 +175,17 @@ def _texts(outputs: dict[str, Path], ready: Ready, done: CutProgram, report: Cut
             yield "heights, with its", where
     if "image" in outputs:
         yield "image", picture_of(done, ready.programs[0].name)
+
+
+COMMAND = CliCommand(
+    "cut",
+    "",
+    "the NC program",
+    "Cut any NC program out of its stock, exactly, and tell what is left, what went wrong, and how near it is to the "
+    "part.",
+    EPILOG,
+    add_cut_options,
+    _run,
+    intermixed=True,
+    check=check_cut_arguments,
+)

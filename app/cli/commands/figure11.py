@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError
 from ...exhibits.die_programs import PROGRAMS
 from ...exhibits.figure_eleven import FigureOptions, figure_eleven
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, shown_progress
-from ..output import helped, tell
-from ..parser import OptionParser, typed
+from ..output import tell
 from ..signals import Stopping, undisturbed
+from ..values import typed
 
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
 _USUAL = FigureOptions()
@@ -26,20 +28,8 @@ cannot be used; 130: cancelled.
 """
 
 
-def figure11_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `figure11` and return its exit status, 0.
-
-    Args:
-        argv: the arguments behind `figure11`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, _parser):
-        return 0
-    arguments = _parser().parse_args(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status, 0."""
     if arguments.report is not None:
         check_outputs({"report": arguments.report}, [])
     done = figure_eleven(
@@ -53,12 +43,7 @@ def figure11_command(argv: Sequence[str], stopped: Stopping) -> int:
     return 0
 
 
-def _parser() -> OptionParser:
-    about = (
-        "Measure how long plain software, the published depth buffer, and this program's engines take for the same "
-        "cuts."
-    )
-    parser = OptionParser("figure11", ("", ""), about, EPILOG)
+def _add_options(parser: OptionParser) -> None:
     parser.add_argument(
         "--programs", metavar="A,B,C", type=typed(_programs), default=tuple(PROGRAMS), help="which (default all)"
     )
@@ -78,7 +63,6 @@ def _parser() -> OptionParser:
     )
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-    return parser
 
 
 def _programs(text: str) -> tuple[str, ...]:
@@ -96,3 +80,14 @@ def _whole(what: str, least: int, most: int) -> Callable[[str], int]:
         return int(text)
 
     return read
+
+
+COMMAND = CliCommand(
+    "figure11",
+    "",
+    "",
+    ("Measure how long plain software, the published depth buffer, and this program's engines take for the same cuts."),
+    EPILOG,
+    _add_options,
+    _run,
+)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Sequence
 from pathlib import Path
 
 from ...core.atomic import write_together
@@ -14,11 +13,12 @@ from ...gcode.posts.post import Post
 from ...gcode.posts.posts import load_post
 from ...usecases.smooth import Form, Smoothed, SmoothOptions, smooth
 from ...usecases.smooth_report import certificate, findings, report_text
+from ..command import CliCommand, OptionParser
 from ..effective_options import add_effective_options, effective_method
 from ..files import check_outputs, read_input, shown_progress
-from ..output import REMARKS, finding_lines, helped, tell
-from ..parser import OptionParser, number, typed
+from ..output import REMARKS, finding_lines, tell
 from ..signals import Stopping, undisturbed
+from ..values import number, typed
 
 EPILOG = """\
 What is written is read back and proven: nowhere are curve and moves farther apart than T, both ways and in order.
@@ -27,20 +27,8 @@ stayed as it was; 2: bad input.
 """
 
 
-def smooth_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `smooth` and return its exit status: 0 done, 1 with findings.
-
-    Args:
-        argv: the arguments behind `smooth`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, _parser):
-        return 0
-    arguments = _parser().parse_args(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 done, 1 with findings."""
     outputs = {name: path for name in ("output", "report") if (path := getattr(arguments, name)) is not None}
     check_outputs(outputs, [arguments.program])
     progress = shown_progress(arguments.quiet, stopped)
@@ -56,12 +44,7 @@ def smooth_command(argv: Sequence[str], stopped: Stopping) -> int:
     return 1 if findings(done) else 0
 
 
-def _parser() -> OptionParser:
-    about = (
-        "Write the straight moves of an NC program as fewer lines, as arcs, or as splines, within a tolerance that "
-        "is proven."
-    )
-    parser = OptionParser("smooth", ("program", "the NC program and -o OUT.ngc"), about, EPILOG)
+def _add_options(parser: OptionParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.ngc", type=Path, help="the NC program")
     parser.add_argument("-o", "--output", metavar="OUT.ngc", type=Path, required=True, help="the smoothed program")
     parser.add_argument(
@@ -121,7 +104,6 @@ def _parser() -> OptionParser:
     add_effective_options(parser)
     parser.add_argument("--report", metavar="R.json", type=Path, help="the certificate and every stretch, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-    return parser
 
 
 def _region(text: str) -> float | None:
@@ -174,3 +156,17 @@ def _warnings(done: Smoothed) -> list[str]:
     told = [f"  - {problem.told(done.name)} (a warning)" for problem in done.source.problems]
     more = [f"  - {len(told) - REMARKS} more warnings; check tells them all"] if len(told) > REMARKS else []
     return [f"  read as {HABITS[done.dialects[0]].title} does", *told[:REMARKS], *more]
+
+
+COMMAND = CliCommand(
+    "smooth",
+    "program",
+    "the NC program and -o OUT.ngc",
+    (
+        "Write the straight moves of an NC program as fewer lines, as arcs, or as splines, within a tolerance that "
+        "is proven."
+    ),
+    EPILOG,
+    _add_options,
+    _run,
+)

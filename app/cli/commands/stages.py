@@ -6,7 +6,6 @@ import argparse
 import json
 import os
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,12 +18,13 @@ from ...formats.readers import offered_suffixes
 from ...usecases.machining import Machining
 from ...usecases.options import MakeOptions
 from ..bitmap_options import add_bitmap_options, bitmap_options
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..make_options import stepover
-from ..output import finding_lines, helped, tell
-from ..parser import OptionParser, join_tolerance, number, typed
+from ..output import finding_lines, tell
 from ..reading_options import add_reading_options, reading
 from ..signals import Stopping, undisturbed
+from ..values import join_tolerance, number, typed
 
 _OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)", re.IGNORECASE)
 """Names of the files that the stages are written to, seen from their folder."""
@@ -39,20 +39,8 @@ in, 8 circle, 9 long line, 10 vertex, 11 short line, 12 arc, 13 free curve.
 """
 
 
-def stages_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `stages` and return its exit status: 0 clean, 1 with findings.
-
-    Args:
-        argv: the arguments behind `stages`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, _parser):
-        return 0
-    arguments = _parser().parse_args(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 clean, 1 with findings."""
     folder = _check_outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     options = _make_options(arguments)
@@ -71,11 +59,7 @@ def stages_command(argv: Sequence[str], stopped: Stopping) -> int:
     return 1 if any(finding.counts for finding in run.findings) else 0
 
 
-def _parser() -> OptionParser:
-    about = (
-        "Draw a drawing or a picture on a bitmap as in 1986, and write the display memory after every numbered step."
-    )
-    parser = OptionParser("stages", ("drawing", "the drawing and the folder to write to"), about, EPILOG)
+def _add_options(parser: OptionParser) -> None:
     parser.add_argument(
         "drawing",
         metavar="DRAWING",
@@ -95,7 +79,6 @@ def _parser() -> OptionParser:
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     add_bitmap_options(parser.add_argument_group("bitmap and picture"), "rows and columns of the bitmap (default 400)")
     _job_options(parser.add_argument_group("tools and drawing"))
-    return parser
 
 
 def _job_options(group: argparse._ArgumentGroup) -> None:
@@ -187,3 +170,14 @@ def _lines(run: StagesRun, folder: Path) -> list[str]:
     if run.variant is Variant.PUBLISHED:
         lines.append(f"  - the fill as published is wrong in {wrong} pixels" + ("" if wrong else " here"))
     return lines + finding_lines(run.findings)
+
+
+COMMAND = CliCommand(
+    "stages",
+    "drawing",
+    "the drawing and the folder to write to",
+    ("Draw a drawing or a picture on a bitmap as in 1986, and write the display memory after every numbered step."),
+    EPILOG,
+    _add_options,
+    _run,
+)

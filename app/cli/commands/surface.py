@@ -5,12 +5,12 @@ report.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError
-from ...formats.plot.surface_plot import VIEWS, Look
+from ...formats.plot.surface_plot import VIEWS, PlotColouring
 from ...formats.scene.toml import read_scene, sources_of
 from ...usecases.surface import Computed, compute
 from ...usecases.surface_loop import closed_loop
@@ -18,10 +18,11 @@ from ...usecases.surface_nc import WrittenScene, write_scene_nc
 from ...usecases.surface_plot import FORMATS, Drawn, PlotScene, plot_surface
 from ...usecases.surface_points import scene_points_csv
 from ...usecases.surface_report import surface_report
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
-from ..output import finding_lines, helped, tell
-from ..parser import OptionParser, number
+from ..output import finding_lines, tell
 from ..signals import Stopping, undisturbed
+from ..values import number
 
 EPILOG = """\
 The scene tells surfaces, stock, tools and families of passes; resources/docs/scene.md explains every key. On each
@@ -33,20 +34,8 @@ input; 130: cancelled.
 """
 
 
-def surface_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `surface` and return its exit status: 0 done and proven, 1 with findings.
-
-    Args:
-        argv: the arguments behind `surface`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, _parser):
-        return 0
-    arguments = _parser().parse_args(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 done and proven, 1 with findings."""
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
     path: Path = arguments.scene
@@ -70,12 +59,7 @@ def surface_command(argv: Sequence[str], stopped: Stopping) -> int:
     return 1 if any(finding.counts for finding in report.findings) else 0
 
 
-def _parser() -> OptionParser:
-    about = (
-        "Compute tool paths over the surfaces of a scene, told apart by surface, and prove that they go into none of "
-        "them."
-    )
-    parser = OptionParser("surface", ("scene", "the scene and -o OUT.ngc"), about, EPILOG)
+def _add_options(parser: OptionParser) -> None:
     parser.add_argument("scene", metavar="SCENE.toml", type=Path, help="surfaces, stock, tools and passes")
     parser.add_argument(
         "-o", "--output", metavar="OUT.ngc", type=Path, help="the NC program; one a tool where the control changes none"
@@ -91,8 +75,8 @@ def _parser() -> OptionParser:
     )
     parser.add_argument(
         "--look",
-        choices=[look.value for look in Look],
-        default=Look.COLOURS.value,
+        choices=[look.value for look in PlotColouring],
+        default=PlotColouring.COLOURS.value,
         help="what tells parts of the plot apart: colours of surfaces (default), line types of surfaces, or tools",
     )
     parser.add_argument(
@@ -114,7 +98,6 @@ def _parser() -> OptionParser:
         help="with --report: the program is cut, smoothed within T mm and cut again, all told in the report",
     )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-    return parser
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
@@ -145,10 +128,24 @@ def _texts(
         yield outputs["points"], scene_points_csv(computed)
     if "plot" in outputs:
         path = outputs["plot"]
-        what = PlotScene(VIEWS[arguments.view], Look(arguments.look), Drawn(arguments.draw))
+        what = PlotScene(VIEWS[arguments.view], PlotColouring(arguments.look), Drawn(arguments.draw))
         sheets = plot_surface(computed, path.suffix, what)
         for number, sheet in enumerate(sheets, 1):
             yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), sheet
     if written is not None and "output" in outputs:
         for file in written.files:
             yield file.named(outputs["output"]), file.nc.text.encode()
+
+
+COMMAND = CliCommand(
+    "surface",
+    "scene",
+    "the scene and -o OUT.ngc",
+    (
+        "Compute tool paths over the surfaces of a scene, told apart by surface, and prove that they go into none of "
+        "them."
+    ),
+    EPILOG,
+    _add_options,
+    _run,
+)

@@ -7,7 +7,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-from collections.abc import Sequence
 from pathlib import Path
 
 from ...core.atomic import write_together
@@ -18,11 +17,12 @@ from ...model.operation import LEAST_LENGTH
 from ...toolpath.advice.advise import RegionAdvice
 from ...toolpath.advice.time import Plan
 from ...usecases.advice import AdviceOptions, Advised, advice_for
+from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
-from ..output import finding_lines, helped, tell
-from ..parser import OptionParser, join_tolerance, number, typed
+from ..output import finding_lines, tell
 from ..reading_options import add_reading_options, reading
 from ..signals import Stopping, undisturbed
+from ..values import join_tolerance, number, typed
 
 TOLD = 12
 """Regions that are printed; the report has all."""
@@ -34,20 +34,8 @@ estimates with each tool's feeds. Exit status 0: done; 1: with findings about th
 """
 
 
-def tools_command(argv: Sequence[str], stopped: Stopping) -> int:
-    """Run `tools` and return its exit status: 0 clean, 1 with findings.
-
-    Args:
-        argv: the arguments behind `tools`.
-        stopped: set when the user wants it to stop.
-
-    Raises:
-        HitofudeError: bad usage or input; nothing was written.
-        Cancelled: by Ctrl+C.
-    """
-    if helped(argv, _parser):
-        return 0
-    arguments = _parser().parse_args(argv)
+def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+    """Do the work and return the exit status: 0 clean, 1 with findings."""
     if arguments.report is not None:
         check_outputs(
             {"report": arguments.report}, [path for path in (arguments.drawing, arguments.tools) if path is not None]
@@ -66,9 +54,7 @@ def tools_command(argv: Sequence[str], stopped: Stopping) -> int:
     return 1 if any(finding.counts for finding in advised.findings) else 0
 
 
-def _parser() -> OptionParser:
-    about = "Tell which tools a drawing wants."
-    parser = OptionParser("tools", ("drawing", "the drawing"), about, EPILOG)
+def _add_options(parser: OptionParser) -> None:
     parser.add_argument(
         "drawing", metavar="DRAWING", type=Path, help=f"the drawing or project, {' '.join(offered_suffixes())}"
     )
@@ -98,7 +84,6 @@ def _parser() -> OptionParser:
     )
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was found, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
-    return parser
 
 
 def _options(arguments: argparse.Namespace) -> AdviceOptions:
@@ -157,3 +142,14 @@ def _region_words(region: RegionAdvice) -> str:
 def _clock(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes}:{rest:02d}"
+
+
+COMMAND = CliCommand(
+    "tools",
+    "drawing",
+    "the drawing",
+    "Tell which tools a drawing wants.",
+    EPILOG,
+    _add_options,
+    _run,
+)

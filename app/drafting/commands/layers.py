@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ...core.errors import InputError
+from ...model.curve_selectors import OnLayer
 from ...model.job import Job
 from ...model.part import Layer, Part
 from ..expressions.arguments import Arguments
@@ -161,7 +162,12 @@ def with_layer_renamed(job: Job, old: str, new: str) -> Job:
         return tuple(new if name == old else name for name in names)
 
     operations = tuple(
-        replace(o, cut=replace(o.cut, layers=named(o.cut.layers))) if old in o.cut.layers else o for o in job.operations
+        replace(
+            o, cut=replace(o.cut, curves=tuple(OnLayer(new) if each == OnLayer(old) else each for each in o.cut.curves))
+        )
+        if OnLayer(old) in o.cut.curves
+        else o
+        for o in job.operations
     )
     return replace(
         job, operations=operations, layer_names=named(job.layer_names), keep_out_layers=named(job.keep_out_layers)

@@ -49,7 +49,7 @@ class Negative:
 
 
 @dataclass
-class Sheet:
+class DxfSheet:
     """What a space or a block draws.
 
     Attributes:
@@ -111,7 +111,7 @@ class Sheet:
             self.any_height = True
 
 
-class Walker:
+class DxfWalker:
     """Reads spaces of one document; every block is read once."""
 
     def __init__(self, document: Any, name: str, asked: tuple[str, ...] = (), without: tuple[str, ...] = ()) -> None:
@@ -127,19 +127,19 @@ class Walker:
         self._frozen = {layer.dxf.name.casefold() for layer in document.layers if layer.is_frozen()} - wanted
         self._without = {kind.upper() for kind in without}
         self._fonts = Fonts(document.styles)
-        self._blocks: dict[str, Sheet] = {}
+        self._blocks: dict[str, DxfSheet] = {}
         self._open: list[str] = []
         self.types: set[str] = set()
         """Types of the entities that were met, also of those that were left out."""
         self._read: dict[str, None] = {}  # types of texts that are
 
-    def sheet(self, entities: Iterable[Any]) -> Sheet:
+    def sheet(self, entities: Iterable[Any]) -> DxfSheet:
         """Return what some entities draw.
 
         Raises:
             InputError: blocks insert themselves, are nested too deep, or unfold to too many curves.
         """
-        sheet = Sheet()
+        sheet = DxfSheet()
         for entity in entities:
             kind = entity.dxftype()
             self.types.add(kind)
@@ -152,7 +152,7 @@ class Walker:
             self._bounded(sheet.size)
         return sheet
 
-    def _one(self, entity: Any, kind: str, sheet: Sheet) -> None:
+    def _one(self, entity: Any, kind: str, sheet: DxfSheet) -> None:
         if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
             sheet.left_out[f"{kind} (invisible)"] += 1
         elif kind in self._without:
@@ -162,7 +162,7 @@ class Walker:
         else:
             self._draw(entity, kind, sheet)
 
-    def _draw(self, entity: Any, kind: str, sheet: Sheet) -> None:
+    def _draw(self, entity: Any, kind: str, sheet: DxfSheet) -> None:
         try:
             made = self._lettering(entity, kind) if kind in _TEXTS else hatch_of(entity) if kind == "HATCH" else None
             curves = [] if made is not None else curves_of(entity)
@@ -195,7 +195,7 @@ class Walker:
             return replace(mtext_lettering(entity.virtual_mtext_entity(), self._fonts), kind=kind)
         return text_lettering(entity, self._fonts)
 
-    def _insert(self, insert: Any, sheet: Sheet) -> None:
+    def _insert(self, insert: Any, sheet: DxfSheet) -> None:
         """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
         if insert.block() is None:
             sheet.left_out["INSERT of a missing block"] += 1
@@ -222,7 +222,7 @@ class Walker:
             self._copy(inner, place, insert.dxf.layer, sheet)
         self._attributes(insert, copies, sheet)
 
-    def _attributes(self, insert: Any, copies: list[Affine], sheet: Sheet) -> None:
+    def _attributes(self, insert: Any, copies: list[Affine], sheet: DxfSheet) -> None:
         """Add the attributes of a block, which lie where the block is inserted first, with every copy of it."""
         own = self.sheet(attribute for attribute in insert.attribs if not attribute.is_invisible)
         own.left_out["ATTRIB (invisible)"] += sum(bool(attribute.is_invisible) for attribute in insert.attribs)
@@ -238,7 +238,7 @@ class Walker:
         layer = insert.dxf.layer.casefold()
         return layer in self._frozen and not (self._open and layer == "0")
 
-    def _copy(self, inner: Sheet, place: Affine, outer: str, sheet: Sheet) -> None:
+    def _copy(self, inner: DxfSheet, place: Affine, outer: str, sheet: DxfSheet) -> None:
         """Add what a block draws in one place, on the layer `outer` where it names none."""
         sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
         sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
@@ -256,7 +256,7 @@ class Walker:
                 sheet.curves.append((moved, outer if layer == "0" else layer))
         self._bounded(max(len(sheet.hidden), len(sheet.negative), sheet.size))
 
-    def _block(self, name: str, insert: Any) -> Sheet:
+    def _block(self, name: str, insert: Any) -> DxfSheet:
         key = name.casefold()
         if key in self._open:
             raise InputError(

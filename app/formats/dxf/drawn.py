@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import compress
 
 from ...model.curves import Curve
-from .blocks import Sheet
+from .blocks import DxfSheet
 from .hatch import Hatch, apart
 
 
@@ -31,7 +31,7 @@ class AllDrawn:
     repeated: int
 
 
-def all_drawn(sheet: Sheet, machined: Callable[[str], bool], size: float) -> AllDrawn:
+def all_drawn(sheet: DxfSheet, machined: Callable[[str], bool], size: float) -> AllDrawn:
     """Return all curves of a sheet.
 
     Args:
@@ -51,5 +51,5 @@ def _all(hatch: Hatch) -> list[Curve]:
     return [curve for ring in hatch.boundaries for curve in ring]
 
 
-def _new(rings: list[tuple[Curve, ...]], sheet: Sheet, machined: Callable[[str], bool], size: float) -> list[bool]:
+def _new(rings: list[tuple[Curve, ...]], sheet: DxfSheet, machined: Callable[[str], bool], size: float) -> list[bool]:
     return apart(rings, [curve for curve, layer in sheet.curves if machined(layer)], size)

@@ -13,7 +13,7 @@ from ...geometry.affine import scaled
 from ...model.curves import Curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Entity, Layer, Part, Units
-from ...model.read_options import AS_DRAWN, ReadOptions
+from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import Reading
 from ..drawing import Drawing
 from ..drawing_account import (
@@ -32,7 +32,7 @@ from ..drawing_account import (
     without_length,
 )
 from ..reading_question import Contents, Question, UndecidedError, about_far, about_frozen, about_layouts, about_units
-from .blocks import Sheet, Walker
+from .blocks import DxfSheet, DxfWalker
 from .drawn import all_drawn
 from .findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative
 from .layouts import PAPER, layout_named, paper
@@ -67,7 +67,7 @@ def read_dxf(
     name: str = "drawing.dxf",
     units: Units | None = None,
     layers: tuple[str, ...] = (),
-    how: ReadOptions = AS_DRAWN,
+    how: DrawingOptions = AS_DRAWN,
 ) -> Drawing:
     """Return the curves of a DXF's model space, or of one layout, in mm, and what was left out.
 
@@ -90,7 +90,7 @@ def read_dxf(
     loaded = load(data, name)
     document, reading = loaded.document, Reading(units, layers, how)
     unit = _unit(document, data, units, how.overrule)
-    walker = Walker(document, name, layers, how.without_types)
+    walker = DxfWalker(document, name, layers, how.without_types)
     sheet = walker.sheet(layout_named(document, how.layout, name))
     to_mm, machined = scaled(unit.size), _machined(document, layers, how.without_layers)
     drawn = all_drawn(sheet, machined, unit.size)
@@ -133,7 +133,7 @@ def read_dxf(
     )
 
 
-def _asked(sheet: Sheet, found: Taken, others: Counter[str], reading: Reading, unit: _Unit) -> Question | None:
+def _asked(sheet: DxfSheet, found: Taken, others: Counter[str], reading: Reading, unit: _Unit) -> Question | None:
     """Return what to ask about a drawing that has nothing to machine, in the order of `_nothing`."""
     if found.far and found.moved is None:
         return about_far(found.far[0][0], reading, unit.shown)
@@ -185,7 +185,7 @@ def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) 
     )
 
 
-def _nothing(sheet: Sheet, found: Taken, others: Counter[str]) -> str:
+def _nothing(sheet: DxfSheet, found: Taken, others: Counter[str]) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
     left_out = sheet.left_out + found.missing + Counter({PAPER: others.total()})
     said = listed(+left_out, "; left out: ")
@@ -257,7 +257,7 @@ def _damage(repaired: int) -> Iterable[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(repaired))
 
 
-def _heights(sheet: Sheet, factor: float) -> Iterable[Finding]:
+def _heights(sheet: DxfSheet, factor: float) -> Iterable[Finding]:
     low, high = (z * factor for z in sheet.heights)
     if high - low > tolerances.CURVE:
         yield remark(

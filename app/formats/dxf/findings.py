@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import Hidden, Sheet
+from .blocks import DxfSheet, Hidden
 from .drawn import AllDrawn
 from .letters import Lettering
 from .numbers import Commas
@@ -28,7 +28,7 @@ def about_commas(commas: Commas) -> Iterator[Finding]:
         )
 
 
-def about_negative(sheet: Sheet, size: float) -> Iterator[Finding]:
+def about_negative(sheet: DxfSheet, size: float) -> Iterator[Finding]:
     """Say that circles and arcs are missing, for their radius is below 0; `size` is that of the drawing's unit, mm."""
     if sheet.negative:
         first = sheet.negative[0]
@@ -46,7 +46,7 @@ def about_negative(sheet: Sheet, size: float) -> Iterator[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 
 
-def about_hidden(sheet: Sheet, size: float) -> Iterator[Finding]:
+def about_hidden(sheet: DxfSheet, size: float) -> Iterator[Finding]:
     """Name the blocks that are inserted on frozen layers, a sentence a layer; `size` is that of the drawing's unit,
     mm.
     """

@@ -23,7 +23,7 @@ class LeftOutError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class LetterStyle:
     """What letters look like.
 
     Attributes:
@@ -85,11 +85,11 @@ def _moved(curves: Iterable[Curve], to: Affine) -> Iterator[Curve]:
 
 
 @dataclass(frozen=True)
-class Run:
+class LetterRun:
     """Some words of one look, set with some letters."""
 
     words: str
-    look: Look
+    look: LetterStyle
     letters: Set
 
     @property
@@ -128,9 +128,9 @@ class Run:
             yield from bar_curves((x + lean * (at - y), at), self.ink, self.look.height, not self.letters.font)
 
 
-def run_of(words: str, look: Look, fonts: Fonts) -> Run:
+def run_of(words: str, look: LetterStyle, fonts: Fonts) -> LetterRun:
     """Return words with the letters that they are set with."""
-    return Run(words, look, fonts.of(look.font, words))
+    return LetterRun(words, look, fonts.of(look.font, words))
 
 
 def bar_curves(start: Point, length: float, height: float, stroke: bool) -> Iterator[tuple[Curve, bool]]:
@@ -143,7 +143,7 @@ def bar_curves(start: Point, length: float, height: float, stroke: bool) -> Iter
     yield from ((Line(a, b), False) for a, b in zip(corners, corners[1:] + corners[:1], strict=True))
 
 
-def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[Run], to: Affine = IDENTITY) -> Lettering:
+def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[LetterRun], to: Affine = IDENTITY) -> Lettering:
     """Return what curves (and whether each is a stroke) of some runs are together, under a map."""
     drawn = list(curves)
     letters = [("" if run.letters.font else run.look.font.said, run.letters) for run in runs if run.words.strip()]

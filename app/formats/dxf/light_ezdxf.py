@@ -10,11 +10,11 @@ from typing import Any
 _PARSER, _GRAMMAR = "ezdxf.queryparser", "pyparsing"
 
 
-class _Later:
+class _LateParser:
     """Stands for the parser of queries until somebody asks it something."""
 
     def __getattr__(self, name: str) -> Any:
-        if isinstance(getattr(sys.modules.get(_PARSER), "EntityQueryParser", None), _Later):
+        if isinstance(getattr(sys.modules.get(_PARSER), "EntityQueryParser", None), _LateParser):
             del sys.modules[_PARSER]
         return getattr(import_module(_PARSER).EntityQueryParser, name)
 
@@ -31,7 +31,7 @@ def load_ezdxf() -> None:
         import_module("ezdxf")
         return
     parser, grammar = ModuleType(_PARSER), ModuleType(_GRAMMAR)
-    vars(parser)["EntityQueryParser"], vars(grammar)["ParseException"] = _Later(), _NeverRaisedError
+    vars(parser)["EntityQueryParser"], vars(grammar)["ParseException"] = _LateParser(), _NeverRaisedError
     sys.modules[_PARSER], sys.modules[_GRAMMAR] = parser, grammar
     try:
         import_module("ezdxf")

@@ -12,7 +12,7 @@ from ...model.curves import Curve
 from .codes import Bar, legible, numbered_signs
 from .curves import NoLengthError
 from .fonts import FontName, Fonts, style_font
-from .letters import LeftOutError, Lettering, Look, Run, bar_curves, lettered, run_of
+from .letters import LeftOutError, Lettering, LetterRun, LetterStyle, bar_curves, lettered, run_of
 from .text import MOST_LETTERS
 
 _APART = 5 / 3
@@ -46,13 +46,13 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
         raise LeftOutError(f"MTEXT (of more than {MOST_LETTERS} letters)")
     if not dxf.char_height > 0:
         raise NoLengthError(at)
-    first = Look(
+    first = LetterStyle(
         style_font(style),
         float(dxf.char_height),
         float(style.dxf.width if style else 1.0),
         float(style.dxf.oblique if style else 0.0),
     )
-    page = _Page(fonts, first, float(dxf.get("width", 0.0) or 0.0), int(dxf.attachment_point))
+    page = _TextPage(fonts, first, float(dxf.get("width", 0.0) or 0.0), int(dxf.attachment_point))
     page.fill(entity.text)
     page.set_lines(float(dxf.line_spacing_factor), dxf.line_spacing_style == _EXACT)
     made = lettered(page.curves(), [run for line in page.lines for run in line.runs], _frame(entity, at))
@@ -83,10 +83,10 @@ class _Box:
         bar: whether a line parts the rows.
     """
 
-    rows: tuple[tuple[Run, float, float], ...]
+    rows: tuple[tuple[LetterRun, float, float], ...]
     advance: float
     ink: float
-    look: Look
+    look: LetterStyle
     lift: float = 0.0
     bar: bool = False
 
@@ -99,7 +99,7 @@ class _Box:
 
 
 @dataclass
-class _Line:
+class _TextLine:
     """A line of boxes.
 
     Attributes:
@@ -125,15 +125,15 @@ class _Line:
         return max((at + box.ink for box, at in self.boxes), default=0.0)
 
     @property
-    def runs(self) -> list[Run]:
+    def runs(self) -> list[LetterRun]:
         return [run for box, _ in self.boxes for run, _, _ in box.rows]
 
 
-class _Page:
+class _TextPage:
     """The lines of one MTEXT, its zero at the upper left corner, then at the insertion point."""
 
-    def __init__(self, fonts: Fonts, look: Look, width: float, attachment: int) -> None:
-        self.lines: list[_Line] = []
+    def __init__(self, fonts: Fonts, look: LetterStyle, width: float, attachment: int) -> None:
+        self.lines: list[_TextLine] = []
         self._fonts, self._look, self._width = fonts, look, width
         self._across, self._down = (attachment - 1) % 3, (attachment - 1) // 3
         self._words: list[_Box] = []  # that nothing may part, for no blank stands between them
@@ -163,7 +163,7 @@ class _Page:
                 self._space(token.type, look, context)
         self._put(context)
 
-    def _seen(self, context: Any, styled: Any) -> Look:
+    def _seen(self, context: Any, styled: Any) -> LetterStyle:
         """Return what letters look like under a context of the parser."""
         face = context.font_face
         font = self._look.font
@@ -174,7 +174,7 @@ class _Page:
                 named if as_file else "", "" if as_file else named, face.weight >= 600, "italic" in face.style.lower()
             )
         flags = ((Bar.UNDER, context.underline), (Bar.OVER, context.overline), (Bar.THROUGH, context.strike_through))
-        return Look(
+        return LetterStyle(
             font,
             context.cap_height or self._look.height,
             context.width_factor or 1.0,
@@ -183,11 +183,11 @@ class _Page:
             frozenset(bar for bar, wanted in flags if wanted),
         )
 
-    def _box(self, words: str, look: Look, lift: float = 0.0) -> _Box:
+    def _box(self, words: str, look: LetterStyle, lift: float = 0.0) -> _Box:
         run = run_of(words, look, self._fonts)
         return _Box(((run, 0.0, 0.0),), run.advance, run.ink, look, lift)
 
-    def _fraction(self, data: tuple[str, str, str], look: Look) -> _Box:
+    def _fraction(self, data: tuple[str, str, str], look: LetterStyle) -> _Box:
         """Return a fraction: one row over the other, about the middle of the capitals beside it, or both beside a
         stroke.
         """
@@ -210,7 +210,7 @@ class _Page:
         )
         return _Box(rows2, max(over.advance, under.advance), ink, look, bar=sort == "/")
 
-    def _space(self, kind: Any, look: Look, context: Any) -> None:
+    def _space(self, kind: Any, look: LetterStyle, context: Any) -> None:
         from ezdxf.tools.text import TokenType
 
         if kind == TokenType.NBSP:
@@ -250,10 +250,10 @@ class _Page:
             at += box.advance
         self._words, self._blank = [], 0.0
 
-    def _open(self, context: Any) -> _Line:
+    def _open(self, context: Any) -> _TextLine:
         return self._line(context) if self._fresh else self.lines[-1]
 
-    def _line(self, context: Any, follows: bool = False) -> _Line:
+    def _line(self, context: Any, follows: bool = False) -> _TextLine:
         """Return a new line: the first of a paragraph, unless it `follows` one that is full or the paragraph has one
         already.
         """
@@ -263,7 +263,7 @@ class _Page:
         begin = wanted.left * unit + (0.0 if follows else wanted.indent * unit)
         end = self._width - wanted.right * unit if self._width > 0 else 0.0
         align = {"DEFAULT": "lcr"[self._across], "CENTER": "c", "RIGHT": "r"}.get(wanted.align.name, "l")
-        self.lines.append(_Line(context.cap_height or unit, begin, end, align))
+        self.lines.append(_TextLine(context.cap_height or unit, begin, end, align))
         self._fresh = False
         return self.lines[-1]
 

@@ -13,7 +13,7 @@ from ...model.curves import Point
 from .codes import stretches
 from .curves import NoLengthError, plane_of
 from .fonts import Fonts, style_font
-from .letters import LeftOutError, Lettering, Look, Run, lettered, run_of
+from .letters import LeftOutError, Lettering, LetterRun, LetterStyle, lettered, run_of
 
 MOST_LETTERS = 10_000
 """Of one text; more is no text."""
@@ -37,10 +37,10 @@ def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
         raise LeftOutError(f"{kind} (vertical)")
     if len(dxf.text) > MOST_LETTERS:
         raise LeftOutError(f"{kind} (of more than {MOST_LETTERS} letters)")
-    place = _Place.of(dxf)
+    place = _Baseline.of(dxf)
     if not (dxf.height > 0 and dxf.width > 0):
         raise NoLengthError(place.at)
-    look = Look(style_font(style), float(dxf.height), float(dxf.width), float(dxf.oblique))
+    look = LetterStyle(style_font(style), float(dxf.height), float(dxf.width), float(dxf.oblique))
     runs = [run_of(words, replace(look, bars=bars), fonts) for words, bars in stretches(dxf.text)]
     stretched = place.stretched(runs)
     to = plane_of(entity, dxf.insert.z).after(_frame(place, stretched, int(dxf.text_generation_flag)))
@@ -52,7 +52,7 @@ def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
+class _Baseline:
     """Where a line of letters stands.
 
     Attributes:
@@ -69,19 +69,19 @@ class _Place:
     length: float = 0.0
 
     @staticmethod
-    def of(dxf: Any) -> _Place:
+    def of(dxf: Any) -> _Baseline:
         first = (float(dxf.insert.x), float(dxf.insert.y))
         second = (float(dxf.align_point.x), float(dxf.align_point.y)) if dxf.hasattr("align_point") else first
         across, up, turn = int(dxf.halign), int(dxf.get("valign", 0)), math.radians(dxf.rotation)
         if across in (_ALIGNED, _FIT):
             length = math.dist(first, second)
             turn = math.atan2(second[1] - first[1], second[0] - first[0]) if length else turn
-            return _Place(first, turn, across, _BASELINE, length)
+            return _Baseline(first, turn, across, _BASELINE, length)
         if across == _MIDDLE:
-            return _Place(second, turn, _CENTRE, _MIDDLE)
-        return _Place(first if across == _LEFT and up == _BASELINE else second, turn, across, up)
+            return _Baseline(second, turn, _CENTRE, _MIDDLE)
+        return _Baseline(first if across == _LEFT and up == _BASELINE else second, turn, across, up)
 
-    def stretched(self, runs: list[Run]) -> list[Run]:
+    def stretched(self, runs: list[LetterRun]) -> list[LetterRun]:
         """Return runs that fill the length between two points: wider, or larger altogether."""
         ink = _ink(runs)
         if not self.length or not ink:
@@ -98,18 +98,18 @@ class _Place:
         ]
 
 
-def _starts(runs: list[Run]) -> list[float]:
+def _starts(runs: list[LetterRun]) -> list[float]:
     starts = [0.0]
     for run in runs:
         starts.append(starts[-1] + run.advance)
     return starts[:-1]
 
 
-def _ink(runs: list[Run]) -> float:
+def _ink(runs: list[LetterRun]) -> float:
     return _starts(runs)[-1] + runs[-1].ink if runs else 0.0
 
 
-def _frame(place: _Place, runs: list[Run], flags: int) -> Affine:
+def _frame(place: _Baseline, runs: list[LetterRun], flags: int) -> Affine:
     """Return the map from a line that begins in zero to its place in the plane of the entity."""
     height = max((run.look.height for run in runs), default=0.0)
     below = max((run.letters.face.below * run.unit for run in runs), default=0.0)

@@ -72,7 +72,7 @@ def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: flo
     table = document.layers.entries
     for key in [document.layers.key(name) for name in names.values()]:  # layer 0, which every file has, takes its place
         table[key] = table.pop(key)
-    pen, to_file = _Pen(document.modelspace(), old, tolerance), scaled(1 / units.value)
+    pen, to_file = _DxfPen(document.modelspace(), old, tolerance), scaled(1 / units.value)
     for entity in part.entities:
         curve = entity.curve if units is Units.MM else transformed(entity.curve, to_file)
         if curve is not None:
@@ -118,7 +118,7 @@ def _nearest(rgb: tuple[int, int, int]) -> int:
     return min((index for index in range(1, 256) if index != _INK), key=lambda index: math.dist(aci2rgb(index), rgb))
 
 
-class _Pen:
+class _DxfPen:
     """Draws in a space of a document."""
 
     def __init__(self, space: Any, old: bool, tolerance: float) -> None:

@@ -5,9 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ...model.curve_selectors import Selector, on_layers, read_selectors
 from ...model.fields import Placed, Unit, built, declared_of, parameters_of
 from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
-from .tables import Table, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
+from .tables import JobTable, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
+
+
+def read_curves(value: Any) -> tuple[Selector, ...]:
+    """Return what a list of texts selects.
+
+    Raises:
+        InputError: it is no list of texts. ParameterError: one selects nothing that could be.
+    """
+    return read_selectors(read_texts(value))
+
 
 _READERS: dict[Unit, Callable[[Any], Any]] = {
     Unit.LENGTH: read_number,
@@ -15,7 +26,7 @@ _READERS: dict[Unit, Callable[[Any], Any]] = {
     Unit.SHARE: read_share,
     Unit.COUNT: read_whole,
     Unit.FLAG: read_flag,
-    Unit.NAMES: read_texts,
+    Unit.CURVES: read_curves,
     Unit.POINTS: read_points,
 }
 
@@ -27,7 +38,7 @@ def reader_of(placed: Placed) -> Callable[[Any], Any]:
     return _READERS[placed.parameter.unit]
 
 
-def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation]:
+def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operation]:
     """Yield the operations that tables [[operation]] describe.
 
     Args:
@@ -42,6 +53,7 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
         table.take("kind", word(OPERATION_KINDS, "kind of operation"))
         for key, placed in declared().items():
             table.take(key, reader_of(placed))
+        _take_layers(table)
         table.done(", ".join(("kind", *declared())))
         for key in ("kind", "tool"):
             if key not in table.taken:
@@ -54,8 +66,15 @@ def operations_of(tables: list[Table], kept: bool = False) -> Iterator[Operation
         yield operation
 
 
-def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
-    known = {"kind", *(declared_of(kind) if kept else parameters_of(kind))}
+def _take_layers(table: JobTable) -> None:
+    """Read layers, as an operation named them before it could name curves."""
+    if "layers" in table.values and "curves" in table.taken:
+        raise table.error("layers", 'goes into curves, as "layer:NAME"; take it out')
+    table.take("layers", lambda value: on_layers(read_texts(value)), "curves")
+
+
+def _refuse_strange_keys(table: JobTable, kind: type[Operation], given: tuple[str, ...], kept: bool) -> None:
+    known = {"kind", "layers", *(declared_of(kind) if kept else parameters_of(kind))}
     for key in given:
         if key not in known:
             raise table.error(
@@ -65,7 +84,7 @@ def _refuse_strange_keys(table: Table, kind: type[Operation], given: tuple[str, 
             )
 
 
-def _refuse_idle_values(table: Table, operation: Operation, given: tuple[str, ...]) -> None:
+def _refuse_idle_values(table: JobTable, operation: Operation, given: tuple[str, ...]) -> None:
     """Refuse what would have an effect only together with something else; its default may stand anywhere."""
     for key, placed in parameters_of(type(operation)).items():
         needs = placed.parameter.needs

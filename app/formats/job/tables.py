@@ -57,7 +57,7 @@ class JobText:
 
 
 @dataclass
-class Table:
+class JobTable:
     """One table of a job file: its keys are taken one by one, and what is left over is an error.
 
     Attributes:

@@ -12,11 +12,12 @@ from ...core.toml_tables import brief, parsed
 from ...model.job import Copies, Job, OriginXY, OriginZ, Stock
 from ...model.operation import Order
 from ...model.part import Part, Units
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 from .operations import operations_of
 from .tables import (
+    JobTable,
     JobText,
-    Table,
     one_of,
     read_angle,
     read_feeds,
@@ -51,7 +52,7 @@ _LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "le
 TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
     "number": read_whole,
     "diameter": read_number,
-    "kind": word({kind.value: kind for kind in ToolKind}, "kind of tool"),
+    "kind": word(ToolKind.words(), "kind of tool"),
     "name": read_text,
     "flutes": read_whole,
     **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
@@ -152,7 +153,7 @@ def read_job_tables(text: JobText, tree: dict[str, Any]) -> JobFile:
     Raises:
         InputError: as `read_job`.
     """
-    return _Reader(text, tree).job_file()
+    return _JobReader(text, tree).job_file()
 
 
 def read_kept_job(text: JobText, tree: dict[str, Any]) -> Job:
@@ -161,7 +162,7 @@ def read_kept_job(text: JobText, tree: dict[str, Any]) -> Job:
     Raises:
         InputError: as `read_job`.
     """
-    return _Reader(text, tree, kept=True).job_file().job
+    return _JobReader(text, tree, kept=True).job_file().job
 
 
 def with_line(message: str, text: str) -> str:
@@ -172,7 +173,7 @@ def with_line(message: str, text: str) -> str:
     return f"{text.count(chr(10)) + 1}: {message.removesuffix(' (at end of document)')}"
 
 
-class _Reader:
+class _JobReader:
     """Reads the tables of one file; every error names the line."""
 
     def __init__(self, text: JobText, tree: dict[str, Any], kept: bool = False) -> None:
@@ -184,17 +185,17 @@ class _Reader:
     def _wrong(self, table: str, text: str) -> InputError:
         return InputError(f"{self._text.name}:{self._text.line('', 0, table)}: {table} {text}")
 
-    def _table(self, path: str) -> Table:
+    def _table(self, path: str) -> JobTable:
         values = self._tree.get(path, {})
         if not isinstance(values, dict):
             raise self._wrong(path, f"is a table; write [{path}] and its keys below")
-        return Table(self._text, path, 0, values)
+        return JobTable(self._text, path, 0, values)
 
-    def _tables(self, path: str) -> list[Table]:
+    def _tables(self, path: str) -> list[JobTable]:
         values = self._tree.get(path, [])
         if not isinstance(values, list) or not all(isinstance(each, dict) for each in values):
             raise self._wrong(path, f"is a list of tables; write [[{path}]] before each")
-        return [Table(self._text, path, index, each) for index, each in enumerate(values)]
+        return [JobTable(self._text, path, index, each) for index, each in enumerate(values)]
 
     def job_file(self) -> JobFile:
         """Return everything that the file says."""
@@ -220,7 +221,8 @@ class _Reader:
         table = self._table("stock")
         table.take("margin", read_number)
         table.take("thickness", read_number)
-        table.done("margin, thickness")
+        table.take("under", read_number)
+        table.done("margin, thickness, under")
         return {"stock": Stock(**table.taken)}
 
     def _origin(self) -> dict[str, Any]:

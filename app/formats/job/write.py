@@ -11,7 +11,8 @@ from ...model.fields import Unit, declared_of, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.part import Units
-from ...model.tool import Tool, shape_keys
+from ...model.tool import Tool
+from ...model.tool_kind import shape_keys
 from ..tools.library import shortest_degrees
 from .toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, TOOL_KEYS, UNITS
 
@@ -25,7 +26,8 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
         job: what they say.
         units: of a drawing that names none, or None.
     """
-    yield from _table("stock", {"margin": job.stock.margin, "thickness": job.stock.thickness})
+    stock = job.stock
+    yield from _table("stock", {"margin": stock.margin, "thickness": stock.thickness, "under": stock.under})
     yield from _table("origin", {"xy": word_of(ORIGIN_XY, job.origin_xy), "z": word_of(ORIGIN_Z, job.origin_z)})
     yield from _table("heights", {"safe_z": job.safe_z, "retract_z": job.retract_z})
     drawing = {"units": word_of(UNITS, units)} if units else {}
@@ -109,7 +111,14 @@ def _operation(operation: Operation) -> Iterator[tuple[str, Any]]:
     for key, placed in declared_of(type(operation)).items():
         value = placed.of(operation)
         if value is not None and (key in effective or value != placed.default):
-            yield key, angle_said(value) if placed.parameter.unit is Unit.ANGLE else value
+            yield key, _said(placed.parameter.unit, value)
+
+
+def _said(unit: Unit, value: Any) -> Any:
+    """Return a value as a job file has it: angles in degrees, selectors of curves as texts."""
+    if unit is Unit.CURVES:
+        return tuple(each.text for each in value)
+    return angle_said(value) if unit is Unit.ANGLE else value
 
 
 def angle_said(angle: float) -> float | str:

@@ -21,7 +21,7 @@ LEFT, UNREACHABLE, PLUNGE = "#2979FF", "#B0A8C8", "#D55E00"
 
 
 @dataclass(frozen=True)
-class Style:
+class PathStyle:
     """How a kind of path is drawn: colour, width in pixels, dash and gap in pixels (none: solid)."""
 
     name: str
@@ -30,11 +30,11 @@ class Style:
     dash: tuple[float, ...] = ()
 
 
-PART = Style("Part", INK, 1.6)
-RAPID = Style("Rapid", "#8A8F98", 1.0, (1.5, 4.5))
-LINK = Style("Link", "#66C5AB", 1.0)
-POCKET = Style("Pocket", "#009E73", 1.6)
-CONTOUR = Style("Contour", "#E69F00", 1.8, (9.0, 5.0))
+PART = PathStyle("Part", INK, 1.6)
+RAPID = PathStyle("Rapid", "#8A8F98", 1.0, (1.5, 4.5))
+LINK = PathStyle("Link", "#66C5AB", 1.0)
+POCKET = PathStyle("Pocket", "#009E73", 1.6)
+CONTOUR = PathStyle("Contour", "#E69F00", 1.8, (9.0, 5.0))
 
 
 @dataclass(frozen=True)
@@ -51,12 +51,12 @@ class Picture:
 
     title: str
     contours: tuple[Rows, ...]
-    paths: tuple[tuple[Style, Rows], ...]
+    paths: tuple[tuple[PathStyle, Rows], ...]
     plunges: Points
     left: tuple[Points, ...] = ()
     unreachable: tuple[Points, ...] = ()
 
-    def styles(self) -> tuple[Style, ...]:
+    def styles(self) -> tuple[PathStyle, ...]:
         """Return the styles that occur, the part first."""
         return (PART, *dict.fromkeys(style for style, _ in self.paths))
 
@@ -87,9 +87,9 @@ def layout(picture: Picture) -> Layout:
     return Layout(scale, float(across - scale * x0), float(MARGIN + scale * y1), height)
 
 
-def legend_rows(picture: Picture) -> list[tuple[str, str, Style | None]]:
+def legend_rows(picture: Picture) -> list[tuple[str, str, PathStyle | None]]:
     """Return (label, colour, line style or None for a patch) of each entry of the legend."""
-    rows: list[tuple[str, str, Style | None]] = [(style.name, style.colour, style) for style in picture.styles()]
+    rows: list[tuple[str, str, PathStyle | None]] = [(style.name, style.colour, style) for style in picture.styles()]
     rows += [("Plunge", PLUNGE, None)] if len(picture.plunges) else []
     rows += [("Left, within reach", LEFT, None)] if picture.left else []
     rows += [("Out of reach", UNREACHABLE, None)] if picture.unreachable else []

@@ -23,9 +23,9 @@ from .picture import (
     UNREACHABLE,
     WIDTH,
     Layout,
+    PathStyle,
     Picture,
     Points,
-    Style,
     layout,
     legend_rows,
 )
@@ -82,7 +82,7 @@ def _fill(image: Pixels, rings: Sequence[Points], colour: str) -> None:
         cv2.fillPoly(image, [_fixed(ring) for ring in rings if len(ring) > 2], _bgr(colour), cv2.LINE_AA, _SHIFT)
 
 
-def _draw(image: Pixels, points: Points, style: Style) -> None:
+def _draw(image: Pixels, points: Points, style: PathStyle) -> None:
     """Draw a path in its style."""
     pieces = [points] if not style.dash else list(dashes(points, [length * _FINE for length in style.dash]))
     width = max(1, round(style.width * _FINE))

@@ -15,7 +15,7 @@ _COLUMNS, _ROW, _EDGE, _SAMPLE, _TEXT = 3, 5.2, 2.0, 15.0, 2.5
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class LegendEntry:
     """A line of a legend: a text, behind a sample of a pen's line, behind a circle of a radius in mm, or alone."""
 
     text: str
@@ -28,7 +28,7 @@ def legend_height(count: int) -> float:
     return 2 * _EDGE + _ROW * math.ceil(count / _COLUMNS)
 
 
-def legend_ink(entries: Sequence[Entry], box: Box) -> Ink:
+def legend_ink(entries: Sequence[LegendEntry], box: Box) -> Ink:
     """Return a legend in a place x0, y0, x1, y1 of the paper, row by row."""
     x0, _, x1, y1 = box
     wide = (x1 - x0) / _COLUMNS

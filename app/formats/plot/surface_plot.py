@@ -19,7 +19,7 @@ from ...model.scene import LineType
 from .content import INK, TOOL_COLOURS
 from .page import Box, Ink, Pen, Stroke, Trace, Words
 from .surface_labels import free_places
-from .surface_legend import Entry, legend_height, legend_ink
+from .surface_legend import LegendEntry, legend_height, legend_ink
 
 Floats = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ _CYCLE = (LineType.SOLID, LineType.DOTTED, LineType.CHAIN)
 _MARK = Pen(1, INK, 0.18)
 
 
-class Look(Enum):
+class PlotColouring(Enum):
     """What tells parts of paths apart."""
 
     COLOURS = "colours"
@@ -45,7 +45,7 @@ class Look(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class Projection:
     """A parallel projection.
 
     Attributes:
@@ -64,10 +64,10 @@ class View:
 
 
 VIEWS = {
-    "plan": View(),
-    "front": View(0, 0),
-    "side": View(90, 0),
-    "isometric": View(45, math.degrees(math.asin(math.sqrt(1 / 3)))),
+    "plan": Projection(),
+    "front": Projection(0, 0),
+    "side": Projection(90, 0),
+    "isometric": Projection(45, math.degrees(math.asin(math.sqrt(1 / 3)))),
 }
 
 
@@ -82,7 +82,7 @@ def line_of(number: int) -> LineType:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Piece:
+class RunPiece:
     """The part of a run that is on one surface.
 
     Attributes:
@@ -97,7 +97,7 @@ class Piece:
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class PlottedKind:
     """What is told apart: a surface, or a tool. AUTO and "" mean the next of the cycle."""
 
     name: str
@@ -117,28 +117,28 @@ class BySurface:
     """
 
     title: str
-    surfaces: Sequence[Kind]
-    tools: Sequence[Kind]
-    pieces: Sequence[Piece]
+    surfaces: Sequence[PlottedKind]
+    tools: Sequence[PlottedKind]
+    pieces: Sequence[RunPiece]
     marks: Floats
     labels: Sequence[str] = ()
-    view: View = View()
-    look: Look = Look.COLOURS
+    view: Projection = Projection()
+    look: PlotColouring = PlotColouring.COLOURS
     notes: Sequence[str] = ()
     with_legend: bool = True
     units: Units = Units.MM
 
     def pen(self, kind: int, fine: bool = False) -> Pen:
         """Return what draws a surface, or a tool where tools are told apart: pens from 2 on, 1 being black."""
-        look = (self.tools if self.look is Look.TOOLS else self.surfaces)[kind]
+        look = (self.tools if self.look is PlotColouring.TOOLS else self.surfaces)[kind]
         width = SURFACE_MM if fine else PATH_MM
-        if self.look is Look.LINES:
+        if self.look is PlotColouring.LINES:
             line = line_of(kind) if look.line is LineType.AUTO else look.line
             return Pen(1, INK, width, DASHES[line])
         return Pen(2 + kind, look.colour or colour_of(kind), width)
 
-    def _kind(self, piece: Piece) -> int:
-        return piece.tool if self.look is Look.TOOLS else piece.surface
+    def _kind(self, piece: RunPiece) -> int:
+        return piece.tool if self.look is PlotColouring.TOOLS else piece.surface
 
     @cached_property
     def _seen(self) -> tuple[list[Floats], Floats]:
@@ -173,14 +173,14 @@ class BySurface:
         return Ink((Stroke(_MARK, circles),) if circles else (), (), tuple(words), traces)
 
     @cached_property
-    def _entries(self) -> list[Entry]:
-        kinds = self.tools if self.look is Look.TOOLS else self.surfaces
+    def _entries(self) -> list[LegendEntry]:
+        kinds = self.tools if self.look is PlotColouring.TOOLS else self.surfaces
         there = sorted({self._kind(piece) for piece in self.pieces})
-        numbered = "" if self.look is Look.TOOLS else "{}  "
-        entries = [Entry(numbered.format(kind + 1) + kinds[kind].name, self.pen(kind)) for kind in there]
+        numbered = "" if self.look is PlotColouring.TOOLS else "{}  "
+        entries = [LegendEntry(numbered.format(kind + 1) + kinds[kind].name, self.pen(kind)) for kind in there]
         if len(self.marks):
-            entries.append(Entry("CRij  boundary point of surfaces i and j", _MARK, MARK_MM))
-        return [*entries, *(Entry(note) for note in self.notes)]
+            entries.append(LegendEntry("CRij  boundary point of surfaces i and j", _MARK, MARK_MM))
+        return [*entries, *(LegendEntry(note) for note in self.notes)]
 
     @property
     def strip(self) -> float:

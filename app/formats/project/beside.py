@@ -10,7 +10,7 @@ from typing import Any
 from ...core.errors import InputError
 from ...core.toml_tables import spelled
 from ...model.underlay import Underlay
-from ..job.tables import JobText, Table, read_angle, read_flag, read_number, read_points, read_text, read_texts
+from ..job.tables import JobTable, JobText, read_angle, read_flag, read_number, read_points, read_text, read_texts
 from ..job.write import angle_said
 
 MOST_TEXT = 2 * 2**20
@@ -75,7 +75,7 @@ def read_beside(lines: JobText, tables: Mapping[str, dict[str, Any]]) -> Beside:
     Raises:
         InputError: a value is missing, unknown or of another kind, with its line.
     """
-    table = Table(lines, "text", 0, dict(tables["text"]))
+    table = JobTable(lines, "text", 0, dict(tables["text"]))
     table.take("replaces", read_flag)
     table.take("lines", read_texts)
     table.done("replaces, lines")
@@ -89,7 +89,7 @@ def read_beside(lines: JobText, tables: Mapping[str, dict[str, Any]]) -> Beside:
 def _underlay(lines: JobText, values: dict[str, Any]) -> Underlay | None:
     if not values:
         return None
-    table = Table(lines, "underlay", 0, dict(values))
+    table = JobTable(lines, "underlay", 0, dict(values))
     table.take("path", read_text)
     table.take("origin", lambda value: read_points([value])[0])
     table.take("mm_per_px", read_number)

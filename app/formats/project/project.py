@@ -24,7 +24,17 @@ from ...model.notes import Note
 from ...model.part import Entity, Layer, Part, Units
 from ..drawing import Drawing
 from ..drawing_account import on_layers, other_units, switched_off
-from ..job.tables import JobText, Table, one_of, read_flag, read_number, read_points, read_text, read_texts, read_whole
+from ..job.tables import (
+    JobTable,
+    JobText,
+    one_of,
+    read_flag,
+    read_number,
+    read_points,
+    read_text,
+    read_texts,
+    read_whole,
+)
 from ..job.toml import TABLES, UNITS, read_kept_job, with_line
 from ..job.write import empty_lists, job_lines, word_of
 from .beside import NOTHING_BESIDE, Beside, beside_lines, read_beside
@@ -197,7 +207,7 @@ def _table(tree: dict[str, Any], lines: JobText, path: str) -> dict[str, Any]:
 
 def _part(name: str, text: str, lines: JobText, tree: dict[str, Any]) -> tuple[Part, str, Point]:
     """Return the drawing, the layer that is drawn on and the point given last."""
-    table = Table(lines, "part", 0, dict(_table(tree, lines, "part")))
+    table = JobTable(lines, "part", 0, dict(_table(tree, lines, "part")))
     table.take("name", read_text)
     table.take("units", lambda value: one_of(read_text(value), UNITS, "unit"))
     table.take("used_id", read_whole)
@@ -234,7 +244,7 @@ def _layers(tree: dict[str, Any], lines: JobText) -> Iterator[Layer]:
             f"{lines.name}:{lines.line('', 0, 'layer')}: layer is a list of tables; write [[layer]] before each."
         )
     for index, each in enumerate(given):
-        table = Table(lines, "layer", index, dict(each))
+        table = JobTable(lines, "layer", index, dict(each))
         table.take("name", read_text)
         table.take("colour", read_text)
         table.take("visible", read_flag)
@@ -249,7 +259,7 @@ def _layers(tree: dict[str, Any], lines: JobText) -> Iterator[Layer]:
 
 def _block(name: str, text: str, lines: JobText, tree: dict[str, Any], path: str) -> tuple[str, tuple[str, int]]:
     """Return the lines of curves or notes, and where in the file they begin."""
-    table = Table(lines, path, 0, dict(_table(tree, lines, path)))
+    table = JobTable(lines, path, 0, dict(_table(tree, lines, path)))
     table.take("lines", read_text)
     table.done("lines")
     before = text.find(f"[{path}]\nlines = '''\n")
@@ -294,7 +304,7 @@ def _command(file: str, name: str, value: Any) -> Define:
 
 
 def _look(tree: dict[str, Any], lines: JobText) -> Look:
-    table = Table(lines, "view", 0, dict(_table(tree, lines, "view")))
+    table = JobTable(lines, "view", 0, dict(_table(tree, lines, "view")))
     table.take("shown", read_text)
     table.take("centre", lambda value: read_points([value])[0])
     table.take("scale", read_number)

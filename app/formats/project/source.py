@@ -8,9 +8,9 @@ from typing import Any
 from ...core.errors import InputError
 from ...core.toml_tables import spelled
 from ...model.part import Part
-from ...model.read_options import AS_DRAWN, ReadOptions
+from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import Reading, Source
-from ..job.tables import JobText, Table, read_flag, read_number, read_text, read_texts, word
+from ..job.tables import JobTable, JobText, read_flag, read_number, read_text, read_texts, word
 from ..job.toml import UNITS
 from ..job.write import word_of
 
@@ -59,7 +59,7 @@ def read_source(lines: JobText, values: dict[str, Any]) -> Source | None:
     """
     if not values:
         return None
-    table = Table(lines, "source", 0, dict(values))
+    table = JobTable(lines, "source", 0, dict(values))
     table.take("path", read_text)
     table.take("units", word(UNITS, "unit"))
     table.take("layers", read_texts)
@@ -69,5 +69,5 @@ def read_source(lines: JobText, values: dict[str, Any]) -> Source | None:
     taken = table.taken
     if not taken.get("path"):
         raise InputError(f"{lines.name}:{lines.line('source', 0, '')}: [source] names no drawing; give its path.")
-    how = lines.built("source", 0, lambda: ReadOptions(**{key: taken[key] for key in _HOW if key in taken}))
+    how = lines.built("source", 0, lambda: DrawingOptions(**{key: taken[key] for key in _HOW if key in taken}))
     return Source(taken["path"], Reading(taken.get("units"), taken.get("layers", ()), how))

@@ -18,7 +18,7 @@ _VERSION = re.compile(r"\s*(\d+)\.(\d+)")
 
 
 @dataclass(frozen=True, slots=True)
-class Density:
+class PixelDensity:
     """User units to the inch, and by whom: the editor's name, "" for what CSS says."""
 
     per_inch: float = CSS_PER_INCH
@@ -30,7 +30,7 @@ class Density:
         return 25.4 / self.per_inch
 
 
-def density_of(root: Node) -> Density:
+def density_of(root: Node) -> PixelDensity:
     """Return the density that the editor that wrote a file had.
 
     Args:
@@ -41,11 +41,11 @@ def density_of(root: Node) -> Density:
             inch.
     """
     if "Adobe Illustrator" in root.comments:
-        return Density(_ILLUSTRATOR, "Adobe Illustrator")
+        return PixelDensity(_ILLUSTRATOR, "Adobe Illustrator")
     told = root.attributes.get(f"{INKSCAPE} version")
     found = _VERSION.match(told or "")
     if found and (int(found[1]), int(found[2])) < (0, 92):
-        return Density(_OLD_INKSCAPE, f"Inkscape {found[1]}.{found[2]}")
+        return PixelDensity(_OLD_INKSCAPE, f"Inkscape {found[1]}.{found[2]}")
     if told is None and f"{SODIPODI} version" in root.attributes:
-        return Density(_OLD_INKSCAPE, "Sodipodi")
-    return Density()
+        return PixelDensity(_OLD_INKSCAPE, "Sodipodi")
+    return PixelDensity()

@@ -23,7 +23,7 @@ class UnreadableError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Length:
+class WrittenLength:
     """A length as it is written; `unit` is in lower case, "" for user units."""
 
     value: float
@@ -52,7 +52,7 @@ class Length:
         raise UnreadableError(f"{self.value:g}{self.unit}")
 
 
-def length(text: str) -> Length:
+def length(text: str) -> WrittenLength:
     """Return a length.
 
     Raises:
@@ -61,7 +61,7 @@ def length(text: str) -> Length:
     found = _LENGTH.match(text)
     if found is None:
         raise UnreadableError(text)
-    return Length(float(found[1]), found[2].lower())
+    return WrittenLength(float(found[1]), found[2].lower())
 
 
 def numbers(text: str) -> list[float]:
@@ -125,7 +125,7 @@ def _rotation(degrees: float, centre: tuple[float, float]) -> Affine:
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class ViewBox:
     """A viewBox, or the place that it goes to; user units."""
 
     x: float
@@ -134,7 +134,7 @@ class Box:
     height: float
 
 
-def view_box(text: str) -> Box:
+def view_box(text: str) -> ViewBox:
     """Return a viewBox.
 
     Raises:
@@ -143,10 +143,10 @@ def view_box(text: str) -> Box:
     given = numbers(text)
     if len(given) != 4 or not all(map(math.isfinite, given)) or min(given[2:]) <= 0:
         raise UnreadableError(text)
-    return Box(*given)
+    return ViewBox(*given)
 
 
-def fitted(box: Box, place: Box, aspect: str) -> Affine:
+def fitted(box: ViewBox, place: ViewBox, aspect: str) -> Affine:
     """Return the map that brings a viewBox to its place.
 
     Args:

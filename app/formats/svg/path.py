@@ -25,7 +25,7 @@ BEZIER_KNOTS = {degree: (0.0,) * (degree + 1) + (1.0,) * (degree + 1) for degree
 
 
 @dataclass
-class Path:
+class SvgPath:
     """What path data draws.
 
     Attributes:
@@ -41,7 +41,7 @@ class Path:
     why: str = ""
 
 
-def read_path(text: str, most: int) -> Path:
+def read_path(text: str, most: int) -> SvgPath:
     """Return the curves of path data; as SVG asks, what stands before a fault is drawn.
 
     Args:
@@ -50,7 +50,7 @@ def read_path(text: str, most: int) -> Path:
             Béziers that follow one another have more than `MOST_POINTS` points.
     """
     text = text.rstrip(" \t\r\n,")
-    pen, at, command = _Pen(), 0, ""
+    pen, at, command = _PathPen(), 0, ""
     while at < len(text) and pen.drawn <= most and pen.points <= MOST_POINTS:
         found = _COMMAND.match(text, at)
         if found:
@@ -100,11 +100,11 @@ def _wrong_flag(text: str, at: int) -> str:
     return ""
 
 
-class _Pen:
+class _PathPen:
     """Where the pen stands and what it has drawn."""
 
     def __init__(self) -> None:
-        self.path = Path()
+        self.path = SvgPath()
         self._run: list[Curve] = []
         self._here = self._first = (0.0, 0.0)
         self._handle: tuple[str, Point] = ("", (0.0, 0.0))
@@ -167,7 +167,7 @@ class _Pen:
             self._add(arc_between(self._here, end, values[:5]))
         self._here = end
 
-    _DO: ClassVar[dict[str, Callable[[_Pen, list[Point], list[float], tuple[str, Point]], None]]] = {
+    _DO: ClassVar[dict[str, Callable[[_PathPen, list[Point], list[float], tuple[str, Point]], None]]] = {
         "M": _move,
         "L": _line,
         "Z": _close,

@@ -8,14 +8,14 @@ from collections.abc import Callable
 from ...geometry.affine import ellipse
 from ...model.curves import Arc, Circle, Curve, Line, Point
 from .numbers import UnreadableError, length, numbers
-from .path import Path, read_path
+from .path import SvgPath, read_path
 from .xml import Node
 
 View = tuple[float, float]
 """Width and height of the nearest viewport, user units: what percentages are of."""
 
 
-def shape(node: Node, view: View, most: int) -> Path | None:
+def shape(node: Node, view: View, most: int) -> SvgPath | None:
     """Return what an element draws, in its own coordinates; None for an element that is no shape.
 
     Args:
@@ -57,17 +57,17 @@ def _size(node: Node, key: str, view: View, default: float = 0.0) -> float:
     return value
 
 
-def _line(node: Node, view: View) -> Path:
+def _line(node: Node, view: View) -> SvgPath:
     x1, y1, x2, y2 = (measure(node, key, view) for key in ("x1", "y1", "x2", "y2"))
     return _drawn([Line((x1, y1), (x2, y2))] if (x1, y1) != (x2, y2) else [], (x1, y1))
 
 
-def _circle(node: Node, view: View) -> Path:
+def _circle(node: Node, view: View) -> SvgPath:
     centre, radius = (measure(node, "cx", view), measure(node, "cy", view)), _size(node, "r", view)
     return _drawn([Circle(centre, radius)] if radius > 0 else [], centre)
 
 
-def _ellipse(node: Node, view: View) -> Path:
+def _ellipse(node: Node, view: View) -> SvgPath:
     centre = measure(node, "cx", view), measure(node, "cy", view)
     rx, ry = _radii(node, view)
     if rx == ry:
@@ -82,7 +82,7 @@ def _radii(node: Node, view: View) -> tuple[float, float]:
     return given.get("rx", given.get("ry", 0.0)), given.get("ry", given.get("rx", 0.0))
 
 
-def _rect(node: Node, view: View) -> Path:
+def _rect(node: Node, view: View) -> SvgPath:
     """A rectangle, from the end of its first corner round to the right, as SVG has it."""
     x, y = measure(node, "x", view), measure(node, "y", view)
     width, height = _size(node, "width", view), _size(node, "height", view)
@@ -117,9 +117,9 @@ def _corner(places: tuple[Point, Point, Point], radii: tuple[float, float], angl
     return made if made is not None else Line(begin, end)
 
 
-def _poly(node: Node, _: View) -> Path:
+def _poly(node: Node, _: View) -> SvgPath:
     """Lines through points; as SVG asks, those before a fault are drawn."""
-    path = Path()
+    path = SvgPath()
     try:
         values = numbers(node.attributes.get("points", ""))
     except UnreadableError as error:
@@ -137,11 +137,11 @@ def _polygon(points: list[Point], closed: bool) -> list[Curve]:
     return [Line(a, b) for a, b in zip(points, ends, strict=False) if a != b]
 
 
-def _drawn(curves: list[Curve], start: Point) -> Path:
-    return Path([curves] if curves else [], None, start)
+def _drawn(curves: list[Curve], start: Point) -> SvgPath:
+    return SvgPath([curves] if curves else [], None, start)
 
 
-_READERS: dict[str, Callable[[Node, View], Path]] = {
+_READERS: dict[str, Callable[[Node, View], SvgPath]] = {
     "line": _line,
     "circle": _circle,
     "ellipse": _ellipse,

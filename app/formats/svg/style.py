@@ -16,7 +16,7 @@ _UNITS = re.compile(r"(?<=[\d.])(?:px|deg)\b")
 
 
 @dataclass(frozen=True, slots=True)
-class Style:
+class SvgStyle:
     """What decides whether a shape is seen, and in what colour.
 
     Attributes:
@@ -68,7 +68,7 @@ class StyleSheet:
                 if found and found[0]:
                     self._rules[found[2] or "", found[3] or "", found[4] or ""].update(declared)
 
-    def style(self, node: Node, outer: Style) -> Style:
+    def style(self, node: Node, outer: SvgStyle) -> SvgStyle:
         """Return the style of an element inside one of style `outer`."""
         declared = {key: node.attributes[key] for key in _READ if key in node.attributes}
         for rule in self._matching(node):
@@ -93,7 +93,7 @@ def declarations(text: str) -> dict[str, str]:
     return {key: value for key, value in found.items() if key in _READ and value}
 
 
-def _with(outer: Style, declared: dict[str, str]) -> Style:
+def _with(outer: SvgStyle, declared: dict[str, str]) -> SvgStyle:
     """Return the style with some properties set; only what hides a whole branch is kept from the element round it."""
     visibility = declared.get("visibility")
     hides = any(declared.get(key, "none") != "none" for key in ("clip-path", "mask"))

@@ -11,7 +11,7 @@ from ...core.errors import InputError
 from ...geometry.affine import Affine
 from ...model.finding import Finding, FindingKind
 from ...model.part import Layer, Part, Units
-from ...model.read_options import AS_DRAWN, ReadOptions
+from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import Reading
 from ..drawing import Drawing
 from ..drawing_account import (
@@ -30,9 +30,9 @@ from ..drawing_account import (
     without_length,
 )
 from ..reading_question import Contents, Question, Size, UndecidedError, about_far, about_pixels
-from .generator import CSS_PER_INCH, KNOWN_PER_INCH, Density, density_of
-from .numbers import MM, Box, Length, UnreadableError, fitted, length, numbers, view_box
-from .walk import Sheet, Walker
+from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
+from .numbers import MM, UnreadableError, ViewBox, WrittenLength, fitted, length, numbers, view_box
+from .walk import SvgSheet, SvgWalker
 from .xml import Node, read_xml
 
 HITOFUDE = "urn:hitofude:svg"
@@ -62,7 +62,7 @@ def read_svg(
     name: str = "drawing.svg",
     units: Units | None = None,
     layers: tuple[str, ...] = (),
-    how: ReadOptions = AS_DRAWN,
+    how: DrawingOptions = AS_DRAWN,
 ) -> Drawing:
     """Return the curves of an SVG in mm, and what was left out.
 
@@ -84,7 +84,7 @@ def read_svg(
     """
     opened = _opened(name, data, units, how)
     root, density, page = opened.root, opened.density, opened.page
-    sheet, reading = Walker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
+    sheet, reading = SvgWalker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
 
     def placed(to_zero: bool) -> Taken:
         return taken(sheet.curves, None, _anchors(sheet, layers, how.without_layers) if to_zero else None)
@@ -135,11 +135,11 @@ class _Opened:
     """A file whose page is known, and how many of its units it takes for an inch where it names no size."""
 
     root: Node
-    density: Density
+    density: PixelDensity
     page: _Page
 
 
-def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _Opened:
+def _opened(name: str, data: bytes, units: Units | None, how: DrawingOptions) -> _Opened:
     root = read_xml(data, name)
     if root.tag != "svg":
         raise InputError(
@@ -147,7 +147,7 @@ def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _O
         )
     if units is not None and how.pixels_per_inch is not None:
         raise InputError(f"{name}: units and --px-per-inch say the same of a drawing in two ways; give one of them.")
-    density = density_of(root) if how.pixels_per_inch is None else Density(how.pixels_per_inch)
+    density = density_of(root) if how.pixels_per_inch is None else PixelDensity(how.pixels_per_inch)
     try:
         page = _page(root, units, density.pixel, how.overrule)
     except UnreadableError as error:
@@ -158,19 +158,19 @@ def _opened(name: str, data: bytes, units: Units | None, how: ReadOptions) -> _O
     return _Opened(root, density, page)
 
 
-def _about_pixels(root: Node, density: Density, size: Size, to: Affine, reading: Reading) -> Question:
+def _about_pixels(root: Node, density: PixelDensity, size: Size, to: Affine, reading: Reading) -> Question:
     """Ask how large the page's units are; `size` is the drawing's now, mm, and `to` the map by which it has it."""
     wide, high = size
 
     def size_in(other: Reading) -> Size:
         per_inch = other.how.pixels_per_inch
-        made = _page(root, other.units, Density(per_inch).pixel if per_inch else density.pixel).to
+        made = _page(root, other.units, PixelDensity(per_inch).pixel if per_inch else density.pixel).to
         return wide * made.xx / to.xx, high * made.yy / to.yy
 
     return about_pixels((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
 
 
-def _anchors(sheet: Sheet, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
+def _anchors(sheet: SvgSheet, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
     wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
@@ -205,14 +205,14 @@ def _page(root: Node, units: Units | None, pixel: float, overrule: bool = False)
     else:
         scale = wide / box.width if wide is not None else high / box.height if high is not None else unit
         wide, high = wide if wide is not None else scale * box.width, high if high is not None else scale * box.height
-        to = fitted(box, Box(0.0, 0.0, wide, high), root.attributes.get("preserveAspectRatio", ""))
+        to = fitted(box, ViewBox(0.0, 0.0, wide, high), root.attributes.get("preserveAspectRatio", ""))
         view = (box.width, box.height)
     zero = _zero(root)
     x, y = to.point(zero) if zero is not None else (0.0, high or 0.0)
     return _Page(Affine(1.0, 0.0, 0.0, -1.0, -x, y).after(to), view, shown, physical is not None)
 
 
-def _given(root: Node, key: str) -> Length | None:
+def _given(root: Node, key: str) -> WrittenLength | None:
     """Return the page's width or height; None where it is not given or only a share of a window."""
     text = root.attributes.get(key, "auto").strip()
     found = None if text in ("auto", "") else length(text)
@@ -223,7 +223,7 @@ def _given(root: Node, key: str) -> Length | None:
     return found
 
 
-def _mm(given: Length | None, unit: float) -> float | None:
+def _mm(given: WrittenLength | None, unit: float) -> float | None:
     if given is None:
         return None
     return given.value * MM[given.unit] if given.is_physical else given.user(0.0) * unit
@@ -240,7 +240,7 @@ def _zero(root: Node) -> tuple[float, float] | None:
     return given[0], given[1]
 
 
-def _units(given: Units | None, page: _Page, density: Density, how: ReadOptions) -> Iterator[Finding]:
+def _units(given: Units | None, page: _Page, density: PixelDensity, how: DrawingOptions) -> Iterator[Finding]:
     if page.named:
         yield from other_units(given, page.shown)
         if how.pixels_per_inch is not None:
@@ -259,7 +259,7 @@ def _units(given: Units | None, page: _Page, density: Density, how: ReadOptions)
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 
 
-def _faults(sheet: Sheet) -> Iterator[Finding]:
+def _faults(sheet: SvgSheet) -> Iterator[Finding]:
     if sheet.faults:
         what = "1 shape has" if len(sheet.faults) == 1 else f"{len(sheet.faults)} shapes have"
         first = next((fault for fault in sheet.faults if fault.what), sheet.faults[0])
@@ -271,7 +271,7 @@ def _faults(sheet: Sheet) -> Iterator[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(sheet.faults)))
 
 
-def _clipped(sheet: Sheet) -> Iterator[Finding]:
+def _clipped(sheet: SvgSheet) -> Iterator[Finding]:
     if sheet.clipped:
         yield remark(
             f"{sheet.clipped} {'curve is' if sheet.clipped == 1 else 'curves are'} clipped or masked in the drawing; "

@@ -18,10 +18,10 @@ from ..drawing_account import MOST_CURVES
 from ..dxf.splines import MOST_POINTS
 from .generator import INKSCAPE, SODIPODI
 from .joined import beziers_joined, joined
-from .numbers import Box, UnreadableError, fitted, transform, view_box
-from .path import Path
+from .numbers import UnreadableError, ViewBox, fitted, transform, view_box
+from .path import SvgPath
 from .shapes import SHAPES, View, measure, shape
-from .style import Style, StyleSheet
+from .style import StyleSheet, SvgStyle
 from .xml import DEEPEST, Node
 
 _LINK = "http://www.w3.org/1999/xlink href"
@@ -48,7 +48,7 @@ class LayerNote:
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class SvgFault:
     """Where a shape's data cannot be read on: its line in the file, and what stands there if that is known."""
 
     line: int
@@ -56,7 +56,7 @@ class Fault:
 
 
 @dataclass
-class Sheet:
+class SvgSheet:
     """What an SVG draws.
 
     Attributes:
@@ -71,13 +71,13 @@ class Sheet:
     curves: list[tuple[Curve, str]] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     nothing: list[Point | None] = field(default_factory=list)
-    faults: list[Fault] = field(default_factory=list)
+    faults: list[SvgFault] = field(default_factory=list)
     clipped: int = 0
     layers: dict[str, LayerNote] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class InheritedState:
     """What an element takes over from those round it.
 
     Attributes:
@@ -90,18 +90,18 @@ class State:
 
     to: Affine
     view: View
-    style: Style = field(default_factory=Style)
+    style: SvgStyle = field(default_factory=SvgStyle)
     layer: str = ""
     depth: int = 0
     copied: bool = False
 
 
-class Walker:
+class SvgWalker:
     """Reads one file."""
 
     def __init__(self, root: Node, name: str) -> None:
         self._root, self._name = root, name
-        self._sheet = Sheet()
+        self._sheet = SvgSheet()
         self._styles = StyleSheet(root)
         self._ids: dict[str, Node] = {}
         self._named_layers = False
@@ -110,7 +110,7 @@ class Walker:
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
 
-    def sheet(self, to: Affine, view: View) -> Sheet:
+    def sheet(self, to: Affine, view: View) -> SvgSheet:
         """Return what the file draws.
 
         Args:
@@ -121,7 +121,7 @@ class Walker:
             InputError: a transform or a viewBox cannot be read; uses go in a circle, too deep, or unfold to too much.
         """
         self._size(self._root, {}, 0)
-        self._children(self._root.children, State(to, view, self._styles.style(self._root, Style())))
+        self._children(self._root.children, InheritedState(to, view, self._styles.style(self._root, SvgStyle())))
         return self._sheet
 
     def _size(self, node: Node, known: dict[int, tuple[int, int]], depth: int) -> tuple[int, int]:
@@ -147,11 +147,11 @@ class Walker:
         link = use.attributes.get("href", use.attributes.get(_LINK, "")).strip()
         return self._ids.get(link[1:]) if link.startswith("#") and len(link) > 1 else None
 
-    def _children(self, nodes: Iterable[Node], state: State) -> None:
+    def _children(self, nodes: Iterable[Node], state: InheritedState) -> None:
         for node in nodes:
             self._one(node, state)
 
-    def _one(self, node: Node, outer: State) -> None:
+    def _one(self, node: Node, outer: InheritedState) -> None:
         if node.tag in _NOT_CURVES:
             self._sheet.left_out[node.tag] += 1
         elif node.tag in SHAPES or node.tag in _CONTAINERS:
@@ -165,7 +165,7 @@ class Walker:
             else:
                 self._children(_chosen(node) if node.tag == "switch" else node.children, state)
 
-    def _inside(self, node: Node, outer: State) -> State:
+    def _inside(self, node: Node, outer: InheritedState) -> InheritedState:
         """Return the state inside an element: its transform, its style, its layer."""
         style, to, layer = self._styles.style(node, outer.style), outer.to, outer.layer
         if style.transform:
@@ -180,7 +180,7 @@ class Walker:
             style = replace(style, shown=outer.style.shown)
         return replace(outer, to=to, style=style, layer=layer, depth=outer.depth + 1)
 
-    def _transform(self, node: Node, style: Style) -> Affine:
+    def _transform(self, node: Node, style: SvgStyle) -> Affine:
         try:
             made = transform(style.transform)
         except UnreadableError:
@@ -198,7 +198,7 @@ class Walker:
         labels = (_BREAK.sub(" ", node.attributes.get(key, "")) for key in (f"{INKSCAPE} label", "data-name", "id"))
         return next((label for label in labels if label.strip()), "layer" if self._named_layers else "")
 
-    def _use(self, node: Node, state: State) -> None:
+    def _use(self, node: Node, state: InheritedState) -> None:
         target = self._target(node)
         if target is None:
             self._sheet.left_out["use of what is not in the file"] += 1
@@ -215,7 +215,7 @@ class Walker:
             self._one(target, state)
         self._open.pop()
 
-    def _viewport(self, node: Node, state: State, sized: Node) -> State:
+    def _viewport(self, node: Node, state: InheritedState, sized: Node) -> InheritedState:
         """Return the state inside an element with a viewport of its own, whose size another one may give."""
         sizes = {key: value for key, value in sized.attributes.items() if key in ("width", "height")}
         placed = Node(node.tag, {**node.attributes, **sizes}, node.line)
@@ -231,16 +231,16 @@ class Walker:
                 f"the viewBox {node.attributes['viewBox'][:60]!r} is not four numbers, the last two above 0; "
                 "correct it",
             )
-        to = fitted(box, Box(x, y, width, height), node.attributes.get("preserveAspectRatio", ""))
+        to = fitted(box, ViewBox(x, y, width, height), node.attributes.get("preserveAspectRatio", ""))
         return replace(state, to=state.to.after(to), view=(box.width, box.height))
 
-    def _measured(self, node: Node, keys: tuple[str, str], state: State, default: View) -> View:
+    def _measured(self, node: Node, keys: tuple[str, str], state: InheritedState, default: View) -> View:
         try:
             return measure(node, keys[0], state.view, default[0]), measure(node, keys[1], state.view, default[1])
         except UnreadableError as error:
             self._refuse(node, f"the length {error.args[0][:60]!r} cannot be read; write it in mm, px or user units")
 
-    def _draw(self, node: Node, state: State) -> None:
+    def _draw(self, node: Node, state: InheritedState) -> None:
         sheet, style = self._sheet, state.style
         if not (style.shown and style.visible and style.draws):
             sheet.left_out[
@@ -256,7 +256,7 @@ class Walker:
             sheet.left_out[f"{node.tag} (damaged)"] += 1
             return
         if drawn is not None and drawn.fault is not None:
-            sheet.faults.append(Fault(node.line, drawn.why))
+            sheet.faults.append(SvgFault(node.line, drawn.why))
         for curve in curves:
             if isinstance(curve, Spline) and len(curve.control_points) > MOST_POINTS:
                 self._refuse(
@@ -272,7 +272,7 @@ class Walker:
         if len(sheet.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
 
-    def _placed(self, node: Node, drawn: Path, to: Affine) -> list[Curve]:
+    def _placed(self, node: Node, drawn: SvgPath, to: Affine) -> list[Curve]:
         """Return the curves in the drawing; notes the place of a shape that draws nothing."""
         curves: list[Curve] = []
         for run in map(beziers_joined, drawn.runs):

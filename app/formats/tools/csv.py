@@ -18,7 +18,8 @@ from typing import Any
 
 from ...core.errors import HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
-from ...model.tool import FeedRow, HolderPoint, Tool, ToolKind
+from ...model.tool import FeedRow, HolderPoint, Tool
+from ...model.tool_kind import ToolKind, tool_kinds
 from .holders import outline_of
 from .library import ToolLibrary, check_numbers, shortest_degrees
 
@@ -241,20 +242,10 @@ def _feed_row(values: dict[str, Any]) -> FeedRow:
 
 def _kind(cell: str) -> ToolKind:
     word = cell.lower().removesuffix("mill").strip(" -_")
-    word = {
-        "bull-nose": "bull",
-        "bullnose": "bull",
-        "ball-nose": "ball",
-        "ballnose": "ball",
-        "end": "flat",
-        "v-bit": "v",
-    }.get(word, word)
-    try:
-        return ToolKind(word)
-    except ValueError as error:
-        raise InputError(
-            f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(kind.value for kind in ToolKind)}."
-        ) from error
+    found = next((kind for kind in tool_kinds() if word == kind.value or word in kind.aliases), None)
+    if found is None:
+        raise InputError(f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(ToolKind.words())}.")
+    return found
 
 
 def _holder(cell: str) -> tuple[HolderPoint, ...]:

@@ -28,7 +28,7 @@ class NamedHolder:
 
 
 @dataclass(frozen=True, slots=True)
-class _File:
+class _HoldersFile:
     format: int
     holder: tuple[NamedHolder, ...] = ()
 
@@ -37,7 +37,7 @@ class _File:
 def named_holders() -> tuple[NamedHolder, ...]:
     """Return every holder that ships, in the order of the file."""
     path = resource("holders.toml")
-    return read_tables(_File, path.name, path.read_bytes(), {"format": (1, FORMAT)}).holder
+    return read_tables(_HoldersFile, path.name, path.read_bytes(), {"format": (1, FORMAT)}).holder
 
 
 def outline_of(name: str) -> tuple[HolderPoint, ...]:

@@ -16,7 +16,8 @@ from ...core.errors import HitofudeError, InputError
 from ...core.resources import resource
 from ...core.settings import config_folder
 from ...core.toml_tables import read_tree, tables_of, write_tables
-from ...model.tool import FeedRow, HolderPoint, Tool, ToolKind
+from ...model.tool import FeedRow, HolderPoint, Tool
+from ...model.tool_kind import ToolKind
 from .holders import outline_of
 
 FORMAT = 1

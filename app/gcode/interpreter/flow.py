@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass, field
 
 from .control import Control
+from .endless import never_ends
 from .expression import Value, Values, evaluated, whole
 from .fault import Fault
 from .labels import Labels
@@ -77,6 +78,7 @@ class Flow:
         self._seen: dict[int, tuple[object, ...]] = {}
         self._statements: dict[int, tuple[Statement, int]] = {}
         self._conditions: dict[str, Value] = {}
+        self._may_end: set[int] = set()
         self._first_values: dict[int, tuple[Value, int]] = {}
 
     @property
@@ -101,6 +103,28 @@ class Flow:
         if len(self._first_values) < MOST_KEPT:
             self._first_values[self.here.offset] = value, values.at
         return value
+
+    def check_end(self, begin: Cursor, condition: Cursor) -> None:
+        """Refuse another pass of a loop that surely never ends; its last line is running.
+
+        Args:
+            begin: its first line. condition: the line with its condition, which held when it was looked at last.
+
+        Raises:
+            Fault: it never ends.
+        """
+        if self.here.offset in self._may_end:
+            return
+        nested = self._control.habits.fanuc_flow
+        try:
+            endless = never_ends(
+                self.places.code(condition, nested), self.places.codes_between(begin, self.here, nested)
+            )
+        except Fault:  # a comment without end, where the program may never come to
+            endless = False
+        if endless:
+            raise Fault("this goes on for ever: nothing in the loop changes whether it repeats, and nothing leaves it.")
+        self._may_end.add(self.here.offset)
 
     def jump(self, to: Cursor) -> None:
         """Go on at a line.
@@ -291,6 +315,7 @@ class Flow:
         if open_loop is not None and open_loop.begin.keyword == "do":
             self._labels.end_do(open_loop.begin, self.frames[-1].label, statement.at.line)
             if holds:
+                self.check_end(open_loop.begin.at, statement.at)
                 self.jump(self.places.after(open_loop.begin.at))
             else:
                 del loops[statement.label]
@@ -323,6 +348,8 @@ class Flow:
         loop = self._open(statement)
         if _ENDS[loop.begin.keyword] != statement.keyword:
             raise Fault(f"O{statement.label} {statement.keyword} ends no loop that is running.")
+        if loop.begin.keyword == "while":
+            self.check_end(loop.begin.at, loop.begin.at)
         self._next_pass(loop)
 
     def _next_pass(self, loop: Loop) -> None:

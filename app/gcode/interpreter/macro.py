@@ -95,6 +95,7 @@ def _end(flow: Flow, rest: str) -> None:
     begin = flow.frames[-1].ends.get(flow.here.offset)
     if begin is None:
         raise Fault(f"END {rest.upper()} ends no loop that is running.")
+    flow.check_end(begin, begin)
     flow.jump(begin)
 
 

@@ -9,13 +9,14 @@ from contextlib import suppress
 from typing import Any, NamedTuple
 
 from ...core.errors import ParameterError
+from ...model.curve_selectors import on_layers
 from ...model.entry import LONGEST_LEAD
 from ...model.fields import parameters_of
 from ...model.job import Copies
 from ...model.moves import DogBone, Tab
 from ...model.operation import OPERATION_KINDS, Operation, Side
 from ...model.part import Units
-from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, ReadOptions
+from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, DrawingOptions
 from .. import operation_notes
 from ..note_texts import unspelled
 from .notes_stock import Box
@@ -67,20 +68,21 @@ def own_notes(comments: Comments) -> Notes:
             for _, values in told.get("plunge_mm_min", [])
             if len(numbers := _floats(values)) == 2
         ),
+        max(_first(told.get("under_mm", [])) or 0.0, 0.0),
     )
     return Notes(
         tuple(_tools(told.get("tool", []))), _stock(told.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header
     )
 
 
-def _reading(told: dict[str, list[Values]]) -> ReadOptions:
+def _reading(told: dict[str, list[Values]]) -> DrawingOptions:
     """Return how the drawing was read."""
     without_layers, without_types, layouts = (
         tuple(_name(values) for _, values in told.get(key, [])) for key in ("skip_layer", "skip_type", "layout")
     )
     density = _first(told.get("px_per_inch", []))
     in_range = density is not None and LEAST_PER_INCH <= density <= MOST_PER_INCH
-    return ReadOptions(
+    return DrawingOptions(
         _first(told.get("overrule_units", [])) == 1,
         layouts[0] if layouts else "",
         _first(told.get("to_zero", [])) == 1,
@@ -164,7 +166,7 @@ def _earlier(kind: type[Operation], values: list[str], beside: _Earlier) -> dict
     sides = {each.value: each for each in Side}
     if len(numbers) != 3 or len(side) > 1 or not set(side) <= sides.keys():
         return None
-    told: dict[str, Any] = {"tool": int(numbers[0]), "depth": numbers[1], "layers": beside.layers()}
+    told: dict[str, Any] = {"tool": int(numbers[0]), "depth": numbers[1], "curves": on_layers(beside.layers())}
     (left,), (lead,) = (beside.numbers(key, 1) or [0.0] for key in ("floor_to_leave_mm", "leads_mm"))
     least, most, through = beside.numbers("holes_mm", 3) or [0.0] * 3
     told |= {"stock_to_leave": numbers[2], "floor_to_leave": left, "side": sides[side[0]] if side else Side.INSIDE}

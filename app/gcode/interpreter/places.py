@@ -89,6 +89,17 @@ class Places:
         """Return what the control obeys of the line at a place; `nested` as `text.code_of` has it."""
         return code_of(self._text.line(at.offset), nested)
 
+    def codes_between(self, begin: Cursor, end: Cursor, nested: bool) -> Iterator[str]:
+        """Yield what the control obeys of the lines between two, both excluded.
+
+        Raises:
+            Fault: a line has a comment without end.
+        """
+        at = self.after(begin)
+        while at.offset < end.offset:
+            yield self.code(at, nested)
+            at = self.after(at)
+
     def next_of(self, label: str, keywords: tuple[str, ...], behind: int) -> Statement | None:
         """Return the first statement of a label with one of the keywords behind an offset."""
         statements = self._statements(label)

@@ -13,7 +13,7 @@ from ...model.motion import Motions, Plane
 from ...model.moves import DogBone, Tab
 from ...model.operation import Operation
 from ...model.part import Units
-from ...model.read_options import AS_DRAWN, ReadOptions
+from ...model.read_options import AS_DRAWN, DrawingOptions
 
 
 class FeedMode(Enum):
@@ -200,6 +200,7 @@ class HeaderNote:
         keep_out: layers of clamps, and how high these are, mm.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
         plunge_rates: T numbers, and how fast each may be fed straight down, mm/min.
+        under: thickness of the waste below the stock that may be cut into, mm.
     """
 
     origin: tuple[float, float, float] | None = None
@@ -213,8 +214,9 @@ class HeaderNote:
     keep_out: tuple[tuple[str, ...], float] = ((), 0.0)
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
-    reading: ReadOptions = AS_DRAWN
+    reading: DrawingOptions = AS_DRAWN
     plunge_rates: tuple[tuple[int, float], ...] = ()
+    under: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,7 +45,7 @@ class UnitWords:
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class WordRules:
     """How a block is spelled.
 
     Attributes:
@@ -90,7 +90,7 @@ class Decimals:
 
 
 @dataclass(frozen=True, slots=True)
-class Comments:
+class CommentRules:
     """How a comment is marked.
 
     Attributes:
@@ -249,9 +249,9 @@ class Post:
     dialect: Dialect
     file_per_tool: bool
     units: UnitWords
-    words: Words
+    words: WordRules
     decimals: Decimals
-    comments: Comments
+    comments: CommentRules
     numbers: Numbers
     arcs: Arcs
     blending: Blending

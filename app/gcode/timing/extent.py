@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.machine import Axis, Machine
+from ...model.machine import LinearAxis, Machine
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import reach
 from ..interpreter.program import NcProgram, Problem, Severity
@@ -144,7 +144,7 @@ class _AxisReach:
     high: Floats
     line: NDArray[np.int32]
 
-    def too_long(self, axis: Axis, machine: Machine) -> Iterator[Problem]:
+    def too_long(self, axis: LinearAxis, machine: Machine) -> Iterator[Problem]:
         """Yield the problem that no place of the work origin could help."""
         low, high = float(np.nanmin(self.low)), float(np.nanmax(self.high))
         if high - low > axis.travel + ROUNDING:
@@ -156,7 +156,7 @@ class _AxisReach:
                 f"and {machine.title} travels {axis.travel:g} mm there.",
             )
 
-    def outside(self, axis: Axis, origin: float, machine: Machine) -> Iterator[Problem]:
+    def outside(self, axis: LinearAxis, origin: float, machine: Machine) -> Iterator[Problem]:
         """Yield the problem at each end of the travel."""
         for values, end, sign in ((self.low, axis.low, -1), (self.high, axis.high, 1)):
             beyond = sign * (values + origin - end)

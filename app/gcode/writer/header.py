@@ -70,6 +70,9 @@ def operation_words(operation: Operation, job: Job) -> str:
 
 
 _SHORT = 12  # letters
+_NAMED = 6
+"""Selectors of curves that an operator is told one by one."""
+
 _ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck")
 """Parameters that are told also where they have their default."""
 
@@ -88,8 +91,9 @@ def _parameter_words(placed: Placed, value: Any, units: Units) -> str:
             return name
         case Unit.COUNT:
             return f"{value} {name}"
-        case Unit.NAMES:
-            return f"{name} {' and '.join(map(safe_name, value))}"
+        case Unit.CURVES:
+            more = [f"{len(value) - _NAMED} more"] if len(value) > _NAMED else []
+            return f"{name} {' and '.join([*(safe_name(each.words) for each in value[:_NAMED]), *more])}"
         case Unit.POINTS:
             return f"{len(value)} {name}"
         case _:
@@ -113,6 +117,8 @@ def heading_lines(heading: Heading) -> Iterator[str]:
         )
         yield "Set Z zero with this tool in the spindle"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
+    if job.stock.under:
+        yield f"It lies on {_length(job.stock.under, units)} of waste, which the tool cuts into"
     origin = ", ".join(
         f"{axis} {_length(value, units)}" for axis, value in zip("XYZ", work_origin(job, heading.box), strict=True)
     )

@@ -17,6 +17,7 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     one a layer of clamps keep_out_height_mm=H                            of clamps above the stock, where there are any
     units=mm|in                                     of the program's words origin_mm=X,Y,Z
     the work origin; part = program + origin stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
+    under_mm=H                                      of waste below the stock that may be cut into, if any
     tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last;
     ,CORNER,TIP,ANGLE
                                                     behind it (radius of the corner, diameter of the tip, full angle in
@@ -42,7 +43,7 @@ from collections.abc import Iterator
 
 from ...model.job import Copies, Job
 from ...model.moves import Program
-from ...model.read_options import ReadOptions
+from ...model.read_options import DrawingOptions
 from ...model.stock_box import work_origin
 from ...model.tool import Tool
 from ..note_texts import plain_numbers, spelled
@@ -68,6 +69,8 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"units={unit_sign(job.out_units)}"
     yield f"origin_mm={plain_numbers(*work_origin(job, box))}"
     yield f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
+    if job.stock.under:
+        yield f"under_mm={plain_numbers(job.stock.under)}"
     operations = [operation for operation, _ in operations_of(heading)]
     for tool in dict.fromkeys((*tools_of(heading), *(job.tool(each.cut.tool) for each in operations))):
         yield f"tool={tool.number},{tool.kind.value},{plain_numbers(tool.diameter, *shape_numbers(tool))}"
@@ -79,7 +82,7 @@ def _notes(heading: Heading) -> Iterator[str]:
     yield f"blend_mm={plain_numbers(heading.blend_mm)}"
 
 
-def _reading(how: ReadOptions) -> Iterator[str]:
+def _reading(how: DrawingOptions) -> Iterator[str]:
     """Yield how the drawing was read, where that is not as it is drawn."""
     yield from (f"skip_layer={spelled(name)}" for name in how.without_layers)
     yield from (f"skip_type={spelled(name)}" for name in how.without_types)

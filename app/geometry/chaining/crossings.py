@@ -12,7 +12,7 @@ from ...core import tolerances
 from ...model.curves import Point
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour
-from ..primitives import CX, TURN, X1, R, Rows, curve_rows, distances
+from ..primitives import CX, TURN, X1, R, Rows, contour_rows, distances
 from .findings import LIMIT, at, limited, named
 from .overlap import near_pairs
 
@@ -91,18 +91,15 @@ def _cell(place: Point) -> tuple[int, int]:
 
 
 def _table(contours: Sequence[Contour]) -> _Table:
-    rows: list[tuple[float, ...]] = []
-    contour, before, after = [], [], []
-    for number, each in enumerate(contours):
-        first = len(rows)
-        for primitive in each.primitives:
-            rows += curve_rows(primitive)
-        count = len(rows) - first
-        contour += [number] * count
-        before += [first + count - 1 if each.closed else -1, *range(first, first + count - 1)]
-        after += [*range(first + 1, first + count), first if each.closed else -1]
-    whole = np.array(rows, dtype=np.float64).reshape(-1, 8)
-    return _Table(whole, np.array(contour, np.int64), np.array(before, np.int64), np.array(after, np.int64))
+    rows = [np.zeros((0, 8)), *(contour_rows(each) for each in contours)]
+    counts = np.array([len(each) for each in rows[1:]], np.int64)
+    number, first = np.repeat(np.arange(len(contours)), counts), np.cumsum(counts) - counts
+    before, after = np.arange(len(number)) - 1, np.arange(len(number)) + 1
+    some, closed = counts > 0, np.array([each.closed for each in contours], np.bool_)
+    last = first + counts - 1
+    before[first[some]] = np.where(closed, last, -1)[some]
+    after[last[some]] = np.where(closed, first, -1)[some]
+    return _Table(np.concatenate(rows), number, before, after)
 
 
 def contacts(rows: Rows, i: Indices, j: Indices) -> tuple[Floats, Indices, Indices]:

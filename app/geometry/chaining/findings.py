@@ -6,14 +6,12 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from ...core import tolerances
 from ...model.curves import Circle, Line, Point, Primitive
 from ...model.finding import Finding, FindingKind
 from ...model.job import LARGEST_JOIN
 from ...model.part import Contour
-from ..primitives import boxes, curve_rows
+from ..primitives import boxes, contour_rows
 from .overlap import Overlap
 from .pieces import Piece, length_of
 
@@ -40,7 +38,7 @@ def named(contour: Contour) -> str:
 
 
 def _corners(contour: Contour) -> tuple[Point, Point]:
-    around = boxes(np.array([row for primitive in contour.primitives for row in curve_rows(primitive)]))
+    around = boxes(contour_rows(contour))
     (x0, y0), (x1, y1) = around[:, :2].min(axis=0).tolist(), around[:, 2:].max(axis=0).tolist()
     return (x0, y0), (x1, y1)
 

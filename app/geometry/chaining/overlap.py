@@ -15,8 +15,9 @@ from ...model.curves import Circle, Point
 from ...model.part import Contour
 from ..near import near
 from ..near_points import pairs_within
-from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, curve_rows, distances, points_at, sweeps
+from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, distances, points_at, sweeps
 from ..primitives import lengths as row_lengths
+from ..primitives import rows_of as primitive_rows
 from .pieces import Piece, length_of
 
 Nodes = NDArray[np.int64]
@@ -103,7 +104,7 @@ def same(a: Piece, b: Piece, reach: float) -> bool:
 
 def _marks(piece: Piece) -> list[Point]:
     """Return the points at a quarter, a half and three quarters of the length, mm."""
-    rows = np.array([row for p in piece.primitives for row in curve_rows(p)])
+    rows = primitive_rows(piece.primitives)[0]
     sizes = row_lengths(rows)
     upto = np.concatenate([[0.0], np.cumsum(sizes)])
     places = upto[-1] * np.array([0.25, 0.5, 0.75])
@@ -140,13 +141,9 @@ def shared_stretches(pieces: Sequence[Piece], reach: float) -> list[Overlap]:
 
 def rows_of(pieces: Sequence[Piece]) -> tuple[Rows, NDArray[np.int64]]:
     """Return the rows (n, 8) of all pieces and the index (n,) of the piece that each is from."""
-    rows, owner = [], []
-    for k, piece in enumerate(pieces):
-        for primitive in piece.primitives:
-            made = curve_rows(primitive)
-            rows += made
-            owner += [k] * len(made)
-    return np.array(rows, dtype=np.float64).reshape(-1, 8), np.array(owner, dtype=np.int64)
+    counts = [len(piece.primitives) for piece in pieces]
+    rows, which = primitive_rows([primitive for piece in pieces for primitive in piece.primitives])
+    return rows, np.repeat(np.arange(len(pieces)), counts)[which]
 
 
 def near_pairs(rows: Rows, reach: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -6,17 +6,17 @@ from collections.abc import Iterable
 
 from ...model.finding import Finding
 from ...model.operation import AdaptiveOperation, Operation
-from ...toolpath.narrow import finest, too_small
+from ...toolpath.narrow import too_small
 from ...toolpath.sheets import Sheet, Sheets
 from ..registry import Way, register
-from .paths import adaptive, room_needed
+from .paths import adaptive, least_width, room_needed
 
 
 def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterable[Finding]:
     """Return which regions are too small for the tool."""
     assert isinstance(operation, AdaptiveOperation) and sheet is not None
     level = sheet.frame(room_needed(sheets.job, operation))
-    return too_small(sheet.regions, level, sheets.job.tool(operation.cut.tool), finest(sheets.job, operation))
+    return too_small(sheet.regions, level, sheets.job.tool(operation.cut.tool), least_width(sheets.job, operation))
 
 
 register(AdaptiveOperation, Way(adaptive, _missed))

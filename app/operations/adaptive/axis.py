@@ -1,8 +1,8 @@
 """The medial axis of an area, roughly: what lies as far from two places of the walls.
 
-Edges are those of the Voronoi diagram of points along the walls; distances are exact. Paths along it are proven by these
-distances alone, so that the axis is rough costs nothing but a little length. Where it ends in a corner, its last point is
-exact: the corner of the offset ring there.
+Edges are those of the Voronoi diagram of points along the walls; distances are exact. Paths along it are proven by
+these distances alone, so that the axis is rough costs nothing but a little length. Where it ends in a corner, its last
+point is exact: the corner of the offset ring there.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.progress import Progress
-from ...geometry.primitives import Primitives, Rows, lengths, points_at
+from ...geometry.primitives import Primitives, lengths, points_at
 from .ground import Room
 
 Floats = NDArray[np.float64]
@@ -22,6 +22,8 @@ Indices = NDArray[np.int64]
 
 _ADDS = 0.01
 """mm; a branch whose tip adds less to the disc that it leaves is none."""
+
+_HALVINGS = 40
 
 _NEIGHBOURS = 1
 """Points along one wall so near to each other have no edge between them."""
@@ -66,9 +68,7 @@ def medial_axis(walls: Primitives, room: Room, corners: Floats, spacing: float, 
     used = np.unique(edges)
     reach = np.full(len(diagram.vertices), -1.0)
     reach[used] = room.reach(diagram.vertices[used])
-    fits = reach >= room.needed
-    edges = edges[fits[edges].all(axis=1)]
-    points, edges = _renumbered(diagram.vertices, edges)
+    points, edges = _renumbered(*_cut_off(diagram.vertices, reach >= room.needed, edges, room))
     points, edges = _with_corners(points, edges, corners)
     axis = Axis(points, room.reach(points), edges)
     return _pruned(axis, len(points) - len(corners), room)
@@ -85,6 +85,22 @@ def _sites(walls: Primitives, spacing: float) -> tuple[Floats, Indices, Indices,
     count = np.bincount(contour)
     number = np.arange(len(index)) - (np.cumsum(count) - count)[contour]
     return sites, contour, number, count
+
+
+def _cut_off(points: Floats, fits: NDArray[np.bool_], edges: Indices, room: Room) -> tuple[Floats, Indices]:
+    """Return the graph up to where there is just room; edges of which one end has none end there."""
+    ends = fits[edges]
+    part = edges[ends[:, 0] != ends[:, 1]]
+    part = np.where(fits[part[:, :1]], part, part[:, ::-1])
+    good, bad = points[part[:, 0]], points[part[:, 1]]
+    low, high = np.zeros(len(part)), np.ones(len(part))
+    for _ in range(_HALVINGS if len(part) else 0):
+        middle = (low + high) / 2
+        there = room.reach(good + middle[:, None] * (bad - good)) >= room.needed
+        low, high = np.where(there, middle, low), np.where(there, high, middle)
+    more = np.column_stack([part[:, 0], np.arange(len(points), len(points) + len(part))])
+    places = good + low[:, None] * (bad - good)
+    return np.concatenate([points, places]), np.concatenate([edges[ends.all(axis=1)], more])
 
 
 def _renumbered(points: Floats, edges: Indices) -> tuple[Floats, Indices]:

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 _FINENESS = 4e-4
-"""mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC program
-move path and disc at most, both together."""
+"""mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC
+program move path and disc at most, both together."""
 
 _SPARE = math.radians(0.05)
 """Radians that the limit is not used by, so that a proof by bounds has an end."""

@@ -68,6 +68,17 @@ def smooth_way(start: Pose, end: Pose, over: Sequence[Point], into: Circle) -> l
     return rows + _arc(last, (end.x, end.y), coming)
 
 
+def way_in(end: Pose, into: Circle) -> list[Row]:
+    """Return half a turn over clear ground to a pose, from where the cutter may come down."""
+    share = _TURNED
+    for _ in range(_HALVINGS):
+        coming = end.circle(share)
+        if _inside(coming, (end.x, end.y), into) >= math.pi:
+            return _arc((2 * coming[0] - end.x, 2 * coming[1] - end.y), (end.x, end.y), coming)
+        share /= 2
+    return []
+
+
 def _tangent(a: Circle, over: Point | None, b: Circle) -> tuple[Point, Point]:
     """Return where a straight way leaves one circle and comes onto another, both counter-clockwise."""
     if over is not None:
@@ -105,7 +116,7 @@ def _swept(a: Point, b: Point, circle: Circle) -> float:
 
 
 def _inside(circle: Circle, end: Point, into: Circle) -> float:
-    """Return the angle over which a circle, up to a place on it, lies within another one; a full turn if it all does."""
+    """Return the angle over which a circle, up to a place on it, lies within another one; a full turn if all does."""
     x, y, radius = circle
     away = math.hypot(x - into[0], y - into[1])
     if away + radius <= into[2] + 1e-12 or radius == 0.0:

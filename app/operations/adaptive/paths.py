@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ...core.progress import Progress
 from ...geometry.offset.offset import Level
@@ -36,6 +37,12 @@ def room_needed(job: Job, operation: AdaptiveOperation) -> float:
     """Return how far from the walls the cutter's centre must have room to be, mm."""
     limit = limit_of(job, operation)
     return limit.radius + least_turn(limit) + operation.cut.stock_to_leave
+
+
+def least_width(job: Job, operation: AdaptiveOperation) -> float:
+    """Return the least width, mm, of a region that this operation, or another one without a limit, machines."""
+    others = replace(job, operations=tuple(each for each in job.operations if each.proven_angle is None))
+    return min(2 * room_needed(job, operation), finest(others, operation))
 
 
 def adaptive(setting: Setting, index: int, progress: Progress) -> None:
@@ -72,7 +79,7 @@ def too_narrow(job: Job, operation: AdaptiveOperation, sheet: Sheet, level: Leve
     """Return which regions are too small for the cutter, and which necks it does not pass, keeping its limit."""
     tool = job.tool(operation.cut.tool)
     return [
-        *too_small(sheet.regions, level, tool, finest(job, operation)),
+        *too_small(sheet.regions, level, tool, least_width(job, operation)),
         *necks(level, sheet.primitives, sheet.distances, tool),
     ]
 

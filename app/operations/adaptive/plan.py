@@ -15,7 +15,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
 from .axis import Axis, medial_axis
-from .ground import Disc, Discs, Point, Room
+from .ground import Discs, Point, Room
 from .limit import Limit
 from .ring import Proof, rounded, sharp_corners
 from .spiral import spiral
@@ -33,7 +33,7 @@ _TURN = 0.05
 _SHARP = 0.1
 """Radians; a corner of the way along the walls that turns by less needs no arc of its own."""
 
-_SLIVER = 0.008
+_SLIVER = 0.005
 """mm; as much may stand in a corner: less than counts as left."""
 
 _CHORD = 1e-3
@@ -115,7 +115,7 @@ def least_turn(limit: Limit) -> float:
 
 
 def _tip(turns: Floats, limit: Limit, least: float) -> float:
-    """Return the radius of the arcs in corners, mm: small enough that next to nothing stands in the sharpest of them."""
+    """Return the radius of the arcs in corners, mm: small enough that next to nothing stands in the sharpest."""
     if not len(turns):
         return least
     sine = math.sin((math.pi - float(turns.max())) / 2)

@@ -1,4 +1,4 @@
-"""The last way along the walls, over scallops alone, proven beforehand; where it is not, more discs are cleared first."""
+"""The last way along the walls, over scallops alone, proven beforehand; where that fails, more discs come first."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _direction(rows: Rows, at: int) -> Floats:
 
 
 def rounded(ring: Ring, by: float) -> Rows:
-    """Return the rows of a ring moved outwards by a length, mm, with an arc of that radius round each of its corners."""
+    """Return the rows of a ring moved outwards by a length, mm, with an arc of that radius round each corner."""
     rows, turn = ring.rows, _turns(ring.rows)
     out = rows.copy()
     for at in (X0, X1):
@@ -108,7 +108,7 @@ class Proof:
                     row,
                     self.limit.radius,
                     (float(turn[k]), float(size[k])),
-                    (self.limit.planned, _COARSE * self.limit.radius, _FINEST),
+                    (self.limit.planned, _COARSE * self.limit.radius, _FINEST, self.limit.planned),
                 )
                 if bound <= self.limit.planned:
                     break

@@ -1,9 +1,9 @@
 """The first disc of an area: a small circle where the cutter has come down, and a spiral of half turns from there on.
 
-Half turns go round two centres in turn that lie on one line, so they join smoothly. Of radius rho_j = rho_(j-1) + e_j, the
-half turn j finds ground clear as far as rho_(j-1) + r - e_j round its own centre, if e never falls: on one side because
-of the half turn before, on the other because of the one before that. So e_j is chosen that the cutter is engaged by the
-limit, all the way, and the last turn is a whole one.
+Half turns go round two centres in turn that lie on one line, so they join smoothly. Of radius rho_j = rho_(j-1) + e_j,
+the half turn j finds ground clear as far as rho_(j-1) + r - e_j round its own centre, if e never falls: on one side
+because of the half turn before, on the other because of the one before that. So e_j is chosen that the cutter is
+engaged by the limit, all the way, and the last turn is a whole one.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _MOST_TURNS = 20_000
 
 
 def spiral(centre: Point, turn: float, limit: Limit, seed: float) -> Rows:
-    """Return arcs (n, 8) from a circle in a disc's middle outwards, counter-clockwise, the last circle about its centre.
+    """Return arcs (n, 8) from the middle of a disc outwards, counter-clockwise, the last circle about its centre.
 
     Args:
         turn: radius of the last circle, mm.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from ...toolpath.build import split_row
 from ...toolpath.linking.bridge import foot, fraction_at
 from .ground import Disc, Discs, Point
 from .limit import Limit
-from .link import Circle, Pose, Row, smooth_way
+from .link import Circle, Pose, Row, smooth_way, way_in
 
 Floats = NDArray[np.float64]
 
@@ -129,10 +130,11 @@ class Way:
             return
         over = self._over(self._in, number)
         stops = [(self._pose.x, self._pose.y), *over, (pose.x, pose.y)]
-        if sum(math.dist(a, b) for a, b in zip(stops, stops[1:], strict=False)) > self.farthest:
+        if sum(math.dist(a, b) for a, b in pairwise(stops)) > self.farthest:
             self._end()
-            return
-        rows = smooth_way(self._pose, pose, over, self._room(number))
+            rows = way_in(pose, self._room(number))
+        else:
+            rows = smooth_way(self._pose, pose, over, self._room(number))
         self._rows += rows
         self._clear += [True] * len(rows)
 
@@ -198,4 +200,3 @@ def _on(centre: Point, radius: float, angle: float) -> Point:
 
 def _holds(circle: Circle, place: Point) -> bool:
     return math.dist(circle[:2], place) <= circle[2]
-

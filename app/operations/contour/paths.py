@@ -17,14 +17,15 @@ from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Purpose
 from ...model.operation import ContourOperation, Direction, Side
-from ...model.part import Contour
+from ...model.stock_box import stock_box
 from ...model.tool import Tool
 from ...toolpath.bitmap_check import check_on_bitmap
 from ...toolpath.build import Stroke, started_at
 from ...toolpath.leads.contour_path import Path
 from ...toolpath.leads.lead import Around, Run, about_leads, about_overlaps, runs
-from ...toolpath.leads.tab import TabShape, about_far, about_tabs, by_hand, spans_of, spread, tabs_at
+from ...toolpath.leads.tab import TabShape, about_far, about_tabs, about_unheld, by_hand, spans_of, spread, tabs_at
 from ...toolpath.narrow import finest, too_small
+from ...toolpath.selected import selected
 from ...toolpath.setting import Setting, emit, passes_of
 from ...toolpath.sheets import Sheet, Sheets
 from ...toolpath.side import wall_paths
@@ -32,7 +33,7 @@ from ..engrave.open_line import line_paths
 from .dogbone import Bone, about_refused, bones, recorded
 from .fit import about_clamps, about_narrow, narrow_places
 from .gaps import Gap, gaps
-from .stroke import Extras, stroke_of
+from .stroke import Extras, strokes_of
 
 _FAR = 4.0
 """Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
@@ -167,9 +168,9 @@ def about_walls(
     job, drawn, tool = sheets.job, sheets.drawn, sheets.job.tool(operation.cut.tool)
     found = gaps(level, sheet)
     places = narrow_places(found, sheet, level.distance)
-    least, layers = finest(job, operation), operation.cut.layers
+    least = finest(job, operation)
     counts = operation.side is Side.OUTSIDE and least >= 2 * level.distance - 1e-9
-    walls: list[Contour] = [each for each in drawn.closed if not layers or each.layer in layers]
+    walls = selected(drawn, operation.cut.curves).closed
     told = [
         *too_small(sheet.regions, level, tool, least),
         *about_narrow(places, tool, level.distance, counts),
@@ -201,11 +202,14 @@ def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
     if wanted.wanted:
         setting.findings.extend(about_far(paths, shape, setting.job.copies.shifts))
         setting.findings.extend(about_tabs(made, tabs, shape, work.operation))
-        setting.tabs.extend(
-            tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)
-        )
+        bridges = [tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)]
+        setting.tabs.extend(bridges)
+        walls = _followed(work, paths)
+        if work.operation.side is Side.OUTSIDE and walls is not None:
+            box = stock_box(setting.job, setting.regions)
+            setting.findings.extend(about_unheld(bridges, walls, box))
     extras = Extras(shape.half, shape.top, ways)
-    return _Made(made, tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)), tabs)
+    return _Made(made, strokes_of(made, tabs, extras), tabs)
 
 
 def _followed(work: _Work, paths: Sequence[Path]) -> DistanceField | None:
@@ -234,7 +238,7 @@ def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, w
     extras = Extras(shape.half, shape.top, ways)
     return _Made(
         made,
-        tuple(stroke_of(run, places, extras) for run, places in zip(made, tabs, strict=True)),
+        strokes_of(made, tabs, extras),
         tuple(map(tuple, tabs)),
     )
 

@@ -7,12 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...geometry.primitives import Rows
 from ...model.moves import Purpose
 from ...toolpath.build import Stroke
-from ...toolpath.leads.contour_path import Path
+from ...toolpath.leads.contour_path import Floats, Path, Paths
 from ...toolpath.leads.lead import Run
 from ...toolpath.leads.tab import spans_of, under_tabs
 from .dogbone import Bone, inserted
+
+_NONE = np.zeros(0)
 
 _POINT = 0.01
 """mm; a shorter path is a plunge, which has neither tabs nor corners."""
@@ -33,19 +36,39 @@ class Extras:
     bones: Sequence[Bone] = ()
 
 
-def stroke_of(run: Run, tabs: Sequence[float], extras: Extras) -> Stroke:
+def strokes_of(runs: Sequence[Run], tabs: Sequence[Sequence[float]], extras: Extras) -> tuple[Stroke, ...]:
+    """Return the strokes of some paths.
+
+    Args:
+        tabs: their middles on each path, mm along it.
+    """
+    joined = Paths.of([run.path for run in runs])
+    spans = [spans_of(run.path, places, extras.half) if places else [] for run, places in zip(runs, tabs, strict=True)]
+    start, stop = np.array([run.start for run in runs]), np.array([run.stop for run in runs])
+    point = joined.lengths < _POINT
+    start, stop = np.where(point, 0.0, start), np.where(point, 1.0, stop)
+    breaks = [_breaks(run.path, own) if own else _NONE for run, own in zip(runs, spans, strict=True)]
+    found, middle = joined.spans(start, stop, breaks)
+    strokes = []
+    for k, run in enumerate(runs):
+        mine = slice(*found.first[k : k + 2].tolist())
+        strokes.append(
+            Stroke(run.path.rows, np.full(len(run.path.rows), Purpose.CONTOUR, np.uint8), run.path.region)
+            if point[k]
+            else _stroke(run, (found.rows[mine], middle[mine]), spans[k], extras)
+        )
+    return tuple(strokes)
+
+
+def _stroke(run: Run, cut: tuple[Rows, Floats], spans: Sequence[tuple[float, float]], extras: Extras) -> Stroke:
     """Return the stroke of a path.
 
     Args:
-        tabs: their middles, mm along the path.
+        cut: its rows from beginning to end, and how far along the middle of each is, mm.
+        spans: (from, to) of its tabs, mm.
     """
-    path = run.path
-    if path.length < _POINT:
-        return Stroke(path.rows, np.full(len(path.rows), Purpose.CONTOUR, np.uint8), path.region)
-    spans = spans_of(path, tabs, extras.half)
-    rows, where = path.span(run.start, run.stop, _breaks(path, spans))
-    rows, where, bone = inserted(rows, where, extras.bones)
-    over = under_tabs(path, where, spans)
+    rows, where, bone = inserted(*cut, extras.bones)
+    over = under_tabs(run.path, where, spans)
     purpose = np.where(bone, Purpose.DOG_BONE, np.where(over, Purpose.TAB, Purpose.CONTOUR))
     ends = [np.full(len(way), Purpose.LEAD) for way in (run.way_in, run.way_out)]
     least_z = None
@@ -55,11 +78,11 @@ def stroke_of(run: Run, tabs: Sequence[float], extras: Extras) -> Stroke:
     return Stroke(
         np.concatenate([run.way_in, rows, run.way_out]),
         np.concatenate([ends[0], purpose, ends[1]]).astype(np.uint8),
-        path.region,
+        run.path.region,
         least_z,
     )
 
 
-def _breaks(path: Path, spans: Sequence[tuple[float, float]]) -> np.ndarray:
+def _breaks(path: Path, spans: Sequence[tuple[float, float]]) -> Floats:
     ends = np.array([end for span in spans for end in span], dtype=np.float64)
     return ends % path.length if path.closed else ends

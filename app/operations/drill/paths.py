@@ -9,11 +9,12 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...model.curve_selectors import CirclesOf, CurveNumber
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
 from ...model.operation import DrillOperation
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
 from ...toolpath.build import Label, Stroke
 from ...toolpath.drill_holes import ALIKE, Hole, Holes, holes_of, tip_depth, tip_length
 from ...toolpath.ordering.tour import in_short_order
@@ -108,7 +109,7 @@ def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[F
         yield Finding(
             FindingKind.LEFT_OUT,
             f"{who} drills {_counted(holes.drilled)}; {left}: {_diameters(holes.others)}.",
-            counts=False,
+            counts=_names_them(operation),
             amount=float(len(holes.others)),
         )
     for kept, why in (
@@ -128,6 +129,12 @@ def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[F
     if holes.drilled:
         yield from _widths(holes.drilled, tool)
         yield _tip(tool, job, operation)
+
+
+def _names_them(operation: DrillOperation) -> bool:
+    """Tell whether an operation names the very circles that it is to drill, so that each of them counts."""
+    curves = operation.cut.curves
+    return bool(curves) and all(isinstance(each, CurveNumber | CirclesOf) for each in curves)
 
 
 def _widths(drilled: Sequence[Hole], tool: Tool) -> Iterator[Finding]:
@@ -150,7 +157,7 @@ def _tip(tool: Tool, job: Job, operation: DrillOperation) -> Finding:
             f"T{tool.number} drills to the depth with its full width; its point goes {tip:.3f} mm deeper, to "
             f"{deep:.3f} mm."
         )
-    elif tool.kind is ToolKind.DRILL:
+    elif tool.kind.drills:
         text = (
             f"T{tool.number} tells no tip angle, so its point goes to {deep:.3f} mm, and its full width less deep; "
             "give the angle, or let it go through."

@@ -149,18 +149,18 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
 def wall_distance(job: Job, operation: PocketOperation) -> float:
     """Return how far A' lies inside the walls, mm: the contour tool's radius and the stock it leaves (step 120).
 
-    Without a contour operation that goes inside the walls of the same layers, as deep, the pocket goes up to the walls
+    Without a contour operation that goes inside the walls of the same curves, as deep, the pocket goes up to the walls
     itself.
     """
     return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
 
 
 def _followers(job: Job, operation: PocketOperation) -> list[Cut]:
-    """Return the contour operations inside the walls of the same layers, as deep."""
+    """Return the contour operations inside the walls of the same curves, as deep."""
     cuts = (
         each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE
     )
-    return [cut for cut in cuts if cut.layers == operation.cut.layers and cut.floor >= operation.cut.floor]
+    return [cut for cut in cuts if set(cut.curves) == set(operation.cut.curves) and cut.floor >= operation.cut.floor]
 
 
 def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool:

@@ -128,7 +128,7 @@ def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Row
         if each.FOLLOWS_WALLS
         and each.wall_side is Side.INSIDE
         and each.cut.enabled
-        and each.cut.layers == own.layers
+        and set(each.cut.curves) == set(own.curves)
         and each.cut.floor >= own.floor
     ]
     return [_wall_path(cut, job.tool(cut.tool), sheet) for cut in followers if flat_radius(job.tool(cut.tool)) > 0]

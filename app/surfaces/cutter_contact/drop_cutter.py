@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...core.errors import ParameterError
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
 from ..patches.facets import NONE, Facets
 
 Floats = NDArray[np.float64]
@@ -42,23 +42,11 @@ def shape_of(tool: Tool) -> Floats:
     Raises:
         ParameterError: it has a point of no angle.
     """
-    radius, tip = tool.radius, tool.tip_diameter / 2
-    half = tool.tip_angle / 2
-    if tool.kind in (ToolKind.V, ToolKind.DRILL, ToolKind.TAPER) and not half > 0:
+    radius, half, profile = tool.radius, tool.tip_angle / 2, tool.profile
+    if tool.kind.conical and not half > 0:
         raise ParameterError(f"T{tool.number}: a point of 0 degrees; give its angle.")
-    cone = 1 / math.tan(half) if half > 0 else 0.0
-    match tool.kind:
-        case ToolKind.BALL:
-            shape = (0.0, radius, 0.0, radius, radius)
-        case ToolKind.BULL:
-            shape = (radius - tool.corner_radius, tool.corner_radius, 0.0, radius, radius)
-        case ToolKind.V | ToolKind.DRILL:
-            shape = (tip, 0.0, cone, radius, tip)
-        case ToolKind.TAPER:
-            shape = (0.0, tip, cone, radius, tip * math.cos(half))
-        case _:
-            shape = (radius, 0.0, 0.0, radius, radius)
-    return np.array(shape)
+    rim = profile.flat + profile.fillet * math.cos(half) if tool.kind.conical else radius  # where the cone begins
+    return np.array((profile.flat, profile.fillet, profile.cone, radius, rim))
 
 
 def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progress: Progress = NO_PROGRESS) -> Dropped:

@@ -13,7 +13,7 @@ from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import contour_rows, sample
 from ...model.part import Region
-from ...model.scene import Side
+from ...model.scene import KeptSide
 from ..patches.build import Built, BuiltTrim
 from ..patches.facets import NONE, Facets, joined, joined_parts
 from ..patches.patch import patches_of
@@ -104,7 +104,7 @@ def area_of(trims: Sequence[BuiltTrim]) -> shapely.Geometry:
     area: shapely.Geometry = shapely.box(-_FAR, -_FAR, _FAR, _FAR)
     for trim in trims:
         inside = region_area(trim.regions)
-        area = shapely.intersection(area, inside) if trim.keep is Side.INSIDE else shapely.difference(area, inside)
+        area = shapely.intersection(area, inside) if trim.keep is KeptSide.INSIDE else shapely.difference(area, inside)
     return area
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
 from ..patches.facets import Facets
 from ..sections.compound import Planes
 from ..sections.planes import MOST_PLANES, extent_on
@@ -52,9 +52,7 @@ def corner_radius(tool: Tool) -> float:
     Raises:
         ParameterError: it has none.
     """
-    radius = {ToolKind.BALL: tool.radius, ToolKind.BULL: tool.corner_radius, ToolKind.TAPER: tool.tip_diameter / 2}.get(
-        tool.kind, 0.0
-    )
+    radius = tool.profile.fillet
     if not radius > 0:
         raise ParameterError(
             f"T{tool.number} is a {tool.kind.value} tool, whose ridges no scallop height describes; give a pitch, or "

@@ -13,7 +13,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.region import nest, polygon_contour
 from ...model.curves import Circle
 from ...model.part import Contour, Region
-from ...model.scene import Outline, Scene, Side, Surface
+from ...model.scene import KeptSide, Scene, SceneOutline, Surface
 from ...model.scene_curves import Sources
 from ...model.scene_shapes import (
     BicubicShape,
@@ -63,7 +63,7 @@ class BuiltTrim:
     """Regions in XY, and which side of them a surface keeps."""
 
     regions: tuple[Region, ...]
-    keep: Side
+    keep: KeptSide
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +183,7 @@ def triangles_of(shape: MeshShape, sources: Sources) -> Floats:
     return triangles
 
 
-def regions_of(outline: Outline, sources: Sources) -> tuple[Region, ...]:
+def regions_of(outline: SceneOutline, sources: Sources) -> tuple[Region, ...]:
     """Return the regions of an outline; arcs and circles stay exact.
 
     Raises:
@@ -195,7 +195,7 @@ def regions_of(outline: Outline, sources: Sources) -> tuple[Region, ...]:
     return regions
 
 
-def _contours(outline: Outline, sources: Sources) -> tuple[Contour, ...]:
+def _contours(outline: SceneOutline, sources: Sources) -> tuple[Contour, ...]:
     """Return the closed contours of an outline."""
     if outline.circle:
         x, y, radius = outline.circle

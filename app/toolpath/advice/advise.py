@@ -14,7 +14,7 @@ from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import TURN, R, pack, points_at, signed_area
 from ...model.part import Region
-from ...model.tool import Tool, ToolKind
+from ...model.tool import Tool
 from ..coverage.flat import region_shapes
 from .reach import FITS, Centres, Reach, centres, reach
 from .time import Plan, Times, distances, times
@@ -136,7 +136,7 @@ def advise(
     """
     if not regions:
         raise ParameterError("There is no closed contour to choose tools for; draw one, or choose other layers.")
-    usable = [tool for tool in tools or standard_tools() if tool.kind in (ToolKind.FLAT, ToolKind.BULL)]
+    usable = [tool for tool in tools or standard_tools() if tool.kind.level]
     if not usable:
         raise ParameterError("None of the tools clears a flat floor; add a flat end mill to choose from.")
     usable.sort(key=lambda tool: (tool.diameter, tool.number))

@@ -25,7 +25,6 @@ from ...geometry.primitives import CX, TURN, R, Rows
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
-from ...model.tool import ToolKind
 from .areas import common, united, without
 from .flat import flattened, grown, lines, move_rows
 from .proven import uncertain
@@ -223,7 +222,7 @@ def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, 
 def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = None) -> list[_Path]:
     """Return the path of each tool's moves, or of some of them (n,), that cut as deep as so many mm, or deeper."""
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
-    drills = [tool.number for tool in job.tools if tool.kind is ToolKind.DRILL]  # their tips leave a cone
+    drills = [tool.number for tool in job.tools if tool.kind.drills]  # their tips leave a cone
     chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills) & (True if of is None else of)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
     return [

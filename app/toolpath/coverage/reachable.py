@@ -32,6 +32,9 @@ _NOMINAL = tolerances.NOMINAL - 2 * tolerances.FIT
 goes there.
 """
 
+_NEAR = 0.01
+"""mm; so near to an area metal may lie in it, whatever chords make of its walls."""
+
 _START = 8
 """Squares along a diameter at the beginning."""
 
@@ -99,5 +102,12 @@ def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fiel
     A sliver counts where a cutter does that stays 1 um farther from the walls, as its paths may: in a neck that grows
     narrow slowly, a micrometre decides on tenths of a millimetre.
     """
+    # a cutter of an area that the piece does not lie in has no say in what a sliver is
+    cutters = [each for each in cutters if _holds(fields.of(each.regions), points)]
     spare = -_NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
     return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)
+
+
+def _holds(field: DistanceField, points: NDArray[np.float64]) -> bool:
+    """Tell whether one of some points (n, 2) lies in an area, or so near to it that it may."""
+    return bool(np.any(field.inside(points) | (field.nearest(points)[0] <= _NEAR)))

@@ -20,7 +20,6 @@ from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import Area, Program
 from ...model.operation import Side
-from ...model.tool import ToolKind
 from .areas import Shapes, gathered, united
 from .cut_out import cut_out
 from .flat import grown, region_shapes
@@ -69,7 +68,7 @@ def one_floor(program: Program, job: Job) -> Area | None:
             or area.bare
             or abs(cut.floor - operation.cut.floor) >= _SAME
         )
-        other = job.tool(cut.tool).kind is not ToolKind.FLAT
+        other = not job.tool(cut.tool).kind.square
         if elsewhere or outside or other or cut.stock_to_leave:
             return None
     return first if any(each.COARSE for each, _ in works) else None

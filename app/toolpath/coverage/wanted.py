@@ -21,7 +21,6 @@ from ...model.job import Job
 from ...model.moves import Area, DogBone, Program, Tab
 from ...model.operation import Operation, Side
 from ...model.part import Contour
-from ...model.tool import ToolKind
 from .areas import common, united, without
 from .flat import grown, region_shapes
 from .reachable import Cutter
@@ -256,7 +255,7 @@ def _on_lines(work: _Work, made: _Shapes) -> Shape:
     not flat.
     """
     tool = made.job.tool(work.operation.cut.tool)
-    if tool.kind is not ToolKind.FLAT:
+    if not tool.kind.square:
         return shapely.Polygon()
     lines = shapely.intersection(
         shapely.union_all([_line(contour) for contour in work.area.lines]), shapely.union_all(made.inner(work))

@@ -108,7 +108,7 @@ class DepthPasses:
         """Bring the tool to where a stroke begins, down to its height there; return the stroke as it is to be cut from
         there.
         """
-        first = float(stroke.heights(z)[0])
+        first = stroke.begins_at(z)
         drilled = in_hole(stroke.start, self.holes)
         if not drilled and id(stroke) not in self._slotted and self._floor(stroke) > first + _SAME:
             beside = from_cleared(stroke, first, self.ground)
@@ -188,7 +188,7 @@ class DepthPasses:
         again = math.dist(last.start, stroke.start) < _SAME
         on = None
         if not again:  # asked before the way back, which takes longer to make: mostly the next stroke is far off
-            here = (*last.start, float(last.heights(z)[0]))
+            here = (*last.start, last.begins_at(z))
             on = way_straight(stroke, here, air, self.ground, self.label.feed)
         back = way_back(last, z, air, self.label.feed) if again or on is not None else None
         if back is None:

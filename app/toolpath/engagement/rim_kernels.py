@@ -2,10 +2,10 @@
 
 What is clear of metal is known as convex shapes, a row each: a disc, cut by up to two half planes: (cx, cy, radius, nx,
 ny, h, mx, my, k), points p with |p - c| <= radius, n.p <= h and m.p <= k, mm; a half plane that is none has n = 0, h =
-inf. Every circle meets such a shape in at most three intervals, in closed form, so at one place of a cutter the rim that
-no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than half the piece's length
-from where it is in the middle, so what shapes that are so much smaller cover there is covered all along: the rest is a
-bound. A piece of which the bound is too large is halved.
+inf. Every circle crosses the border of such a shape at no more than six places, in closed form, so at one place of a
+cutter the rim that no shape covers is known exactly. Along a piece of a path no point of the rim moves by more than
+half the piece's length from where it is in the middle, so what shapes that are so much smaller cover there is covered
+all along: the rest is a bound. A piece of which the bound is too large is halved.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from ...core.jit import kernel
 _SHAPES = "float64[:, ::1]"
 _HALF, _TURN = math.pi / 2, 2 * math.pi
 _STACK = 64
+_ALIKE = 1e-3  # radians by which a bound may grow from piece to piece without a closer look
 
 
 @kernel(f"boolean({_SHAPES}, int64, float64, float64, float64)", counts=False)
@@ -41,7 +42,8 @@ def _borders(shapes, k, circle, less, out):
     count, reach = 0, shapes[k, 2] - less
     dx, dy = shapes[k, 0] - x, shapes[k, 1] - y
     far = math.sqrt(dx * dx + dy * dy)
-    if reach > 0.0 and far > 0.0 and abs(reach - radius) < far < reach + radius:
+    # circles that only touch have their place as well, twice: else one look there would stand for the whole circle
+    if reach > 0.0 and far > 0.0 and reach - radius < far < reach + radius:
         ahead = math.atan2(dy, dx)
         half = math.acos(max(-1.0, min(1.0, (far * far + radius * radius - reach * reach) / (2.0 * far * radius))))
         out[0], out[1] = ahead - half, ahead + half
@@ -51,8 +53,8 @@ def _borders(shapes, k, circle, less, out):
         if nx == 0.0 and ny == 0.0:
             continue
         share = (shapes[k, j + 2] - less - nx * x - ny * y) / radius
-        if -1.0 < share < 1.0:
-            ahead, half = math.atan2(ny, nx), math.acos(share)
+        if share < 1.0:
+            ahead, half = math.atan2(ny, nx), math.acos(max(-1.0, share))
             out[count], out[count + 1] = ahead - half, ahead + half
             count += 2
     return count
@@ -109,7 +111,7 @@ def _piece(shapes, row, radius, sweep, span):
     return uncovered(shapes, (x, y, radius), long / 2, (ahead - wide / 2, wide))
 
 
-@kernel(f"UniTuple(float64, 2)({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 3))")
+@kernel(f"UniTuple(float64, 2)({_SHAPES}, float64[::1], float64, UniTuple(float64, 2), UniTuple(float64, 4))")
 def bound_along(shapes, row, radius, sweep, limits):
     """Return a bound of the engaged angle all along a row (8,), radians, and the fraction of it where it is that large.
 
@@ -118,9 +120,10 @@ def bound_along(shapes, row, radius, sweep, limits):
         radius: of the cutter, mm.
         sweep: signed sweep of an arc, radians, 0 for lines, and the length of the row, mm.
         limits: an angle that is small enough, radians; lengths of the first pieces, and of pieces that are not halved,
-            mm: whatever bound these have is the answer.
+            mm: whatever bound these have is the answer; an angle, radians: where one of these has more, the rest of the
+            row is not looked at.
     """
-    enough, coarse, finest = limits
+    enough, coarse, finest, hopeless = limits
     most, where = 0.0, 0.0
     count = max(1, math.ceil(sweep[1] / coarse))
     low, high = np.empty(_STACK), np.empty(_STACK)
@@ -130,10 +133,10 @@ def bound_along(shapes, row, radius, sweep, limits):
             depth -= 1
             a, b = low[depth], high[depth]
             found = _piece(shapes, row, radius, sweep, (a, b))
-            if found <= max(enough, most) or (b - a) * sweep[1] <= finest or depth + 2 > _STACK:
+            if found <= max(enough, most + _ALIKE) or (b - a) * sweep[1] <= finest or depth + 2 > _STACK:
                 if found > most:
                     most, where = found, (a + b) / 2
-                if found > enough and (b - a) * sweep[1] <= finest:
+                if found > hopeless:
                     return most, where
                 continue
             middle = (a + b) / 2
@@ -145,7 +148,7 @@ def bound_along(shapes, row, radius, sweep, limits):
 
 @kernel(f"float64({_SHAPES}, UniTuple(float64, 3))")
 def clear_radius(shapes, place):
-    """Return the radius of a disc round a place that is clear for certain, mm, at most `place[2]`; 0 where there is none.
+    """Return the radius of a disc round a place that is surely clear, mm, at most `place[2]`; 0 where there is none.
 
     Only shapes that hold the place count: seen from it each reaches from there to its border without a gap, so a circle
     that is covered all round has nothing but clear ground within.

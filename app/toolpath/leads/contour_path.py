@@ -103,24 +103,8 @@ class Path:
             start, stop: mm, start < stop; a closed path goes on past its end.
             breaks: (k,) mm, in [0, length].
         """
-        laps = np.arange(np.floor(start / self.length), np.ceil(stop / self.length)) if self.closed else np.zeros(1)
-        own = breaks[np.abs(self.ends[:, None] - breaks).min(axis=0) > _SNAP] if len(breaks) else breaks
-        inner = (laps[:, None] * self.length + np.concatenate([self.ends, own])).ravel()
-        bounds = np.unique(np.concatenate([[start], inner[(inner > start + _SNAP) & (inner < stop - _SNAP)], [stop]]))
-        middle = (bounds[1:] + bounds[:-1]) / 2
-        row, _ = self.rows_at(middle)
-        size = self.sizes[row]
-        begin = middle - (middle % self.length if self.closed else middle) + self.ends[row] - size
-        first = (bounds[:-1] - begin) / np.maximum(size, 1e-300)
-        last = (bounds[1:] - begin) / np.maximum(size, 1e-300)
-        pieces = self.rows[row].copy()
-        pieces[:, :2] = points_at(self.rows[row], np.where(first * size < _SNAP, 0.0, np.clip(first, 0.0, 1.0)))
-        pieces[:-1, 2:4] = pieces[1:, :2]
-        if self.closed and abs(stop - start - self.length) < _SNAP:
-            pieces[-1, 2:4] = pieces[0, :2]
-        elif (1 - last[-1]) * size[-1] >= _SNAP:
-            pieces[-1, 2:4] = points_at(self.rows[row[-1:]], last[-1:])[0]
-        return pieces, middle
+        found, middle = self.alone.spans(np.array([start]), np.array([stop]), [breaks])
+        return found.rows, middle
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +160,60 @@ class Paths:
         """Return the directions of travel (k, 2), of length 1, at places (k,) along paths (k,)."""
         row, fraction = self.rows_at(path, where)
         return headings_at(self.outlines.rows[row], fraction)
+
+    def spans(self, start: Floats, stop: Floats, breaks: Sequence[Floats]) -> tuple[Outlines, Floats]:
+        """Return each path's rows from one place to another, cut at some breaks as well, and how far along the middle
+        of each is (n,).
+
+        Args:
+            start, stop: (m,) mm, start < stop; a closed path goes on past its end.
+            breaks: of each path (k,) mm, in [0, length].
+        """
+        path, bounds = self._bounds(start, stop, breaks)
+        whole = path[1:] == path[:-1]  # a piece between two bounds of one path
+        path, first, last = path[:-1][whole], bounds[:-1][whole], bounds[1:][whole]
+        middle = (last + first) / 2
+        row, _ = self.rows_at(path, middle)
+        size, rows, length = self.outlines.sizes[row], self.outlines.rows[row], self.lengths[path]
+        lap = np.where(self.closed[path], middle - middle % np.where(length > 0, length, 1.0), 0.0)
+        begin = lap + self.ends[row] - size
+        first, last = ((each - begin) / np.maximum(size, 1e-300) for each in (first, last))
+        pieces = rows.copy()
+        pieces[:, :2] = points_at(rows, np.where(first * size < _SNAP, 0.0, np.clip(first, 0.0, 1.0)))
+        ends = np.append(np.flatnonzero(np.diff(path)), len(path) - 1)
+        begins = np.append(0, ends[:-1] + 1)
+        inner = np.setdiff1d(np.arange(len(path)), ends)
+        pieces[inner, 2:4] = pieces[inner + 1, :2]
+        round_it = self.closed & (np.abs(stop - start - self.lengths) < _SNAP)
+        pieces[ends[round_it], 2:4] = pieces[begins[round_it], :2]
+        cut = ends[~round_it & ((1 - last[ends]) * size[ends] >= _SNAP)]
+        pieces[cut, 2:4] = points_at(rows[cut], last[cut])
+        return Outlines(pieces, np.append(0, ends + 1)), middle
+
+    def _bounds(self, start: Floats, stop: Floats, breaks: Sequence[Floats]) -> tuple[Indices, Floats]:
+        """Return (path, place along it, mm), in order, of all beginnings, stops, ends of rows and breaks between."""
+        own = [
+            some[np.abs(self.ends[a:b, None] - some).min(axis=0) > _SNAP] if len(some) else some
+            for some, a, b in zip(
+                breaks, self.outlines.first[:-1].tolist(), self.outlines.first[1:].tolist(), strict=True
+            )
+        ]
+        number = np.arange(len(self.outlines))
+        of = np.concatenate([self.outlines.owner, np.repeat(number, [len(some) for some in own])])
+        place = np.concatenate([self.ends, *own])
+        length = np.where(self.closed & (self.lengths > 0), self.lengths, 1.0)
+        low = np.where(self.closed, np.floor(start / length), 0.0)
+        laps = np.where(self.closed, np.ceil(stop / length) - low, 1.0).astype(np.int64)
+        counts = laps[of]
+        lap = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        of, place = np.repeat(of, counts), np.repeat(place, counts)
+        place = np.where(self.closed[of], (low[of] + lap) * length[of], 0.0) + place
+        between = (place > start[of] + _SNAP) & (place < stop[of] - _SNAP)
+        of, place = np.concatenate([number, of[between], number]), np.concatenate([start, place[between], stop])
+        order = np.lexsort((place, of))
+        of, place = of[order], place[order]
+        once = np.append(True, (of[1:] != of[:-1]) | (place[1:] != place[:-1]))
+        return of[once], place[once]
 
 
 def headings_at(rows: Rows, fraction: Floats) -> Floats:

@@ -101,6 +101,7 @@ def runs(
     for path, own, better in zip(paths, starts, wished, strict=False):
         own[:0] = better if path.closed else []
     joined = Paths.of(paths)
+    lengths = joined.lengths.tolist()
     made: dict[int, Run] = {}
     for bent, share in _tries(around):
         if share * around.size < _LEAST:
@@ -109,10 +110,12 @@ def runs(
         for turn in range(max(map(len, starts), default=0)):
             asked = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
             for k, start, way in _fitting(joined, asked, around, (bent, share)):
-                made[k] = Run(paths[k], start, _stop(paths[k], start, around), way[:1], way[1:], share, bent)
+                made[k] = Run(
+                    paths[k], start, _stop(paths[k], lengths[k], start, around), way[:1], way[1:], share, bent
+                )
     none = np.zeros((0, 8))
     return tuple(
-        made.get(k) or Run(path, starts[k][0], _stop(path, starts[k][0], around), none, none, 0.0, False)
+        made.get(k) or Run(path, starts[k][0], _stop(path, lengths[k], starts[k][0], around), none, none, 0.0, False)
         for k, path in enumerate(paths)
     )
 
@@ -185,10 +188,9 @@ def _tries(around: Around) -> list[tuple[bool, float]]:
     return arcs + [(False, share) for share in shares]
 
 
-def _stop(path: Path, start: float, around: Around) -> float:
-    if not path.closed:
-        return path.length
-    return start + path.length + min(_overlap(around), path.length / 2)
+def _stop(path: Path, length: float, start: float, around: Around) -> float:
+    """Return where a path of a length ends that begins at a place, mm along it."""
+    return start + length + min(_overlap(around), length / 2) if path.closed else length
 
 
 def _overlap(around: Around) -> float:
@@ -302,8 +304,8 @@ def _is_taken(path: Path, places: Floats, around: Around, taken: Sequence[tuple[
     beside = reach(around)
     found = np.zeros(len(places), np.bool_)
     for low, high in taken:
-        width = high - low + 2 * beside + (_stop(path, 0.0, around) - path.length)
-        first = low - beside - (_stop(path, 0.0, around) - path.length)
+        width = high - low + 2 * beside + (_stop(path, path.length, 0.0, around) - path.length)
+        first = low - beside - (_stop(path, path.length, 0.0, around) - path.length)
         found |= (places - first) % path.length <= width
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,6 +16,7 @@ from ...model.entry import Tabs
 from ...model.finding import Finding, FindingKind
 from ...model.moves import Tab
 from ...model.operation import LEAST_LENGTH, ContourOperation
+from ...model.stock_box import StockBox
 from ...model.tool import Tool
 from .contour_path import Floats, Path, fractions_at
 from .lead import Around, Run, corners_of, reach
@@ -27,6 +29,15 @@ _FINE = 16
 """Places to the least distance between tabs, among which the nearest to the even one is taken."""
 
 _ROUNDING = 1e-9
+
+_TURNS = 32
+"""Directions in which is looked for where a cutter's rim is farthest from the walls."""
+
+_HOLD = 0.5
+"""mm of stock beyond the slot that a tab needs to hold on to."""
+
+_BESIDE = 2.0
+"""mm of stock beyond the slot that are advised."""
 
 _FAR = 5.0
 """Tool diameters; a place by hand that is farther than this from every path is told."""
@@ -104,11 +115,13 @@ def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> l
         around: what the leads went by.
     """
     path, half, beside = run.path, shape.half, reach(around)
+    if not shape.wanted.count or not goes_round(path):
+        return []
     overlap = run.stop - run.start - path.length
     free = path.length - overlap - 2 * (beside + half)
     apart = 2 * half + shape.tool.diameter
     count = min(shape.wanted.count, int(free / apart) + 1 if free >= 0 else 0)
-    if count <= 0 or not goes_round(path):
+    if count <= 0:
         return []
     first = run.start + overlap + beside + half
     even = run.start + overlap / 2 + (np.arange(count) + 0.5) * path.length / count
@@ -202,6 +215,30 @@ def about_tabs(
             )
         )
     return findings
+
+
+def about_unheld(tabs: Sequence[Tab], walls: DistanceField, box: StockBox) -> list[Finding]:
+    """Return the remark that tabs round a part hold nothing, as the stock ends where they would hold on to it.
+
+    Args:
+        tabs: of paths round parts. walls: of these parts. box: the stock.
+    """
+    turn = np.linspace(0.0, math.tau, _TURNS, endpoint=False)
+    ahead = np.stack([np.cos(turn), np.sin(turn)], 1)
+    loose = []
+    for tab in tabs:
+        rim = (tab.x, tab.y) + ahead * tab.diameter / 2
+        x, y = rim[np.argmax(walls.nearest(rim)[0])].tolist()
+        if not (box.x0 + _HOLD < x < box.x1 - _HOLD and box.y0 + _HOLD < y < box.y1 - _HOLD):
+            loose.append(tab)
+    if not loose:
+        return []
+    first, who = loose[0], f"{len(loose)} of {len(tabs)} tabs" if len(tabs) > 1 else "The tab"
+    text = (
+        f"{who} would hold nothing, the first at ({first.x:.3f}, {first.y:.3f}): the stock ends within the cutter's "
+        f"{first.diameter:g} mm beside the part. Give it a margin of {first.diameter + _BESIDE:g} mm."
+    )
+    return [Finding(FindingKind.LEFT_OUT, text, first.x, first.y, counts=False, amount=float(len(loose)))]
 
 
 def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -> list[Finding]:

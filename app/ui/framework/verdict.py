@@ -154,8 +154,8 @@ def _sentence(finding: Finding) -> str:
 
 
 def figures(data: Mapping[str, Any]) -> str:
-    """Return the measured figures of a report: "0 gouge · 0 left · 2 strokes · 4:12". What was not measured is not
-    said.
+    """Return the measured figures of a report: "0 gouge · 0 left · 15 places out of reach · 2 strokes · 4:12". What was
+    not measured is not said.
     """
     parts = []
     gouge, left = data.get("gouge"), data.get("left")
@@ -164,6 +164,8 @@ def figures(data: Mapping[str, Any]) -> str:
     if left is not None and left.get("reachable_mm2") is not None:
         area = left["reachable_mm2"]
         parts.append("0 left" if area < 5e-4 else f"{area:.3f} mm² left")
+        if beyond := left.get("out_of_reach_places"):
+            parts.append(f"{counted(beyond, 'place')} out of reach")
     if data.get("strokes") is not None:
         parts.append(counted(data["strokes"], "stroke"))
     if data.get("time_s") is not None:

@@ -167,7 +167,7 @@ def with_new_operation(job: Job, kind: type[Operation]) -> tuple[Job, int]:
     late = len(contours) if kind.FOLLOWS_WALLS and job.order is Order.PATENT_1986 else len(job.operations)
     place = contours[0] if early else late
     operations = list(job.operations)
-    operations.insert(place, kind(replace(like, enabled=True, layers=())))
+    operations.insert(place, kind(replace(like, enabled=True, curves=())))
     return replace(job, operations=tuple(operations)), place
 
 

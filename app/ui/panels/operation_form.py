@@ -37,6 +37,11 @@ def _too_wide(stepover: float, diameter: float) -> str:
     return f"Stepover is {stepover:g} mm; use more than 0 and not more than the tool's diameter, {diameter:g} mm."
 
 
+def _has_rings(operation: Operation) -> bool:
+    """Tell whether there is a distance between the paths of an operation."""
+    return "stepover" in parameters_of(type(operation))
+
+
 class OperationForm(Form):
     """Everything that can be set of one operation.
 
@@ -108,7 +113,7 @@ class OperationForm(Form):
 
     def _add_rings(self) -> None:
         self.drawing, self.overlap = StepoverDrawing(), QLabel()
-        self.of(lambda operation: operation.CLEARS, self.add_picture(self.drawing, muted("Overlap"), self.overlap))
+        self.of(_has_rings, self.add_picture(self.drawing, muted("Overlap"), self.overlap))
 
     def _add_side(self) -> None:
         self.side_picture, self.side_words = Picture(drawings.side, "Where the path runs"), muted()
@@ -151,7 +156,7 @@ class OperationForm(Form):
             widget.setVisible(concerns(operation))
         self._show_fields(operation)
         self._show_main(job, operation)
-        if tool is not None and operation.CLEARS:
+        if tool is not None and _has_rings(operation):
             self._show_rings(operation, tool)
         if operation.FOLLOWS_WALLS and operation.wall_side is not None:
             self._show_side(operation.wall_side)

@@ -12,6 +12,7 @@ from typing import Any, Protocol
 from PySide6.QtCore import SignalInstance
 from PySide6.QtWidgets import QPushButton, QWidget
 
+from ...model.curve_selectors import ContourKind, OnLayer
 from ...model.entry import EntryKind, LeadKind
 from ...model.fields import Placed, Unit, parameters_of
 from ...model.job import Job
@@ -90,7 +91,7 @@ class OperationGroup:
         self.group.say(words or _AS_USUAL.get(self.title, "as usual"))
 
 
-_AS_USUAL = {"Floor": "to depth", "Walls": "to size", "Tabs": "none", "Feed and layers": "all layers"}
+_AS_USUAL = {"Floor": "to depth", "Walls": "to size", "Tabs": "none", "Feed and layers": "all curves"}
 
 
 def _words(placed: Placed, operation: Operation) -> str:
@@ -106,8 +107,8 @@ def _words(placed: Placed, operation: Operation) -> str:
             return declared.choices[bool(value)].lower() if declared.choices else name
         case Unit.ANGLE:
             return f"{declared.shown(value):g}°"
-        case Unit.NAMES:
-            return ", ".join(value)
+        case Unit.CURVES:
+            return ", ".join(each.text for each in value)
         case Unit.POINTS:
             return f"{len(value)} by hand"
         case Unit.COUNT:
@@ -188,18 +189,22 @@ def _tabs(form: GroupHost) -> Show:
     return show
 
 
-def _layers(form: GroupHost) -> Show:
-    """Offer the layers of the drawing."""
+_PLACES = {ContourKind.OUTER: "Outer contours", ContourKind.INNER: "Inner contours", ContourKind.OPEN: "Open lines"}
+
+
+def _curves(form: GroupHost) -> Show:
+    """Offer the layers of the drawing, and curves by where they lie."""
 
     def show(shown: Shown) -> None:
-        field, own = form.fields["layers"].field, shown.operation.cut.layers
+        field, own = form.fields["curves"].field, shown.operation.cut.curves
         assert isinstance(field, ListField)
         choices: list[tuple[object, str]] = [
             ((), "All of the job"),
-            *(((layer.name,), layer.name) for layer in shown.job.part.layers),
+            *(((OnLayer(layer.name),), layer.name) for layer in shown.job.part.layers),
+            *(((each,), _PLACES[each]) for each in ContourKind),
         ]
         if own not in [value for value, _ in choices]:
-            choices.append((own, ", ".join(own)))
+            choices.append((own, ", ".join(each.text for each in own)))
         field.set_choices(choices)
         field.show_value(own)
 
@@ -217,6 +222,6 @@ EXTRAS: dict[str, Callable[[GroupHost], Show]] = {
     "Walls": _walls,
     "Lead in and out": _lead,
     "Tabs": _tabs,
-    "Feed and layers": _layers,
+    "Feed and layers": _curves,
 }
 """By title: what a group has beside its fields."""

@@ -85,7 +85,7 @@ def field_of(placed: Placed, read: Callable[[str], float] | None = None) -> Fiel
         return ChoiceField(name, choices)
     if declared.unit is Unit.FLAG:
         return SwitchField(name, f"{sentence(declared.help)}.")
-    if declared.unit is Unit.NAMES:
+    if declared.unit is Unit.CURVES:
         return ListField(name, [])
     return NumberField(spec_of(declared), read)
 

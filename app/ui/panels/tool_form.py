@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel
 
 from ...model.job import Job
 from ...model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
+from ...model.tool_kind import tool_kind
 from ..framework.fields import ListField, NumberField, Spec
 from ..framework.form import Form
 from .changes import for_material, material_of, with_tool
@@ -25,7 +26,7 @@ class ToolForm(Form):
         self._number = 0
         self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
         self.kind = ListField("Kind", list(KINDS.items()))
-        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: _as_kind(tool, ToolKind(v))))
+        self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: _as_kind(tool, tool_kind(v))))
         self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
         self.corner = self._add(Spec("Corner radius", low=0, high=1000), lambda tool, v: replace(tool, corner_radius=v))
         self.angle = self._add(

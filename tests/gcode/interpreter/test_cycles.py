@@ -120,11 +120,11 @@ def test_on_fanuc_a_small_peck_does_not_return_above_r() -> None:
 
 
 def test_a_huge_repeat_is_done_as_far_as_it_is_asked_for() -> None:
-    begun = time.perf_counter()
+    begun = time.process_time()
     steps = list(
         itertools.islice(cycle_steps(replace(DRILL, repeats=10**12, absolute=False, depth=-4.0), HERE, 5.0), 1000)
     )
-    assert time.perf_counter() - begun < 1.0
+    assert time.process_time() - begun < 1.0
     assert len(steps) == 1000
 
 

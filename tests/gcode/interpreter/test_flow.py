@@ -95,8 +95,9 @@ def test_nothing_is_read_behind_the_end() -> None:
     [
         ("F1\no1 while [1]\nG1 X1\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:4: this goes on for ever"),
         ("N1 G0 X1.\nGOTO 1\n", Dialect.FANUC, "a.ngc:2: this goes on for ever"),
+        ("#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n", Dialect.LINUXCNC, "a.ngc:4: this goes on for ever"),
         (
-            "#1=0\no1 while [1]\n#1=[#1+1]\no1 endwhile\n",
+            "#1=0\no1 while [#1 ge 0]\n#1=[#1+1]\no1 endwhile\n",
             Dialect.LINUXCNC,
             "a.ngc:2: loops, calls and cycles repeat more than",
         ),

@@ -274,9 +274,9 @@ def test_hostile_texts_do_not_hang_it(text: str) -> None:
 
 
 def seconds(data: bytes) -> float:
-    begun = time.perf_counter()
+    begun = time.process_time()
     notes(data)
-    return time.perf_counter() - begun
+    return time.process_time() - begun
 
 
 PARTS = [

@@ -12,6 +12,7 @@ from app.gcode.interpreter.program import HeaderNote, OperationNote, ToolNote
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files
+from app.model.curve_selectors import on_layers, read_selector
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.fields import parameters_of
 from app.model.job import Copies, Job, OriginXY, OriginZ
@@ -28,7 +29,7 @@ from app.model.operation import (
 )
 from app.model.part import Units
 from app.model.read_options import AS_DRAWN
-from app.model.read_options import ReadOptions as Reading
+from app.model.read_options import DrawingOptions as Reading
 from app.model.tool import Tool, ToolKind
 from tests.gcode.programs import job, two_tools
 
@@ -73,10 +74,10 @@ def test_what_every_post_writes_is_read_again(name: str) -> None:
 def test_what_a_part_depends_on_is_read_again(name: str) -> None:
     """Sides, layers, holes, copies, clamps, tabs and dog-bones go through the comments of every control."""
     operations = (
-        PocketOperation(Cut(1, 4.0, floor_to_leave=0.25, layers=LAYERS)),
+        PocketOperation(Cut(1, 4.0, floor_to_leave=0.25, curves=on_layers(LAYERS))),
         RestOperation(Cut(1, 4.0)),
         ContourOperation(Cut(2, 4.0, stock_to_leave=0.1), Side.OUTSIDE),
-        ContourOperation(Cut(2, layers=("x",)), Side.ON),
+        ContourOperation(Cut(2, curves=on_layers(("x",))), Side.ON),
         DrillOperation(Cut(2, 5.0), least=2.5, most=3.0, through=0.5),
         DrillOperation(Cut(2, 6.0)),
     )
@@ -122,7 +123,8 @@ def test_what_a_part_depends_on_is_read_again(name: str) -> None:
 
 def lowered(operation: Operation) -> Operation:
     return replace(
-        operation, cut=replace(operation.cut, layers=tuple(layer.casefold() for layer in operation.cut.layers))
+        operation,
+        cut=replace(operation.cut, curves=tuple(read_selector(e.text.casefold()) for e in operation.cut.curves)),
     )
 
 
@@ -141,7 +143,18 @@ ANGLE = math.radians(2.5)
     "operation",
     [
         ContourOperation(
-            Cut(2, 4.0, 1.5, 0.1, Direction.CONVENTIONAL, True, 0.2, 0.25, Entry(EntryKind.RAMP, ANGLE), LAYERS),
+            Cut(
+                2,
+                4.0,
+                1.5,
+                0.1,
+                Direction.CONVENTIONAL,
+                True,
+                0.2,
+                0.25,
+                Entry(EntryKind.RAMP, ANGLE),
+                on_layers(LAYERS),
+            ),
             Side.OUTSIDE,
             Lead(LeadKind.LINE, 1.25, 0.0),
             Tabs(3, 4.0, 0.5, ((10.0, -0.125), (1 / 3, 5.0))),
@@ -183,7 +196,7 @@ def test_every_parameter_goes_through_the_comments_of_every_control(name: str, o
         ("operation=drill,2,5,0)\n(hitofude: holes_mm=1,2.5,3,0.5", DrillOperation(Cut(2, 5.0), None, 2.5, 3.0, 0.5)),
         (
             "operation=rest,1,2,0)\n(hitofude: operation_layer=1,a/b)\n(hitofude: floor_to_leave_mm=1,0.25",
-            RestOperation(Cut(1, 2.0, floor_to_leave=0.25, layers=("a/b",))),
+            RestOperation(Cut(1, 2.0, floor_to_leave=0.25, curves=on_layers(("a/b",)))),
         ),
     ],
 )

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.exhibits.wedges_picture import WedgesPicture
+from app.simulation.gpu.wedges_picture import WedgesPicture
 from app.ui.views.cut.camera import Camera
 from app.ui.views.cut.colouring import CutColour, colouring
 from app.ui.views.cut.frame import Frame

@@ -5,6 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.model.tool import Tool, ToolKind
+from app.model.tool_kind import tool_kinds
 from app.ui.framework.view import View
 from app.ui.views.cut.setup_form import as_kind
 from tests.ui.conftest import WAIT_MS
@@ -122,7 +123,7 @@ def test_the_line_of_the_metal_is_shown_in_the_nc_view(qtbot, opened):
     qtbot.waitUntil(lambda: wiring.window_.views.nc.pane.text.current + 1 == line, timeout=WAIT_MS)
 
 
-@pytest.mark.parametrize("kind", ToolKind)
+@pytest.mark.parametrize("kind", tool_kinds(), ids=lambda kind: kind.value)
 def test_any_kind_can_be_chosen_and_is_a_shape(kind):
     from app.simulation.cutter import cutter_of
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.exhibits.wedges_picture import wedges_picture
 from app.model.tool import Tool, ToolKind
+from app.simulation.gpu.wedges_picture import wedges_picture
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.views.cut.colouring import CutColour
 from app.ui.views.cut.cut_view import CutView

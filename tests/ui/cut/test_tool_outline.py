@@ -9,6 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from app.model.tool import Tool, ToolKind
+from app.model.tool_kind import tool_kinds
 from app.simulation.cutter import cutter_of
 from app.ui.views.cut.tool_outline import Part, outline_of
 from tests.examples import examples
@@ -32,7 +33,7 @@ def parts(outline):
     return {stretch.part: stretch.points for stretch in outline.stretches}
 
 
-@pytest.mark.parametrize("kind", list(ToolKind))
+@pytest.mark.parametrize("kind", tool_kinds())
 def test_the_end_is_the_cutter_that_the_engine_cuts_with(kind):
     tool = made(kind, flute_length=30.0)
     points, cutter = parts(outline_of(tool))[Part.CUTTING], cutter_of(tool)
@@ -89,7 +90,7 @@ LENGTHS = st.one_of(st.just(0.0), st.floats(0.5, 90.0))
 
 
 @settings(max_examples=examples(200), deadline=None)
-@given(st.sampled_from(list(ToolKind)), LENGTHS, LENGTHS, LENGTHS, LENGTHS, st.sampled_from([(), HOLDER]))
+@given(st.sampled_from(tool_kinds()), LENGTHS, LENGTHS, LENGTHS, LENGTHS, st.sampled_from([(), HOLDER]))
 @example(ToolKind.BALL, 0.0, 0.0, 1.5, 0.0, HOLDER)
 def test_every_tool_is_one_closed_outline(kind, flutes, overall, stick_out, shank, holder):
     most = overall or 1e9

@@ -14,6 +14,7 @@ from app.model.job import Job
 from app.model.operation import Cut, DrillOperation
 from app.model.part import Part, Units
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
+from app.model.tool_kind import tool_kinds
 from app.simulation.cutter import cutter_of
 from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
@@ -56,7 +57,7 @@ def test_it_opens_in_the_place_of_the_properties_and_closes_again(panel):
 def test_the_list_holds_every_kind_with_its_icon_and_words(qtbot, panel):
     library = panel.library
     assert [kind for kind, _ in groupby(tool.kind for tool in library.shown)] == list(KINDS), "kind by kind"
-    assert set(KINDS) == set(ToolKind)
+    assert set(KINDS) == set(tool_kinds())
     for _, kind in groupby(library.shown, lambda tool: tool.kind):
         diameters = [tool.diameter for tool in kind]
         assert diameters == sorted(diameters)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
 from app.raster.codes import PixelCode
-from app.raster.picture import Shows
+from app.raster.picture_options import Shows
 from app.ui.framework.computation import State
 from app.ui.framework.figures import TIMES
 from app.ui.framework.theme import LIGHT

@@ -289,6 +289,11 @@ def _figures(told: dict[str, Any]) -> list[tuple[str, str, str]]:
                 "Points on the true shape",
             ),
             ("Corrected", grouped(told["points"]["corrected"], 0), "Points within facets that were moved to it"),
+            (
+                "Nearness",
+                f"{told['points']['farthest_mm']:.6f} of {told['points']['nearness_mm']:g} mm",
+                "How far from these points the curve was found, and may be",
+            ),
         ]
     )
     return [

@@ -25,6 +25,9 @@ class PointsForm(QWidget):
         self.epsilon = NumberField(
             Spec("Epsilon", low=1e-4, high=9.0, decimals=4, tip="Points so near to one segment belong to one facet")
         )
+        self.nearness = NumberField(
+            Spec("Nearness", low=1e-4, high=9.0, decimals=4, tip="How near to these points the curve goes", auto="auto")
+        )
         self.ends = ChoiceField("Ends", [(Ends.OUTER, "Outer"), (Ends.RATIO, "Ratio"), (Ends.DISTANCE, "Distance")])
         self.share = NumberField(
             Spec("Share", "", 0.0, 0.5, 3, False, "Points in so much of a facet from either end count as its ends")
@@ -53,6 +56,7 @@ class PointsForm(QWidget):
         for field in (
             self.points,
             self.epsilon,
+            self.nearness,
             self.ends,
             self.share,
             self.reach,
@@ -89,12 +93,13 @@ class PointsForm(QWidget):
             (self.moved, 0.01),
         ):
             field.show_value(number)
+        self.nearness.show_value(None)
         self._show_what_matters()
 
     def _show_what_matters(self) -> None:
         effective = self.points.value is True
         corrected = effective and self.others.value == _CORRECTED
-        for field in (self.epsilon, self.ends, self.others):
+        for field in (self.epsilon, self.nearness, self.ends, self.others):
             field.setVisible(effective)
         self.share.setVisible(effective and self.ends.value is Ends.RATIO)
         self.reach.setVisible(effective and self.ends.value is Ends.DISTANCE)
@@ -114,9 +119,9 @@ class PointsForm(QWidget):
         ends = self.ends.value
         assert isinstance(ends, Ends)
         limit = {Ends.OUTER: 0.0, Ends.RATIO: self.share.number, Ends.DISTANCE: self.reach.number}[ends]
-        choose = EffectiveOptions(self.epsilon.number, ends, limit)
+        choose, nearness = EffectiveOptions(self.epsilon.number, ends, limit), self.nearness.value
         if self.others.value == _LEFT_OUT:
-            return EffectiveMethod(choose)
+            return EffectiveMethod(choose, nearness=nearness)
         kind, move = self.select.value, self.move_to.value
         assert isinstance(move, Move)
         select = (
@@ -124,6 +129,5 @@ class PointsForm(QWidget):
             if isinstance(kind, Select)
             else None
         )
-        return EffectiveMethod(
-            choose, second_embodiment(select, round(self.before.number), round(self.after.number), move)
-        )
+        correct = second_embodiment(select, round(self.before.number), round(self.after.number), move)
+        return EffectiveMethod(choose, correct, nearness)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....exhibits.wedges_picture import WedgesPicture
 from ....simulation.gpu.graphics import compiled
+from ....simulation.gpu.wedges_picture import WedgesPicture
 from .camera import Floats
 from .frame import Frame
 from .glass import passes

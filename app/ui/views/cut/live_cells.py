@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.progress import NO_PROGRESS, Progress
-from ....exhibits.wedges_picture import MOVES, WedgesPicture, has_wedges, wedges_picture
 from ....model.motion import MotionKind
 from ....model.tool import Tool
+from ....simulation.gpu.wedges_picture import MOVES, WedgesPicture, has_wedges, wedges_picture
 from .colouring import CutColour, values_of
 from .patch import Patch, patch_of
 from .picture import CutPicture, Floats, Heights

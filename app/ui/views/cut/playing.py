@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, Signal
 
-from ....exhibits.wedges_picture import WedgesPicture, has_wedges
 from ....model.tool import Tool
+from ....simulation.gpu.wedges_picture import WedgesPicture, has_wedges
 from .cut_model import CutModel
 from .picture import CutPicture
 from .scene import CutScene

@@ -15,8 +15,8 @@ import numpy as np
 from ....core.atomic import sweep, waiting_prefix, write_atomically
 from ....core.errors import HitofudeError, InputError
 from ....core.progress import NO_PROGRESS, Progress
-from ....exhibits.wedges_picture import WedgesPicture
 from ....simulation.gpu.graphics import standalone_context
+from ....simulation.gpu.wedges_picture import WedgesPicture
 from .camera import Camera
 from .colouring import Colouring
 from .frame import Frame

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ....exhibits.wedges_picture import WedgesPicture
 from ....simulation.gpu.graphics import compiled
+from ....simulation.gpu.wedges_picture import WedgesPicture
 from .colouring import Colouring
 from .facets import Facets
 from .frame import CLIP_PLANES, Frame

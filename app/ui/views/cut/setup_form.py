@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVB
 
 from ....core.errors import HitofudeError
 from ....model.tool import Tool, ToolKind, shape_keys
+from ....model.tool_kind import tool_kind
 from ...framework.fields import ListField, NumberField, Spec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
@@ -41,7 +42,7 @@ class ToolFields(Section):
         super().__init__(f"T{number}" if number else "The tool")
         self.tool = tool
         self.kind = ListField("Kind", list(_KINDS.items()))
-        self.kind.chosen.connect(lambda kind: self._change(lambda tool: as_kind(tool, ToolKind(kind))))
+        self.kind.chosen.connect(lambda kind: self._change(lambda tool: as_kind(tool, tool_kind(kind))))
         self.add_indented(self.kind)
         self.fields = {
             "diameter": NumberField(Spec("Diameter", low=0.001, high=1000)),

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QSc
 
 from ....core.errors import HitofudeError
 from ....raster.doubts import Doubt
-from ....raster.picture import PictureOptions, Shows
 from ....raster.picture_file import MM_PER_INCH
+from ....raster.picture_options import PictureOptions, Shows
 from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, Spec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.labels import Elided, muted

@@ -18,8 +18,9 @@ from ....raster.codes import PixelCode, Plane
 from ....raster.doubts import Ambiguity, ambiguities
 from ....raster.faces import inner_faces, shows
 from ....raster.frame import Frame
-from ....raster.picture import Picture, PictureOptions, Shows, pitch_of, read_picture, thresholded
+from ....raster.picture import Picture, pitch_of, read_picture, thresholded
 from ....raster.picture_file import MM_PER_INCH
+from ....raster.picture_options import PictureOptions, Shows
 
 if TYPE_CHECKING:
     from ....usecases.bitmap_job import BitmapJob

@@ -13,6 +13,7 @@ from ....formats.job.write import word_of
 from ....model.scene import LineType, Passes, Scene, Strategy, Surface
 from ....model.scene_shapes import Keep, Shape
 from ....model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
+from ....model.tool_kind import tool_kind
 
 Place = tuple[str | int, ...]
 Choices = tuple[tuple[object, str], ...]
@@ -290,7 +291,7 @@ def tool_asks(tool: Tool) -> tuple[Ask, ...]:
     keys = shape_keys(tool.kind)
 
     def as_kind(kind: object) -> Mapping[Place, object]:
-        wanted = shape_keys(ToolKind(kind))
+        wanted = shape_keys(tool_kind(kind))
         fresh = {
             "corner_radius": tool.diameter / 8,
             "tip_angle": 90.0 if kind == "v" else 10.0,

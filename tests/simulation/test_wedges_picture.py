@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.exhibits.wedges_picture import FINENESS, has_wedges, wedges_picture
 from app.model.tool import Tool, ToolKind
+from app.simulation.gpu.wedges_picture import FINENESS, has_wedges, wedges_picture
 
 BALL = Tool(1, 6.0, ToolKind.BALL)
 TIPS = np.array([[0.0, 0.0, -2.0], [10.0, 0.0, -2.0], [10.0, 8.0, -3.0], [2.0, 8.0, -3.0]])

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import ParameterError
-from ..model.motion import Floats
-from ..model.tool import Tool, ToolKind
+from ...core.errors import ParameterError
+from ...model.motion import Floats
+from ...model.tool import Tool
+from ...model.tool_kind import ToolKind
 
 MOVES = 12
 """Moves round the tool's place that a picture shows."""
@@ -51,7 +52,7 @@ def wedges_picture(tips: Floats, tool: Tool, facet: float = 0.0) -> WedgesPictur
     Raises:
         ParameterError: the tool is no ball.
     """
-    from ..simulation.gpu.wedges import FacetKind, Tessellation, sweep_facets
+    from .wedges import FacetKind, Tessellation, sweep_facets
 
     if not has_wedges(tool):
         raise ParameterError(

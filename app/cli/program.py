@@ -1,0 +1,78 @@
+"""The parser of the program: its commands, each loaded when it is asked for."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+
+from .command import CliCommand, OptionParser
+from .output import tell
+from .signals import Stopping
+
+
+@dataclass(frozen=True)
+class Summary:
+    """A command as the list of all has it.
+
+    Attributes:
+        usage: the command and what it cannot do without.
+        words: what it does; its own help tells all.
+    """
+
+    usage: str
+    words: str
+
+
+SUMMARIES = {
+    "make": Summary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
+    "tools": Summary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
+    "cut": Summary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
+    "check": Summary("check PROGRAM.ngc", "any NC program: what is wrong, how far it goes, how long it takes"),
+    "smooth": Summary("smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"),
+    "surface": Summary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
+    "stages": Summary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
+    "figure11": Summary("figure11", "how long software and depth buffer take for the cuts of 1999"),
+}
+"""In the order of the help. A command is the `COMMAND` of the module of its name in `commands`."""
+
+
+def program_parser() -> argparse.ArgumentParser:
+    """Return the parser of the program, with a sub-parser a command."""
+    parser = argparse.ArgumentParser(prog="hitofude", add_help=False, exit_on_error=False)
+    commands = parser.add_subparsers(dest="command", parser_class=OptionParser)
+    for name in SUMMARIES:
+        commands.add_parser(name, load=partial(load_command, name))
+    return parser
+
+
+def run_command(argv: Sequence[str], stopped: Stopping) -> int:
+    """Run the command that arguments begin with, or print its help where they ask for it; return the exit status.
+
+    Args:
+        argv: the command and what is behind it.
+        stopped: set when the user wants it to stop.
+
+    Raises:
+        HitofudeError: bad usage or input; nothing was written.
+        Cancelled: by Ctrl+C.
+    """
+    if any(argument in ("-h", "--help") for argument in argv):
+        tell(load_command(argv[0]).parser().format_help().rstrip())
+        return 0
+    arguments = program_parser().parse_args(argv)
+    status: int = arguments.run(arguments, stopped)
+    return status
+
+
+def load_command(name: str) -> CliCommand:
+    """Return a command by its name."""
+    command: CliCommand = import_module(f".commands.{name}", __package__).COMMAND
+    return command
+
+
+def listed() -> str:
+    """Return a line a command for the help."""
+    return "\n".join(f"  hitofude {each.usage:<26} {each.words} ({name} --help)" for name, each in SUMMARIES.items())

@@ -1,0 +1,201 @@
+"""The kinds of cutting tools: what each is called, which numbers give it its shape, and what shape that is.
+
+A kind is registered once; tool libraries, job files, NC headers, options, sweeps, contact with surfaces and judges ask
+it, and none of them names kinds to tell them apart.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..core.toml_tables import Worded
+
+
+@dataclass(frozen=True, slots=True)
+class ToolShape:
+    """The numbers that give a tool its shape.
+
+    Attributes:
+        radius: of the cutter, mm.
+        corner_radius: of its rounded corner, mm.
+        tip_radius: of the flat or the ball at its tip, mm.
+        half_angle: between its axis and its cone, radians; 0 = not known, or no cone.
+    """
+
+    radius: float
+    corner_radius: float = 0.0
+    tip_radius: float = 0.0
+    half_angle: float = 0.0
+
+    @property
+    def cone(self) -> float:
+        """How its cone rises per mm of radius; 0 where it has none, or its angle is not known."""
+        return 1.0 / math.tan(self.half_angle) if self.half_angle > 0 else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ToolProfile:
+    """A cutter's lower side from its axis outwards: a level disc, a rounding, a cone up to the cutter's radius.
+
+    Attributes:
+        flat: radius of the disc, mm.
+        fillet: radius of the rounding, mm.
+        cone: rise of the cone per mm of radius; 0 = there is none, and a vertical wall follows.
+    """
+
+    flat: float = 0.0
+    fillet: float = 0.0
+    cone: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class ToolKind(Worded):
+    """Shape of a cutter's end.
+
+    Attributes:
+        value: its word in libraries, job files, headers and options.
+        title: its name for people.
+        profile: returns the lower side that numbers of the shape make.
+        keys: fields of `Tool` that it has beside the diameter, of corner_radius, tip_diameter and tip_angle.
+        given: fields of `Tool` in the order in which an option tells them behind the word.
+        omissible: how many of these, the last ones, may be left out.
+        level: whether it leaves a level floor, so that it clears one.
+        square: whether its lower edge is sharp, so that walls and floor come out as drawn.
+        drills: whether it only goes straight down.
+        assumed_angle: full angle of its point where nobody tells it, radians; 0 = it must be told.
+        aliases: other words for it in spreadsheets.
+    """
+
+    value: str
+    title: str
+    profile: Callable[[ToolShape], ToolProfile]
+    keys: frozenset[str] = frozenset()
+    given: tuple[str, ...] = ("diameter",)
+    omissible: int = 0
+    level: bool = False
+    square: bool = False
+    drills: bool = False
+    assumed_angle: float = 0.0
+    aliases: tuple[str, ...] = ()
+
+    FLAT: ClassVar[ToolKind]
+    BALL: ClassVar[ToolKind]
+    BULL: ClassVar[ToolKind]
+    V: ClassVar[ToolKind]
+    DRILL: ClassVar[ToolKind]
+    TAPER: ClassVar[ToolKind]
+
+    @classmethod
+    def words(cls) -> Mapping[str, ToolKind]:
+        """Return every kind by its word."""
+        return _KINDS
+
+    @property
+    def conical(self) -> bool:
+        """Whether it has a cone, so that its angle gives it its shape."""
+        return "tip_angle" in self.keys
+
+    def spelled(self, diameter: str = "D") -> str:
+        """Return how an option tells such a tool: "bull:D:CORNER"; with all that may be left out."""
+        return ":".join((self.value, *(_SPELLED.get(key, diameter) for key in self.given)))
+
+    def __repr__(self) -> str:
+        return f"ToolKind({self.value})"
+
+    def __reduce__(self) -> tuple[Callable[[object], ToolKind], tuple[str]]:
+        """Be the same kind wherever it is taken to."""
+        return tool_kind, (self.value,)
+
+
+_SPELLED = {"corner_radius": "CORNER", "tip_diameter": "TIP", "tip_angle": "ANGLE"}
+_KINDS: dict[str, ToolKind] = {}
+
+
+def register(kind: ToolKind) -> ToolKind:
+    """Make a kind of tool known, and return it.
+
+    Raises:
+        ValueError: another kind has its word.
+    """
+    if _KINDS.setdefault(kind.value, kind) is not kind:
+        raise ValueError(f"two kinds of tool are called {kind.value}")
+    return kind
+
+
+def withdraw(kind: ToolKind) -> None:
+    """Forget a kind."""
+    _KINDS.pop(kind.value, None)
+
+
+def tool_kinds() -> tuple[ToolKind, ...]:
+    """Return all kinds, in the order of their registration."""
+    return tuple(_KINDS.values())
+
+
+def tool_kind(word: object) -> ToolKind:
+    """Return the kind that a word stands for, or that is one already.
+
+    Raises:
+        KeyError: there is none.
+    """
+    return word if isinstance(word, ToolKind) else _KINDS[str(word)]
+
+
+def shape_keys(kind: ToolKind) -> frozenset[str]:
+    """Return which of corner_radius, tip_diameter and tip_angle tools of a kind have beside their diameter."""
+    return kind.keys
+
+
+ToolKind.FLAT = register(
+    ToolKind(
+        "flat", "Flat end mill", lambda shape: ToolProfile(shape.radius), level=True, square=True, aliases=("end",)
+    )
+)
+ToolKind.BALL = register(
+    ToolKind("ball", "Ball end mill", lambda shape: ToolProfile(0.0, shape.radius), aliases=("ball-nose", "ballnose"))
+)
+ToolKind.BULL = register(
+    ToolKind(
+        "bull",
+        "Bull-nose mill",
+        lambda shape: ToolProfile(shape.radius - shape.corner_radius, shape.corner_radius),
+        keys=frozenset({"corner_radius"}),
+        given=("diameter", "corner_radius"),
+        level=True,
+        aliases=("bull-nose", "bullnose"),
+    )
+)
+ToolKind.V = register(
+    ToolKind(
+        "v",
+        "V cutter",
+        lambda shape: ToolProfile(shape.tip_radius, 0.0, shape.cone),
+        keys=frozenset({"tip_angle", "tip_diameter"}),
+        given=("diameter", "tip_angle"),
+        aliases=("v-bit",),
+    )
+)
+ToolKind.DRILL = register(
+    ToolKind(
+        "drill",
+        "Drill",
+        lambda shape: ToolProfile(shape.tip_radius, 0.0, shape.cone),
+        keys=frozenset({"tip_angle"}),
+        given=("diameter", "tip_angle"),
+        omissible=1,
+        drills=True,
+        assumed_angle=math.radians(118.0),  # the trade's usual grind
+    )
+)
+ToolKind.TAPER = register(
+    ToolKind(
+        "taper",
+        "Tapered ball mill",
+        lambda shape: ToolProfile(0.0, shape.tip_radius, shape.cone),
+        keys=frozenset({"tip_angle", "tip_diameter"}),
+        given=("tip_diameter", "tip_angle", "diameter"),
+    )
+)

@@ -1,0 +1,363 @@
+"""Operations for a drawing, proposed from how its curves lie in one another: an ordinary job, with a word for each.
+
+The rule of 1986, everything between the lines is a pocket, stays what a job begins with; here it is one proposal of
+two, and has a name.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from typing import Any
+
+from ...core.errors import GeometryError
+from ...core.progress import NO_PROGRESS, Progress
+from ...core.resources import resource
+from ...formats.tools.library import read_library
+from ...geometry.overlay.overlay import without_crossings
+from ...geometry.primitives import contour_rows, lengths, signed_area
+from ...geometry.region import nest, polygon_contour
+from ...model.curve_selectors import Selector
+from ...model.entry import Tabs
+from ...model.finding import Finding
+from ...model.job import Copies, Job
+from ...model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ...model.part import Contour, Region
+from ...model.stock_box import extent
+from ...model.tool import Tool
+from ...toolpath.advice.advise import advise
+from ...toolpath.advice.time import Plan
+from ...toolpath.drawn import Drawn, drawn
+from ...toolpath.drill_holes import tip_length
+from .rack import Rack, room
+from .sorting import Sorted, selectors_for, sorted_contours
+
+ENGRAVED = 0.3
+"""mm; depth of lines and letters."""
+
+SPARE = 2.0
+"""mm of stock beyond the slot round a part."""
+
+WIDEST = 6.0
+"""mm; no wider mill is proposed to cut a part out, for its slot is waste."""
+
+_TABS, _FEWER = 4, 3
+_SMALL = 100.0
+"""mm; an outline shorter than this has fewer and narrower tabs."""
+
+Json = dict[str, Any]
+
+
+class Rule(Enum):
+    """What a proposal goes by."""
+
+    NESTING = "nesting"
+    PATENT_1986 = "1986"
+
+
+@dataclass(frozen=True)
+class Proposed:
+    """An operation of a proposal.
+
+    Attributes:
+        operation: with its curves and its tool.
+        why: what it is for and why so, without a full stop.
+    """
+
+    operation: Operation
+    why: str
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """Operations for a drawing.
+
+    Attributes:
+        rule: that it goes by.
+        job: with the operations, their tools, and the stock that they need.
+        operations: those of the job, each with a word of explanation.
+        findings: what no operation is proposed for.
+    """
+
+    rule: Rule
+    job: Job
+    operations: tuple[Proposed, ...]
+    findings: tuple[Finding, ...] = ()
+
+    def lines(self) -> list[str]:
+        """Return it in words, a line an operation."""
+        return [
+            f"  {number} {each.operation.WORD} T{each.operation.cut.tool} "
+            f"[{', '.join(curve.text for curve in each.operation.cut.curves) or 'all'}]: {each.why}"
+            for number, each in enumerate(self.operations, 1)
+        ]
+
+    def report(self) -> Json:
+        """Return it as plain values."""
+        return {
+            "rule": self.rule.value,
+            "stock_margin_mm": self.job.stock.margin,
+            "waste_under_mm": self.job.stock.under,
+            "operations": [
+                {
+                    "kind": each.operation.WORD,
+                    "tool": each.operation.cut.tool,
+                    "curves": [curve.text for curve in each.operation.cut.curves],
+                    "why": each.why,
+                }
+                for each in self.operations
+            ],
+        }
+
+
+@dataclass(frozen=True)
+class Proposing:
+    """What a proposal is made from beside the drawing.
+
+    Attributes:
+        tools: to choose from; none = the libraries of mills and drills that come with the program.
+        thickness: of the stock, mm; None = as the job has it.
+        depth: of pockets, mm, not deeper than the stock.
+    """
+
+    tools: tuple[Tool, ...] = ()
+    thickness: float | None = None
+    depth: float = field(default_factory=lambda: Cut(1).depth)
+
+
+def shipped_tools() -> tuple[Tool, ...]:
+    """Return the mills and drills that come with the program."""
+    files = sorted(resource("tools").glob("*.toml"))
+    return tuple(tool for path in files for tool in read_library(path.name, path.read_bytes()).tools)
+
+
+def as_in_1986(job: Job) -> Proposal:
+    """Return the rule of 1986 as a proposal: all that the lines bound even-odd is a pocket, whatever they are."""
+    usual = replace(Job(job.part), stock=job.stock, layer_names=job.layer_names)
+    words = {
+        PocketOperation: "the area between the lines, by the rule of 1986",
+        RestOperation: "what the wide tool does not reach of it",
+        ContourOperation: "along all its walls",
+    }
+    return Proposal(
+        Rule.PATENT_1986,
+        replace(job, tools=usual.tools, operations=usual.operations),
+        tuple(Proposed(each, words[type(each)]) for each in usual.operations),
+    )
+
+
+def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_PROGRESS) -> Proposal:
+    """Return operations for a drawing from how its contours lie in one another.
+
+    Holes first, then pockets, holes that are milled, lines; the outlines come last, since they free the parts.
+
+    Args:
+        job: its part, layers, join tolerance and stock count; its operations do not.
+        options: tools, thickness and depth.
+
+    Raises:
+        GeometryError: there is no curve that anything could be proposed for.
+        ParameterError: no tool can be had.
+        Cancelled: by progress.
+    """
+    options = options or Proposing()
+    thickness = options.thickness or job.stock.thickness
+    job = replace(job, operations=(), stock=replace(job.stock, thickness=thickness))
+    progress.step(0.0, "Sorting contours")
+    seen = drawn(replace(job, copies=Copies()))
+    found = sorted_contours(job.part, seen)
+    rack = Rack(options.tools or shipped_tools())
+    work = _Work(seen, found, rack, thickness, min(options.depth, thickness))
+    made = [
+        *work.drills(),
+        *work.pockets(progress.part(0.1, 0.5)),
+        *work.milled_holes(),
+        *work.bores(progress.part(0.5, 0.8)),
+        *work.lines(),
+    ]
+    progress.step(0.8, "A tool for the outlines")
+    outlines = work.outlines()
+    made += outlines
+    if not made:
+        said = " ".join(each.text for each in (*found.gaps, *seen.findings)[:3])
+        raise GeometryError(
+            f"{job.part.name}: there is no curve that an operation could be proposed for. {said}".strip()
+        )
+    # the points of drills that go through come out below
+    under = max([job.stock.under, *(math.ceil(tip_length(tool)) for tool in rack.taken)])
+    margin = max([job.stock.margin, *(tool.diameter + SPARE for tool in work.round_tools)])
+    progress.step(1.0)
+    return Proposal(
+        Rule.NESTING,
+        replace(
+            job,
+            tools=tuple(sorted(rack.taken, key=lambda tool: tool.number)),
+            operations=tuple(each.operation for each in made),
+            stock=replace(job.stock, margin=margin, under=under),
+        ),
+        tuple(made),
+        found.gaps,
+    )
+
+
+@dataclass
+class _Work:
+    """What is proposed for each sort of contour.
+
+    Attributes:
+        thickness: of the stock, mm. depth: of pockets, mm.
+        drilled: circles that are drilled.
+        round_tools: that go round parts.
+    """
+
+    seen: Drawn
+    found: Sorted
+    rack: Rack
+    thickness: float
+    depth: float
+    drilled: list[Contour] = field(default_factory=list)
+    round_tools: list[Tool] = field(default_factory=list)
+
+    def _curves(self, contours: Sequence[Contour]) -> tuple[Selector, ...]:
+        return selectors_for(contours, self.seen, self.drilled)
+
+    def _cut(self, tool: Tool, depth: float, curves: tuple[Selector, ...]) -> Cut:
+        """Return depth and steps: no step deeper than half the tool is wide."""
+        step = min(Cut(1).stepdown, max(tool.diameter / 2, depth / 500))
+        return Cut(self.rack.take(tool).number, depth, step, curves=curves)
+
+    def _named(self, tool: Tool) -> str:
+        """Return a tool, and whether one has to be had that the library lacks."""
+        long = " (a longer one than the library has)" if self.rack.is_long(tool) else ""
+        return f"T{tool.number} {tool.kind.value} {tool.diameter:g} mm{long}"
+
+    def drills(self) -> list[Proposed]:
+        """Return the holes for which there is a drill of their size."""
+        made = []
+        for size, circles in self.found.holes:
+            drill = self.rack.drill(size)
+            if drill is not None:
+                curves = selectors_for(circles, self.seen)
+                cut = Cut(self.rack.take(drill).number, self.thickness, curves=curves)
+                why = f"{_counted(len(circles), 'hole')} of {size:g} mm, through, with a drill of that size"
+                made.append(Proposed(DrillOperation(cut), why))
+                self.drilled.extend(circles)
+        return made
+
+    def milled_holes(self) -> list[Proposed]:
+        """Return the holes for which there is no drill: milled along their walls, down on a helix."""
+        made = []
+        for size, circles in self.found.holes:
+            if self.rack.drill(size) is not None:
+                continue
+            tool = self.rack.boring(size, self.thickness)
+            loose = size > 2 * tool.diameter
+            tabs = _tabs(circles, math.pi * tool.diameter) if loose else Tabs()
+            why = (
+                f"{_counted(len(circles), 'hole')} of {size:g} mm, through: the library has no drill of that size, so "
+                f"{self._named(tool)} mills {'them' if len(circles) > 1 else 'it'}"
+                + (f", with {tabs.count} tabs to hold what falls out" if loose else "")
+            )
+            cut = self._cut(tool, self.thickness, self._curves(circles))
+            made.append(Proposed(ContourOperation(cut, Side.INSIDE, tabs=tabs), why))
+        return made
+
+    def pockets(self, progress: Progress) -> list[Proposed]:
+        """Return the pockets with their islands."""
+        pockets, islands = self.found.pockets, self.found.islands
+        what = _counted(len(pockets), "inner contour")
+        standing = (
+            f", {_counted(len(islands), 'island')} in {'them' if len(pockets) > 1 else 'it'} left standing"
+            * bool(islands)
+        )
+        return self._cleared(
+            (*pockets, *islands), self.depth, f"{what}: pocket {self.depth:g} mm deep{standing}", progress
+        )
+
+    def bores(self, progress: Progress) -> list[Proposed]:
+        """Return slots and bores that are no circles, through."""
+        bores = self.found.bores
+        return self._cleared(bores, self.thickness, f"{_counted(len(bores), 'slot or bore')}, through", progress)
+
+    def _cleared(self, contours: Sequence[Contour], depth: float, what: str, progress: Progress) -> list[Proposed]:
+        """Return the operations that clear what contours bound: one tool, or a wide one and one for what it leaves."""
+        if not contours:
+            return []
+        regions = _regions(contours)
+        # the larger the area, the wider the tool that pays for its change, and for the corners that it leaves
+        widest = max(WIDEST, math.sqrt(sum(map(_area, regions))) / 10)
+        mills = self.rack.mills(depth)
+        usable = [tool for tool in mills if tool.diameter <= widest] or mills[:1]
+        advice = advise(regions, usable, Plan(depth, min(2.0, depth)), progress)
+        curves = self._curves(contours)
+        wide, fine = advice.pocket, advice.contour
+        made = [Proposed(PocketOperation(self._cut(wide, depth, curves)), f"{what}. {advice.why.rstrip('.')}")]
+        if fine is not wide:
+            named, cut = self._named(fine), self._cut(fine, depth, curves)
+            made.append(Proposed(RestOperation(cut), f"what T{wide.number} does not reach, with {named}"))
+            made.append(Proposed(ContourOperation(cut), f"along the walls of the same, with {named}"))
+        return made
+
+    def lines(self) -> list[Proposed]:
+        """Return open lines and letters, engraved."""
+        lines = (*self.found.lines, *self.found.strokes)
+        if not lines:
+            return []
+        tool, depth = self.rack.engraver(), min(ENGRAVED, self.thickness)
+        parts = [
+            _counted(len(some), what)
+            for some, what in ((self.found.lines, "open line"), (self.found.strokes, "stroke of letters"))
+            if some
+        ]
+        cut = self._cut(tool, depth, self._curves(lines))
+        why = f"{' and '.join(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
+        return [Proposed(ContourOperation(cut, Side.ON), why)]
+
+    def outlines(self) -> list[Proposed]:
+        """Return the outlines, cut out of the stock."""
+        outlines = self.found.outlines
+        if not outlines:
+            return []
+        least = room(_outside(outlines))
+        tool = self.rack.fitting(least, WIDEST, self.thickness)
+        self.round_tools.append(tool)
+        tabs = replace(_tabs(outlines), height=min(Tabs().height, self.thickness / 2))
+        narrow = f"; its narrowest place has room for {least:.3g} mm alone" if tool.diameter > least + 0.01 else ""
+        why = (
+            f"{_counted(len(outlines), 'outline')}: cut out outside, through {self.thickness:g} mm, last, by "
+            f"{self._named(tool)}, with {tabs.count} tabs each and {tool.diameter + SPARE:g} mm of stock round{narrow}"
+        )
+        cut = self._cut(tool, self.thickness, self._curves(outlines))
+        return [Proposed(ContourOperation(cut, Side.OUTSIDE, tabs=tabs), why)]
+
+
+def _area(region: Region) -> float:
+    """Return the area of a region, mm2."""
+    return sum(signed_area(contour_rows(each)) for each in region.contours)
+
+
+def _regions(contours: Sequence[Contour]) -> tuple[Region, ...]:
+    return nest(without_crossings(contours).contours)
+
+
+def _outside(outlines: Sequence[Contour]) -> tuple[Region, ...]:
+    """Return what lies round outlines, with room for every tool."""
+    x0, y0, x1, y1 = extent(outlines) or (0.0, 0.0, 0.0, 0.0)
+    far = 4 * WIDEST
+    frame = polygon_contour([(x0 - far, y0 - far), (x1 + far, y0 - far), (x1 + far, y1 + far), (x0 - far, y1 + far)])
+    return _regions((frame, *outlines))
+
+
+def _tabs(contours: Sequence[Contour], shorter: float = 0.0) -> Tabs:
+    """Return tabs that the shortest of some contours has room for, whose path is so much shorter than it, mm."""
+    shortest = min(float(lengths(contour_rows(each)).sum()) for each in contours) - shorter
+    return Tabs(_TABS) if shortest >= _SMALL else Tabs(_FEWER, width=max(0.5, min(Tabs().width, shortest / 20)))
+
+
+def _counted(count: int, what: str) -> str:
+    """Return how many things there are, of which the first word of "stroke of letters" or "slot or bore" is one."""
+    one, or_, other = what.partition(" or ")
+    many = f"{one}s or {other}s" if or_ else what.replace("stroke", "strokes") if " of " in what else f"{what}s"
+    return f"1 {what}" if count == 1 else f"{count} {many}"

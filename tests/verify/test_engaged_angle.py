@@ -1,0 +1,130 @@
+"""The proof of the engaged angle: closed forms, programs that keep their limit, and the same programs spoiled."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.geometry.region import polygon_contour
+from app.model.job import Job
+from app.model.moves import MoveKind, Moves
+from app.model.operation import AdaptiveOperation, Cut, PocketOperation
+from app.model.part import Entity, Part
+from app.model.tool import Tool
+from app.operations.compute import compute
+from app.verify.engaged_angle import WIDENING, CutterPath, prove_engagement
+
+R, ANGLE = 3.0, math.radians(60)
+
+
+def path_of(moves: Moves, radius: float = R) -> CutterPath:
+    return CutterPath(moves.start, moves.end, moves.centre, moves.kind, radius, 0.0)
+
+
+def by_hand(*motions: tuple[float, ...], radius: float = R) -> CutterPath:
+    """A path of (x, y, z) for lines and (x, y, z, cx, cy) for arcs counter-clockwise."""
+    end = np.array([motion[:3] for motion in motions])
+    centre = np.array([motion[3:] if len(motion) == 5 else (math.nan, math.nan) for motion in motions])
+    kind = np.array([MoveKind.ARC_CCW if len(motion) == 5 else MoveKind.LINE for motion in motions], np.uint8)
+    return CutterPath(np.concatenate([end[:1], end[:-1]]), end, centre, kind, radius, 0.0)
+
+
+def pocket(depth: float = 2.0) -> Job:
+    walls = polygon_contour([(0, 0), (22, 0), (22, 14), (0, 14)])
+    part = Part().with_entities(tuple(Entity(k, c, "0") for k, c in enumerate(walls.primitives, 1)))
+    cut = Cut(1, depth=depth, stepdown=2.0)
+    return Job(part, tools=(Tool(1, 2 * R),), operations=(AdaptiveOperation(cut, ANGLE),))
+
+
+@pytest.fixture(scope="module")
+def kept() -> CutterPath:
+    return path_of(compute(pocket()).moves)
+
+
+def round_a_hole(hole: float, turn: float) -> CutterPath:
+    """A hole cleared by full circles of small steps, and one more circle round it."""
+    down = [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
+    steps = [*np.arange(0.1, hole - R, 0.4).tolist(), hole - R]
+    circles = [
+        each for rho in steps for each in ((rho, 0.0, -1.0), (-rho, 0.0, -1.0, 0.0, 0.0), (rho, 0.0, -1.0, 0.0, 0.0))
+    ]
+    return by_hand(*down, *circles, (-turn, 0.0, -1.0, (hole - R - turn) / 2, 0.0), (turn, 0.0, -1.0, 0.0, 0.0))
+
+
+def test_a_line_through_metal_is_a_slot() -> None:
+    proof = prove_engagement(by_hand((0, 0, 1), (0, 0, -1), (10, 0, -1)), ANGLE)
+    assert proof.greatest.angle == pytest.approx(math.pi, abs=1e-3)
+    (above,) = proof.above
+    assert above.motion == 2 and proof.entries == 1 and proof.entry_mm == pytest.approx(2.0)
+
+
+def test_a_circle_beside_a_cleared_disc_has_the_angle_of_the_closed_form() -> None:
+    hole, turn = 5.0, 2.6
+    cosine = (hole**2 - turn**2 - R**2) / (2 * turn * R)
+    last = prove_engagement(round_a_hole(hole, turn), math.acos(cosine) + 1e-4)
+    assert not [each for each in last.above if each.motion == len(round_a_hole(hole, turn).kind) - 1]
+    less = prove_engagement(round_a_hole(hole, turn), math.acos(cosine) - 1e-3)
+    assert [each for each in less.above if each.motion == len(round_a_hole(hole, turn).kind) - 1]
+
+
+def test_the_first_turn_counts_as_entry_only_as_long_as_it_is_small() -> None:
+    def turn(radius: float) -> CutterPath:
+        return by_hand((radius, 0, 1), (radius, 0, -1), (-radius, 0, -1, 0, 0), (radius, 0, -1, 0, 0))
+
+    assert not prove_engagement(turn(WIDENING), ANGLE).above
+    assert prove_engagement(turn(WIDENING + 0.01), ANGLE).above
+
+
+def test_a_program_keeps_its_limit_and_hardly_less(kept: CutterPath) -> None:
+    proof = prove_engagement(kept, ANGLE)
+    assert not proof.above and proof.entries == 1
+    assert ANGLE - math.radians(0.2) < proof.greatest.angle <= ANGLE
+    assert prove_engagement(kept, proof.greatest.angle - math.radians(0.1)).above
+
+
+def test_every_depth_is_metal_again() -> None:
+    proof = prove_engagement(path_of(compute(pocket(4.0)).moves), ANGLE)
+    assert not proof.above and proof.entries == 2
+
+
+def moved(path: CutterPath) -> CutterPath:
+    """One arc in the middle, and what follows it, 0.05 mm farther on."""
+    arcs = np.flatnonzero(path.kind >= MoveKind.ARC_CW)
+    size = np.hypot(*(path.end - path.start)[arcs, :2].T)
+    k = int(arcs[len(arcs) // 2 :][np.argmax(size[len(arcs) // 2 :])])
+    shift = np.zeros((len(path.kind), 2))
+    shift[k] = 0.05 * (path.centre[k] - path.centre[arcs[0]]) / math.dist(path.centre[k], path.centre[arcs[0]])
+    end, start, centre = path.end.copy(), path.start.copy(), path.centre + shift
+    end[:, :2] += shift
+    start[:, :2] += shift
+    return replace(path, end=end, start=start, centre=centre)
+
+
+def without_half(path: CutterPath) -> CutterPath:
+    """The path without its third eighth."""
+    n = len(path.kind)
+    left = np.r_[0 : n // 4, n // 2 : n]
+    return replace(path, start=path.start[left], end=path.end[left], centre=path.centre[left], kind=path.kind[left])
+
+
+SPOILED: dict[str, Callable[[CutterPath], CutterPath]] = {
+    "an arc is moved": moved,
+    "a part is left out": without_half,
+    "another tool": lambda path: replace(path, radius=R + 0.2),
+    "a much thinner tool": lambda path: replace(path, radius=R - 1.0),
+}
+
+
+@pytest.mark.parametrize("how", SPOILED)
+def test_a_spoiled_program_is_not_proven(kept: CutterPath, how: str) -> None:
+    assert prove_engagement(SPOILED[how](kept), ANGLE).above
+
+
+def test_rings_are_far_above() -> None:
+    job = replace(pocket(), operations=(PocketOperation(Cut(1), 1.2),))
+    proof = prove_engagement(path_of(compute(job).moves), ANGLE)
+    assert proof.above and proof.greatest.angle > math.radians(150)
