@@ -123,6 +123,16 @@ def test_the_window_opens_without_heavy_libraries() -> None:
     assert not modules_after("import app.ui.shell.main_window") & (COMPILER | {"ezdxf", "trimesh", "scipy"})
 
 
+def test_the_session_of_1986_is_loaded_when_it_is_asked_for() -> None:
+    code = "import app.ui.shell.start, sys; print(*sorted(sys.modules))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60
+    )
+    loaded = set(done.stdout.split())
+    assert "app.ui.views.session1986.opening" in loaded
+    assert not loaded & {f"app.ui.views.session1986.{name}" for name in ("session", "tube", "making", "stills")}
+
+
 @pytest.mark.parametrize("door", ["app.cli.main", "app.usecases.make", "app.ui.shell.main_window"])
 def test_exhibits_are_loaded_when_they_are_asked_for(door: str) -> None:
     code = f"import {door}, sys; print(*[name for name in sys.modules if name.startswith('app.exhibits')])"

@@ -55,20 +55,20 @@ PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is m
 COMPUTING = Missing("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
 
-class Told(Protocol):
+class WindowState(Protocol):
     """What pages are told of the window's state."""
 
     stages_missing: Missing
     writing: bool
 
 
-def pages_of(window: MainWindow, told: Told) -> dict[View, Page]:
+def pages_of(window: MainWindow, told: WindowState) -> dict[View, Page]:
     """Return the page of every view; those that were registered beside the window's own are made."""
     pages = {**_drawing_pages(window, told), **_program_pages(window), **_bitmap_and_scene_pages(window, told)}
     return {view: pages[view] if view.make is None else view.make(window.workspace) for view in views()}
 
 
-def _drawing_pages(window: MainWindow, told: Told) -> dict[View, Page]:
+def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, Page]:
     canvas, document, computation = window.canvas, window.document, window.computation
 
     def none_drawn() -> Missing:
@@ -121,7 +121,7 @@ def _program_pages(window: MainWindow) -> dict[View, Page]:
     }
 
 
-def _bitmap_and_scene_pages(window: MainWindow, told: Told) -> dict[View, Page]:
+def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View, Page]:
     stages, surfaces, drawn = window.views.stages, window.views.surfaces, window.document
 
     def picture() -> bool:

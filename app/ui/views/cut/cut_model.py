@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..nc.motion_shapes import Look
 from .camera import Camera, Floats, Size
 from .colouring import CutColour, told
 from .picking import Hit, Section, pick_finest
@@ -19,14 +18,15 @@ class CutModel:
     Attributes:
         picture: the cut; None = nothing. detail: a part of it that was cut again, finer; None = there is none.
         camera: from where both are seen, in the screen's px. section: what is taken away; None = nothing.
-        looks: which paths are shown. hit: the cell under the mouse. asked: what the colours of the metal shall tell.
+        looks: which kinds of path are shown. hit: the cell under the mouse.
+        asked: what the colours of the metal shall tell.
     """
 
     picture: CutPicture | None = None
     detail: CutPicture | None = None
     camera: Camera = field(default_factory=Camera)
     section: Section | None = None
-    looks: frozenset[int] = frozenset(int(look) for look in Look)
+    looks: frozenset[int] = frozenset()
     hit: Hit | None = None
     asked: CutColour = CutColour.METAL
 

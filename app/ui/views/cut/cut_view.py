@@ -54,7 +54,7 @@ class CutView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.model = model = CutModel()
+        self.model = model = CutModel(looks=frozenset(int(look) for look in Look))
         self.painting, self.colours, self.hands = Painting(model, self), Colours(model, self), Hands(model, self)
         self.playing = self.painting.playing
         self._fitted, self.surfacing = True, Surfacing(self.painting, self)
