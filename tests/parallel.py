@@ -4,7 +4,9 @@ own.
 
 from __future__ import annotations
 
+import tomllib
 from collections import OrderedDict
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,24 +15,34 @@ ON_A_SCREEN = ("tests/ui/real_mouse/", "tests/ui/cut/test_on_screen.py")
 """Tests with a real mouse and focus: two at once would slow one another until somebody's patience ends."""
 
 
-COSTS = {"tests/ui/test_snapshots": 40, "tests/core/": 10, "tests/ui/": 6, "tests/test_cli": 6, "tests/workflow/": 3}
-"""How much longer a test takes here than elsewhere, about: what takes long begins early, so that the processes end
-together.
-"""
+SECONDS: dict[str, float] = tomllib.loads((Path(__file__).parent / "costs.toml").read_text("utf-8"))["seconds"]
+"""Of the processor for a test, about, by what its name begins with."""
+
+DEFAULT_S = 0.05
 
 
-class _DearestFirst(OrderedDict[str, dict[str, bool]]):
+class DearestFirst(OrderedDict[str, dict[str, bool]]):
     """Groups of tests that are left, the dearest of which is taken first."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._costs: dict[str, float] = {}
 
     def popitem(self, last: bool = True) -> tuple[str, dict[str, bool]]:
         """Take one."""
-        group = max(self, key=lambda name: len(self[name]) * cost_of(name))
+        group = max(self, key=self._cost)
         return group, self.pop(group)
 
+    def _cost(self, group: str) -> float:
+        if group not in self._costs:  # all of a group are there before the first one is taken
+            self._costs[group] = sum(map(seconds_of, self[group]))
+        return self._costs[group]
 
-def cost_of(group: str) -> int:
-    """Return what a test of a group costs, about, in those of most rooms."""
-    return next((cost for place, cost in COSTS.items() if group.startswith(place)), 6 if group == "screen" else 1)
+
+def seconds_of(nodeid: str) -> float:
+    """Return the processor seconds that a test takes, about."""
+    begun = max((begin for begin in SECONDS if nodeid.startswith(begin)), key=len, default="")
+    return SECONDS.get(begun, DEFAULT_S)
 
 
 def group_of(nodeid: str) -> str:
@@ -47,7 +59,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     class ByGroup(LoadScopeScheduling):
         def __init__(self, config: pytest.Config, log: Any) -> None:
             super().__init__(config, log)
-            self.workqueue = _DearestFirst()
+            self.workqueue = DearestFirst()
 
         def _split_scope(self, nodeid: str) -> str:
             return group_of(nodeid)

@@ -9,7 +9,7 @@ import pytest
 
 from tests.conftest import ROOT
 from tests.exhaustive import COLLECTED, FAMILIES, parameters_of
-from tests.parallel import ON_A_SCREEN, group_of
+from tests.parallel import DEFAULT_S, ON_A_SCREEN, SECONDS, DearestFirst, group_of, seconds_of
 
 FEWEST = 5
 
@@ -63,3 +63,25 @@ def test_files_and_screens_stay_together() -> None:
     assert group_of("tests/a/test_b.py::test_c[x/y]") == "tests/a/test_b.py"
     assert {group_of(f"{place}::test") for place in ON_A_SCREEN} == {"screen"}
     assert all((ROOT / place).exists() for place in ON_A_SCREEN)
+
+
+def test_what_is_said_to_be_dear_is_there(collected: dict[str, bool]) -> None:
+    """Rooms and tests are renamed; what nobody finds any more would begin last."""
+    files = {nodeid.split("::")[0] for nodeid in collected}
+    asked = [begin for begin in SECONDS if any(begin.startswith(file) for file in files) or _is_whole(begin, files)]
+    assert [begin for begin in asked if not any(nodeid.startswith(begin) for nodeid in collected)] == []
+
+
+def _is_whole(begin: str, files: set[str]) -> bool:
+    """Tell whether all files whose names begin so are among those collected."""
+    there = {str(path.relative_to(ROOT)) for path in (ROOT / "tests").rglob("test_*.py")}
+    mine = {file for file in there if file.startswith(begin)}
+    return "::" not in begin and mine <= files
+
+
+def test_the_dearest_group_is_taken_first() -> None:
+    queue = DearestFirst()
+    for file, count in (("tests/a/test_b.py", 100), ("tests/test_wheel.py", 3), ("tests/c/test_d.py", 1)):
+        queue[file] = {f"{file}::test_{k}": False for k in range(count)}
+    assert [queue.popitem()[0] for _ in range(3)] == ["tests/test_wheel.py", "tests/a/test_b.py", "tests/c/test_d.py"]
+    assert seconds_of("tests/a/test_b.py::test_c") == DEFAULT_S
