@@ -33,7 +33,7 @@ _LEVEL = 1e-6
 _STEEP = 5e-4
 """Slope of a way down, at least; what falls less is a cut."""
 
-_COARSE, _FINEST = 0.1, 1e-4
+_COARSE, _FINEST = 0.1, 1e-6
 """Length of the first pieces in radii of the cutter, and of the last ones, mm."""
 
 _CRACK = 1e-3
@@ -130,7 +130,7 @@ class _Clear:
     def add_disc(self, x: float, y: float, radius: float) -> None:
         """Take a disc as clear; what lies in it is forgotten."""
         table = self.table
-        kept = np.hypot(table[:, 0] - x, table[:, 1] - y) + table[:, 2] > radius + _WHOLE
+        kept = np.hypot(table[:, 0] - x, table[:, 1] - y) + table[:, 2] > radius + 1e-9
         table = table[kept]
         self.shapes[: len(table)] = table
         self.count = len(table)

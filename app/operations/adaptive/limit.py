@@ -10,12 +10,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-_FINENESS = 4e-4
+_FINENESS = 8e-4
 """mm that a clear disc is taken to be smaller than it is when a path is paid for with it: what the digits of an NC
 program move path and disc at most, both together."""
 
-_SPARE = math.radians(0.05)
-"""Radians that the limit is not used by, so that a proof by bounds has an end."""
+_SPARE = math.radians(0.35)
+"""Radians that the limit is not used by: in tight corners digits move the angle the most, and proofs need some room."""
 
 _LEAST_CENTRE = 0.002
 """mm; the least radius of a path that all controls know as an arc is 0.005 mm, and the tip of a corner needs a few."""
@@ -58,7 +58,7 @@ class Limit:
     @property
     def least_turn(self) -> float:
         """The least radius of a path that goes round a centre, mm: below, digits move the angle too much."""
-        return max(_LEAST_CENTRE * self.coarser, 3.5 * self.slack / (1 - math.cos(self.planned)))
+        return max(_LEAST_CENTRE * self.coarser, 2.5 * self.slack / (1 - math.cos(self.planned)))
 
     def clear_needed(self, turn: float) -> float:
         """Return how far round its centre ground must be clear for a path round it, mm, the slack counted.

@@ -21,6 +21,9 @@ _TURNED = 0.3
 
 _SAME = 1e-9
 _FLAT = 1e-4
+_HAIR = 2e-4
+"""mm by which a circle may reach out of a disc that it touches."""
+
 _HALVINGS = 12
 
 
@@ -119,7 +122,7 @@ def _inside(circle: Circle, end: Point, into: Circle) -> float:
     """Return the angle over which a circle, up to a place on it, lies within another one; a full turn if all does."""
     x, y, radius = circle
     away = math.hypot(x - into[0], y - into[1])
-    if away + radius <= into[2] + 1e-12 or radius == 0.0:
+    if away + radius <= into[2] + _HAIR or radius == 0.0:
         return math.tau
     if away == 0.0:
         return 0.0

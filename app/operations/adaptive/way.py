@@ -104,13 +104,14 @@ class Way:
         return self.runs
 
     def _touching(self, path: Rows) -> tuple[int, int, float] | None:
-        """Return (disc, row of a ring, fraction of it) where a disc touches the ring; the nearest one."""
+        """Return (disc, row of a ring, fraction of it) where a disc touches the ring; the largest one."""
         rows = within_half_turn(path)
         away, near = DistanceField.of(rows).nearest(self.discs.table[:, :2])
         out = np.abs(away - (self.discs.table[:, 2] - self.limit.radius))
-        number = int(np.argmin(out))
-        if out[number] > self.limit.slack / 2:
+        near_enough = out <= self.limit.slack / 8
+        if not near_enough.any():
             return None
+        number = int(np.argmax(np.where(near_enough, self.discs.table[:, 2], 0.0)))
         place = foot(rows[near[number]][None], self.discs.table[number : number + 1, :2])[0]
         row = int(np.argmin(distances(path, np.broadcast_to(place, (len(path), 2)))))
         return number, row, fraction_at(path[row], place)
@@ -186,7 +187,7 @@ class Way:
 def _half(disc: Disc, paying: Disc, limit: Limit) -> float:
     """Return half the sweep of the arc about a disc's centre that lies beyond where its payer is clear, radians."""
     turn, away = disc.reach - limit.radius, math.dist(disc.centre, paying.centre)
-    inner = paying.reach - limit.slack / 2 - limit.radius
+    inner = paying.reach - limit.slack - limit.radius
     if away + turn <= inner or turn <= 0:
         return 0.0
     if away <= 0:

@@ -1,0 +1,69 @@
+"""Adaptive clearing as a whole: from the drawing to the proven text, read back here and by LinuxCNC itself."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from app.core.resources import resource
+from app.formats.job.toml import read_job
+from app.usecases.make import Made, make
+from app.usecases.options import MakeOptions
+from tests.gcode.rs274_oracle import assert_same_motion
+
+JOB = """
+[[tool]]
+number = 1
+diameter = 6.0
+[[operation]]
+kind = "adaptive"
+tool = 1
+most_engaged_deg = 55
+"""
+
+
+def made_of(drawing: str, job: str) -> Made:
+    options = MakeOptions(job=read_job("job", job.encode()).job)
+    return make("part.draw", drawing.encode(), options)
+
+
+@pytest.fixture(scope="module")
+def pocket() -> Made:
+    return made_of("rectangle 0,0 20,13\n", JOB)
+
+
+def test_the_report_tells_the_greatest_angle_and_its_line(pocket: Made) -> None:
+    assert pocket.clean
+    (operation,) = json.loads(pocket.report.text())["operations"]
+    engaged = operation["engaged"]
+    assert engaged["limit_deg"] == 55 and operation["most_engaged_deg"] == pytest.approx(55)
+    assert 54 < engaged["greatest_deg"] <= 55
+    assert (engaged["motions_above"], engaged["entries"]) == (0, 1)
+    assert 0 < engaged["x"] < 20 and 0 < engaged["y"] < 13
+    assert pocket.nc.text.splitlines()[engaged["line"] - 1].startswith(("G1", "G3", "X", "G2"))
+
+
+def test_nothing_is_left_and_nothing_gouged(pocket: Made) -> None:
+    report = json.loads(pocket.report.text())
+    assert report["left"]["reachable_mm2"] == 0 and report["gouge"]["max_mm"] < 1e-6
+    assert report["rapids_in_material"] == [] and report["cut"]["gouged_places"] == 0
+
+
+def test_linuxcnc_reads_the_same_motion(pocket: Made) -> None:
+    assert_same_motion(pocket.program.moves, pocket.nc, pocket.job)
+
+
+@pytest.mark.parametrize("post", ["fanuc", "grbl"])
+def test_other_controls_are_proven_as_well(post: str) -> None:
+    made = made_of("circle 0,0 8\n", JOB + f'[output]\npost = "{post}"\n')
+    (operation,) = json.loads(made.report.text())["operations"]
+    assert made.clean and operation["engaged"]["motions_above"] == 0
+
+
+@pytest.mark.exhaustive
+def test_the_sample_is_clean() -> None:
+    options = MakeOptions(job=read_job("adaptive.toml", resource("samples", "adaptive.toml").read_bytes()).job)
+    made = make("fig2.dxf", resource("samples", "fig2.dxf").read_bytes(), options)
+    (operation,) = json.loads(made.report.text())["operations"]
+    assert made.clean and operation["engaged"]["greatest_deg"] <= 53
