@@ -33,6 +33,11 @@ class Unit(Enum):
     CHOICE = "choice"  # of an enum
     NAMES = "names"
     POINTS = "points"
+    SPEED = "rpm"
+    RATE = "mm_min"
+    TEXT = "text"
+    OUTLINE = "outline"  # of a holder, by its points or its name
+    FEEDS = "feeds"  # rows of feeds, by material
 
 
 @dataclass(frozen=True)
@@ -97,7 +102,13 @@ class Parameter:
     @property
     def sign(self) -> str:
         """What stands behind a number in a sentence, with its space."""
-        return {Unit.LENGTH: " mm", Unit.ANGLE: " degrees", Unit.SHARE: " %"}.get(self.unit, "")
+        return {
+            Unit.LENGTH: " mm",
+            Unit.ANGLE: " degrees",
+            Unit.SHARE: " %",
+            Unit.SPEED: " rpm",
+            Unit.RATE: " mm/min",
+        }.get(self.unit, "")
 
     def range_words(self) -> str:
         """Return the range in words: "0 to 10 mm"."""

@@ -2,29 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
-from ...model.fields import Placed, Unit, built, declared_of, parameters_of
+from ...model.fields import built, declared_of, parameters_of
 from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
-from .tables import JobTable, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
-
-_READERS: dict[Unit, Callable[[Any], Any]] = {
-    Unit.LENGTH: read_number,
-    Unit.ANGLE: read_angle,
-    Unit.SHARE: read_share,
-    Unit.COUNT: read_whole,
-    Unit.FLAG: read_flag,
-    Unit.NAMES: read_texts,
-    Unit.POINTS: read_points,
-}
-
-
-def reader_of(placed: Placed) -> Callable[[Any], Any]:
-    """Return what reads a parameter's value as TOML gives it; it raises InputError for what can be none."""
-    if placed.enum is not None:
-        return word({each.value: each for each in placed.enum}, placed.parameter.label.lower())
-    return _READERS[placed.parameter.unit]
+from .tables import JobTable, reader_of, word
 
 
 def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operation]:

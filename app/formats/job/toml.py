@@ -9,24 +9,22 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed
+from ...model.fields import declared_of
 from ...model.job import Copies, Job, OriginXY, OriginZ, Stock
 from ...model.operation import Order
 from ...model.part import Part, Units
 from ...model.tool import Tool
-from ...model.tool_kind import ToolKind
 from .operations import operations_of
 from .tables import (
     JobTable,
     JobText,
     one_of,
-    read_angle,
-    read_feeds,
     read_flag,
-    read_holder,
     read_number,
     read_text,
     read_texts,
     read_whole,
+    reader_of,
     word,
 )
 
@@ -48,20 +46,7 @@ ORIGIN_XY = {
 }
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
 TABLES = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "tool", "operation")
-_LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "length_offset")
-TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
-    "number": read_whole,
-    "diameter": read_number,
-    "kind": word(ToolKind.words(), "kind of tool"),
-    "name": read_text,
-    "flutes": read_whole,
-    **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
-    "tip_angle": read_angle,
-    **dict.fromkeys(_LENGTHS, read_number),
-    "holder": read_holder,
-    "remark": read_text,
-    "feeds": read_feeds,
-}
+TOOL_KEYS: dict[str, Callable[[Any], Any]] = {key: reader_of(placed) for key, placed in declared_of(Tool).items()}
 """Keys of a [[tool]], and how each is read."""
 
 ORIGIN_HELP = (
