@@ -72,6 +72,8 @@ class Parameter:
         group: where it stands in the form.
         needs: when it has an effect; None = always.
         on_pixels: whether the bitmap way knows it too.
+        table, word: of a job's parameter: the table of a job file that it stands in, and its key there, where that is
+            another one.
         choices: words for the members of its enum in forms, for False and True of a flag that is no switch.
     """
 
@@ -88,6 +90,8 @@ class Parameter:
     on_pixels: bool = False
     choices: tuple[str, ...] = ()
     short: str = ""
+    table: str = ""
+    word: str = ""
 
     def shown(self, value: float) -> float:
         """Return a value in the unit that people read: degrees, per cent."""
