@@ -31,8 +31,14 @@ class Unit(Enum):
     COUNT = "count"
     FLAG = "flag"
     CHOICE = "choice"  # of an enum
+    NAMES = "names"
     CURVES = "curves"  # selectors, see curve_selectors
     POINTS = "points"
+    SPEED = "rpm"
+    RATE = "mm_min"
+    TEXT = "text"
+    OUTLINE = "outline"  # of a holder, by its points or its name
+    FEEDS = "feeds"  # rows of feeds, by material
 
 
 @dataclass(frozen=True)
@@ -67,6 +73,8 @@ class Parameter:
         group: where it stands in the form.
         needs: when it has an effect; None = always.
         on_pixels: whether the bitmap way knows it too.
+        table, word: of a job's parameter: the table of a job file that it stands in, and its key there, where that is
+            another one.
         choices: words for the members of its enum in forms, for False and True of a flag that is no switch.
     """
 
@@ -83,6 +91,8 @@ class Parameter:
     on_pixels: bool = False
     choices: tuple[str, ...] = ()
     short: str = ""
+    table: str = ""
+    word: str = ""
 
     def shown(self, value: float) -> float:
         """Return a value in the unit that people read: degrees, per cent."""
@@ -97,7 +107,13 @@ class Parameter:
     @property
     def sign(self) -> str:
         """What stands behind a number in a sentence, with its space."""
-        return {Unit.LENGTH: " mm", Unit.ANGLE: " degrees", Unit.SHARE: " %"}.get(self.unit, "")
+        return {
+            Unit.LENGTH: " mm",
+            Unit.ANGLE: " degrees",
+            Unit.SHARE: " %",
+            Unit.SPEED: " rpm",
+            Unit.RATE: " mm/min",
+        }.get(self.unit, "")
 
     def range_words(self) -> str:
         """Return the range in words: "0 to 10 mm"."""

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 from ..core.errors import ParameterError
+from .fields import Unit, parameter
+from .fields import part as whole
 from .operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
 from .tool import Tool
@@ -39,9 +41,21 @@ class Stock:
         under: thickness of the waste that it lies on, mm, >= 0: so far below it may tools cut, as points of drills do.
     """
 
-    margin: float = 0.0
-    thickness: float = 10.0
-    under: float = 0.0
+    margin: float = parameter(
+        0.0,
+        "margin",
+        "Margin",
+        "how far it reaches beyond the part on every side",
+        Unit.LENGTH,
+        high=1e5,
+        table="stock",
+    )
+    thickness: float = parameter(
+        10.0, "thickness", "Thickness", "from its top down", Unit.LENGTH, high=1e5, table="stock"
+    )
+    under: float = parameter(
+        0.0, "under", "Waste below", "thickness of the waste that it lies on", Unit.LENGTH, high=1e5, table="stock"
+    )
 
     def __post_init__(self) -> None:
         if not 0 <= self.margin < 1e5 or not 0 < self.thickness < 1e5:
@@ -62,10 +76,14 @@ class Copies:
         dx, dy: from each to the next, mm, less than 1e6; not 0 where there is more than one.
     """
 
-    columns: int = 1
-    rows: int = 1
-    dx: float = 0.0
-    dy: float = 0.0
+    columns: int = parameter(1, "columns", "Columns", "along X", Unit.COUNT, low=1, high=1000, table="copies")
+    rows: int = parameter(1, "rows", "Rows", "along Y", Unit.COUNT, low=1, high=1000, table="copies")
+    dx: float = parameter(
+        0.0, "dx", "Step along X", "from each to the next", Unit.LENGTH, low=-1e6, high=1e6, table="copies"
+    )
+    dy: float = parameter(
+        0.0, "dy", "Step along Y", "from each to the next", Unit.LENGTH, low=-1e6, high=1e6, table="copies"
+    )
 
     def __post_init__(self) -> None:
         if not (1 <= self.columns <= 1000 and 1 <= self.rows <= 1000 and self.columns * self.rows <= 10_000):
@@ -110,20 +128,67 @@ class Job:
         RestOperation(Cut(tool=2)),
         ContourOperation(Cut(tool=2)),
     )
-    stock: Stock = Stock()
-    origin_xy: OriginXY = OriginXY.DRAWING
-    origin_z: OriginZ = OriginZ.TOP
-    safe_z: float = 5.0
-    retract_z: float = 1.0
-    order: Order = Order.POCKET_FIRST
-    join_tolerance: float = 0.01
-    layer_names: tuple[str, ...] = ()
-    post: str = "linuxcnc"
-    out_units: Units = Units.MM
-    exact_path: bool = False
-    copies: Copies = Copies()
-    keep_out_layers: tuple[str, ...] = ()
-    keep_out_height: float = 0.0
+    stock: Stock = whole(Stock)
+    origin_xy: OriginXY = parameter(
+        OriginXY.DRAWING, "origin_xy", "Origin", "in the plane", Unit.CHOICE, table="origin", word="xy"
+    )
+    origin_z: OriginZ = parameter(
+        OriginZ.TOP, "origin_z", "Z zero", "along the tool axis", Unit.CHOICE, table="origin", word="z"
+    )
+    safe_z: float = parameter(
+        5.0,
+        "safe_z",
+        "Safe Z",
+        "clearance height above the stock's top",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        high=1e5,
+        table="heights",
+    )
+    retract_z: float = parameter(
+        1.0,
+        "retract_z",
+        "Retract Z",
+        "from which plunges go slowly",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        high=1e5,
+        table="heights",
+    )
+    layer_names: tuple[str, ...] = parameter(
+        (), "layer_names", "Layers", "to machine; none named: all visible", Unit.NAMES, table="drawing", word="layers"
+    )
+    join_tolerance: float = parameter(
+        0.01,
+        "join_tolerance",
+        "Join tolerance",
+        "loose ends nearer than this are joined",
+        Unit.LENGTH,
+        high=LARGEST_JOIN,
+        table="drawing",
+    )
+    post: str = parameter("linuxcnc", "post", "Post", "that writes the NC text", Unit.TEXT, table="output")
+    out_units: Units = parameter(
+        Units.MM, "out_units", "Units", "of the NC text", Unit.CHOICE, table="output", word="units"
+    )
+    order: Order = parameter(Order.POCKET_FIRST, "order", "Order", "which tool cuts first", Unit.CHOICE, table="output")
+    exact_path: bool = parameter(
+        False, "exact_path", "Exact path", "the control never rounds a corner", Unit.FLAG, table="output"
+    )
+    copies: Copies = whole(Copies)
+    keep_out_layers: tuple[str, ...] = parameter(
+        (), "keep_out_layers", "Keep-out layers", "of clamps and the like", Unit.NAMES, table="keep_out", word="layers"
+    )
+    keep_out_height: float = parameter(
+        0.0,
+        "keep_out_height",
+        "Keep-out height",
+        "of these above the stock's top",
+        Unit.LENGTH,
+        high=1e5,
+        table="keep_out",
+        word="height",
+    )
 
     def __post_init__(self) -> None:
         if not LEAST_LENGTH <= self.retract_z <= self.safe_z < 1e5:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import pairwise
 
 from ..core.errors import ParameterError
+from .fields import Parameter, Unit, declared_of, parameter, required
 from .tool_kind import ToolKind, ToolProfile, ToolShape, shape_keys
 
 __all__ = ["LEAST_RATE", "MOST_LENGTH", "FeedRow", "HolderPoint", "Tool", "ToolKind", "shape_keys"]
@@ -24,9 +26,6 @@ HolderPoint = tuple[float, float]
 LEAST_DIAMETER = 1e-3
 """mm; what is thinner is no cutter, and its paths in any drawing would have no end."""
 
-_RATES = (("spindle_speed", "rpm"), ("feed_rate", "mm/min"), ("plunge_rate", "mm/min"))
-_LEAST = {"mm": LEAST_DIAMETER, "mm/min": LEAST_RATE}
-_LENGTHS = ("corner_radius", "tip_diameter", "flute_length", "overall_length", "stick_out", "shank_diameter")
 _NOT_ABOVE = (("flute_length", "overall_length"), ("stick_out", "overall_length"))
 
 
@@ -66,59 +65,72 @@ class FeedRow:
 class Tool:
     """A cutter. A length or an angle of 0 is not known.
 
-    Attributes:
-        number: T word, 1 … 9999.
-        diameter: cutting diameter, the largest one of a tapered tool, mm, in [LEAST_DIAMETER, 1e6).
-        kind: shape of its end.
-        name: remark for lists and NC comments, or "".
-        flutes: cutting edges, >= 1.
-        spindle_speed: rpm, in (0, 1e6).
-        feed_rate, plunge_rate: mm/min, in [1, 1e6).
-        corner_radius: of a bull-nose mill, mm, less than half the diameter.
-        tip_diameter: of the flat at the point of a V tool, or of the ball at the tip of a tapered mill, mm, less than
-            the diameter.
-        tip_angle: full angle of the point (V, drill) or of the cone (tapered mill), radians, in [0, pi).
-        flute_length, overall_length: from the tip up, mm.
-        stick_out: from the tip to the holder's lower face, mm.
-        shank_diameter: mm.
-        holder: outline from the lower face up, heights from 0 and not falling; straight between its points, so
-            frustums.
-        length_offset: what G43 takes off along Z, mm: the control's tool table.
-        feeds: by material.
-        remark: anything else worth knowing, or "".
+    Lengths are mm, angles radians. The holder is straight between its points, so frustums; their heights begin with 0
+    and do not fall. The corner radius is less than half the diameter, the tip's diameter less than the diameter.
     """
 
-    number: int
-    diameter: float
-    kind: ToolKind = ToolKind.FLAT
-    name: str = ""
-    flutes: int = 2
-    spindle_speed: float = 12000.0
-    feed_rate: float = 600.0
-    plunge_rate: float = 200.0
-    corner_radius: float = 0.0
-    tip_diameter: float = 0.0
-    tip_angle: float = 0.0
-    flute_length: float = 0.0
-    overall_length: float = 0.0
-    stick_out: float = 0.0
-    shank_diameter: float = 0.0
-    holder: tuple[HolderPoint, ...] = ()
-    length_offset: float = 0.0
-    feeds: tuple[FeedRow, ...] = ()
-    remark: str = ""
+    number: int = required("number", "Number", "T word", Unit.COUNT, low=1, high=9999)
+    diameter: float = required(
+        "diameter",
+        "Diameter",
+        "cutting diameter, the largest one of a tapered tool",
+        Unit.LENGTH,
+        low=LEAST_DIAMETER,
+        high=1e6,
+    )
+    kind: ToolKind = parameter(ToolKind.FLAT, "kind", "Kind of tool", "shape of its end", Unit.CHOICE)
+    name: str = parameter("", "name", "Name", "for lists and comments of programs", Unit.TEXT)
+    flutes: int = parameter(2, "flutes", "Flutes", "cutting edges", Unit.COUNT, low=1, high=100)
+    spindle_speed: float = parameter(12000.0, "spindle_speed", "Spindle speed", "of the cutter", Unit.SPEED, high=1e6)
+    feed_rate: float = parameter(600.0, "feed_rate", "Feed rate", "sideways", Unit.RATE, low=LEAST_RATE, high=1e6)
+    plunge_rate: float = parameter(
+        200.0, "plunge_rate", "Plunge rate", "straight down", Unit.RATE, low=LEAST_RATE, high=1e6
+    )
+    corner_radius: float = parameter(
+        0.0, "corner_radius", "Corner radius", "of a bull-nose mill", Unit.LENGTH, high=MOST_LENGTH
+    )
+    tip_diameter: float = parameter(
+        0.0,
+        "tip_diameter",
+        "Tip diameter",
+        "of the flat at the point of a V tool, or of the ball at the tip of a tapered mill",
+        Unit.LENGTH,
+        high=MOST_LENGTH,
+    )
+    tip_angle: float = parameter(
+        0.0, "tip_angle", "Tip angle", "full angle of the point or the cone", Unit.ANGLE, high=math.pi
+    )
+    flute_length: float = parameter(
+        0.0, "flute_length", "Flute length", "from the tip up", Unit.LENGTH, high=MOST_LENGTH
+    )
+    overall_length: float = parameter(
+        0.0, "overall_length", "Overall length", "from the tip up", Unit.LENGTH, high=MOST_LENGTH
+    )
+    stick_out: float = parameter(
+        0.0, "stick_out", "Stick out", "from the tip to the holder's lower face", Unit.LENGTH, high=MOST_LENGTH
+    )
+    shank_diameter: float = parameter(
+        0.0, "shank_diameter", "Shank diameter", "above the flutes", Unit.LENGTH, high=MOST_LENGTH
+    )
+    length_offset: float = parameter(
+        0.0,
+        "length_offset",
+        "Length offset",
+        "what G43 takes off along Z: the control's tool table",
+        Unit.LENGTH,
+        low=-MOST_LENGTH,
+        high=MOST_LENGTH,
+    )
+    holder: tuple[HolderPoint, ...] = parameter(
+        (), "holder", "Holder", "outline above its lower face, or its name", Unit.OUTLINE
+    )
+    remark: str = parameter("", "remark", "Remark", "anything else worth knowing", Unit.TEXT)
+    feeds: tuple[FeedRow, ...] = parameter((), "feeds", "Feeds", "by material", Unit.FEEDS)
 
     def __post_init__(self) -> None:
         if not 1 <= self.number <= 9999:
             raise ParameterError(f"Tool number {self.number} is out of range; use 1 to 9999.")
-        for name, unit in (("diameter", "mm"), *_RATES):
-            value, least = getattr(self, name), _LEAST.get(unit, 0.0)
-            if not 0 < value < 1e6 or value < least:
-                bound = f"{least:g} {unit} or more" if least else f"greater than 0 {unit}"
-                raise ParameterError(
-                    f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {bound} and less than 1000000 "
-                    f"{unit}."
-                )
+        self._check_above_zero()
         if not 1 <= self.flutes <= 100:
             raise ParameterError(f"T{self.number}: flutes is {self.flutes}; it must be 1 to 100.")
         self._check_lengths()
@@ -126,12 +138,22 @@ class Tool:
         self._check_holder()
         self._check_feeds()
 
+    def _check_above_zero(self) -> None:
+        for name, declared in (*_declared(Unit.LENGTH)[:1], *_declared(Unit.SPEED), *_declared(Unit.RATE)):
+            value, unit = getattr(self, name), declared.sign.strip()
+            if not 0 < value < declared.high or value < declared.low:
+                least = f"{declared.low:g} {unit} or more" if declared.low else f"greater than 0 {unit}"
+                raise ParameterError(
+                    f"T{self.number}: {_said(name)} is {value:g} {unit}; it must be {least} and less than "
+                    f"{declared.high:.0f} {unit}."
+                )
+
     def _check_lengths(self) -> None:
-        for name in _LENGTHS:
-            if not 0 <= getattr(self, name) < MOST_LENGTH:
-                raise self._wrong(name, f"it must be 0 (not known) or more and less than {MOST_LENGTH:g} mm")
-        if not abs(self.length_offset) < MOST_LENGTH:
-            raise self._wrong("length_offset", f"it must be between -{MOST_LENGTH:g} and {MOST_LENGTH:g} mm")
+        for name, declared in _declared(Unit.LENGTH)[1:]:
+            value = getattr(self, name)
+            above = value > declared.low if declared.low else value >= 0
+            if not (above and value < declared.high):
+                raise self._wrong(name, _length_rule(declared))
         for name, above in _NOT_ABOVE:
             most = getattr(self, above)
             if most and getattr(self, name) > most:
@@ -220,6 +242,19 @@ class Tool:
         speed = min(1000 * row.surface_speed / (math.pi * self.diameter), most_rpm)
         feed = max(speed * self.flutes * row.feed_per_tooth, LEAST_RATE)
         return replace(self, spindle_speed=speed, feed_rate=feed, plunge_rate=max(feed * row.plunge_share, LEAST_RATE))
+
+
+@cache
+def _declared(unit: Unit) -> tuple[tuple[str, Parameter], ...]:
+    """Return the parameters of tools of a unit, by name, in the order of their declaration: the diameter first."""
+    return tuple((key, placed.parameter) for key, placed in declared_of(Tool).items() if placed.parameter.unit is unit)
+
+
+def _length_rule(declared: Parameter) -> str:
+    """Return what a length must be."""
+    if declared.low < 0:
+        return f"it must be between {declared.low:g} and {declared.high:g} mm"
+    return f"it must be 0 (not known) or more and less than {declared.high:g} mm"
 
 
 def _said(name: str) -> str:

@@ -5,6 +5,7 @@ The command line and the window both call it. Everything is pure: bytes and valu
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import accumulate
 
@@ -14,6 +15,7 @@ from ..core.errors import GeometryError
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..formats.drawing import Drawing
+from ..gcode.posts.post import Post
 from ..gcode.posts.posts import load_post
 from ..gcode.timing.extent import Extent
 from ..gcode.writer.write import NcFile, NcText
@@ -133,32 +135,70 @@ def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_P
     """
     progress.step(0.0, f"Reading {name}")
     options = with_own_job(name, data, options)
-    if options.bitmap is not None or is_picture(name):
-        return _make_on_bitmap(name, data, options, progress)
-    drawing = read_for(name, data, options)
-    options, proposal = with_proposal(drawing.part, options, progress.part(0.05, 0.1))
-    job = job_from_drawing(drawing, options)
-    told = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
-    made = export(job, progress.part(0.1, 1.0), told, options.machine)
-    if proposal is not None:
+    on_pixels = options.bitmap is not None or is_picture(name)
+    resolved = _on_pixels if on_pixels else _exactly
+    context = resolved(name, data, options, progress.part(0.05, 0.1))
+    program = context.compute(progress.part(0.1, context.computed_at))
+    made = _finished(program, context, progress.part(context.computed_at, 1.0))
+    if (proposal := context.proposal) is not None:
         made = replace(made, report=made.report.with_proposal(proposal.report()), proposal=proposal)
     if not len(made.program.moves):
         raise GeometryError(_nothing(name, made.findings))
     return made
 
 
-def _make_on_bitmap(name: str, data: bytes, options: MakeOptions, progress: Progress) -> Made:
-    """Return what `make` returns, computed on pixels alone."""
+@dataclass(frozen=True)
+class MakeContext:
+    """What a program is made with, resolved once, before anything is computed.
+
+    Attributes:
+        job: what is computed.
+        post: in whose words it is written.
+        machine: that it has to fit, and on which it is timed; None = timed on a usual one.
+        drawing_findings: what reading the drawing had to say.
+        compute: makes the moves.
+        computed_at: share of the progress at which they are made.
+        proposal: the operations that were proposed; None where they were given.
+    """
+
+    job: Job
+    post: Post
+    machine: Machine | None
+    drawing_findings: tuple[Finding, ...]
+    compute: Callable[[Progress], Program]
+    computed_at: float = 0.64
+    proposal: Proposal | None = None
+
+
+def _exactly(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
+    """Return how a drawing is machined on its exact lines and arcs."""
+    drawing = read_for(name, data, options)
+    options, proposal = with_proposal(drawing.part, options, progress)
+    found = drawing.findings if proposal is None else (*proposal.findings, *drawing.findings)
+    return replace(_exact_context(job_from_drawing(drawing, options), found, options.machine), proposal=proposal)
+
+
+def _exact_context(job: Job, findings: tuple[Finding, ...], machine: Machine | None) -> MakeContext:
+    from ..operations.compute import compute
+
+    job.check_operations()
+    return MakeContext(job, load_post(job.post), machine, findings, lambda progress: compute(job, progress))
+
+
+def _on_pixels(name: str, data: bytes, options: MakeOptions, progress: Progress) -> MakeContext:
+    """Return how a drawing or a picture is machined on pixels alone."""
     from .bitmap_job import bitmap_job
     from .bitmap_way import compute_on_bitmap
 
     ready = bitmap_job(name, data, options)
-    load_post(ready.job.post)
-    program = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.5)).program
-    made = finish(program, ready.job, progress.part(0.5, 1.0), ready.findings, options.machine)
-    if not len(program.moves):
-        raise GeometryError(_nothing(name, made.findings))
-    return made
+    return MakeContext(
+        ready.job,
+        load_post(ready.job.post),
+        options.machine,
+        ready.findings,
+        lambda progress: compute_on_bitmap(ready.job, ready.part, progress).program,
+        computed_at=0.5,
+    )
 
 
 def _nothing(name: str, findings: tuple[Finding, ...]) -> str:
@@ -196,10 +236,8 @@ def export(
         HitofudeError: the job cannot be computed or written, or what was written is not what was computed.
         Cancelled: the job was asked to stop.
     """
-    from ..operations.compute import compute
-
-    job.check_operations()
-    return finish(compute(job, progress.part(0.0, 0.6)), job, progress.part(0.6, 1.0), drawing_findings, machine)
+    context = _exact_context(job, drawing_findings, machine)
+    return _finished(context.compute(progress.part(0.0, 0.6)), context, progress.part(0.6, 1.0))
 
 
 def finish(
@@ -214,11 +252,18 @@ def finish(
 
     Args and errors: as `export`.
     """
+    context = MakeContext(job, load_post(job.post), machine, drawing_findings, lambda _: program)
+    return _finished(program, context, progress)
+
+
+def _finished(program: Program, context: MakeContext, progress: Progress) -> Made:
+    """Return all that is made of computed moves: the text, what is proven and measured of it, the report."""
     from ..toolpath.engagement.feed import followed  # compiled code: loaded where it is used
 
+    job = context.job
     program = followed(program, job, progress.part(0.0, 0.1))
     progress.step(0.1, "Writing NC")
-    written = write_and_check(program, job, load_post(job.post), machine, progress.part(0.1, 0.2))
+    written = write_and_check(program, job, context.post, context.machine, progress.part(0.1, 0.2))
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
@@ -236,12 +281,12 @@ def finish(
         *(finding for proof in proofs.values() for finding in proof.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
-        *(written.misfits() if machine else ()),
+        *(written.misfits() if context.machine else ()),
         *coverage_findings(coverage),
         *about_floors(program.areas, CHORD),
         *_ring_findings(program),
     )
-    findings = worst_first((*own, *program.findings, *drawing_findings))
+    findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
     report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal, proofs))
     return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)

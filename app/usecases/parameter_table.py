@@ -1,11 +1,14 @@
-"""The manual's table of all parameters of operations, from their declarations."""
+"""The manual's tables of all parameters of operations and of tools, from their declarations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import MISSING
 
-from ..model.fields import Placed, Unit
+from ..core.toml_tables import Worded
+from ..model.fields import Placed, Unit, declared_of
 from ..model.operation import Operation, parameters
+from ..model.tool import Tool
 
 HEAD = """# Parameters of operations
 
@@ -16,10 +19,35 @@ and in every program's header.
 |---|---|---|---|---|---|---|
 """
 
+TOOLS = """
+# Parameters of tools
+
+Each stands in a job file and in a tool library under its key, and in a spreadsheet as a column. What is 0 or empty is
+not known.
+
+| Key | Name | What it means | Values | Default |
+|---|---|---|---|---|
+"""
+
 
 def parameter_table() -> str:
     """Return the page in Markdown; `resources/docs/parameters.md` is this text."""
-    return HEAD + "".join(f"| {' | '.join(_cells(placed, kinds))} |\n" for placed, kinds in parameters().values())
+    operations = (_cells(placed, kinds) for placed, kinds in parameters().values())
+    tools = (_tool_cells(placed) for placed in declared_of(Tool).values())
+    return HEAD + "".join(map(_row, operations)) + TOOLS + "".join(map(_row, tools))
+
+
+def _row(cells: Iterator[str]) -> str:
+    return f"| {' | '.join(cells)} |\n"
+
+
+def _tool_cells(placed: Placed) -> Iterator[str]:
+    declared = placed.parameter
+    yield f"`{declared.key}`"
+    yield declared.label
+    yield declared.help
+    yield _values(placed)
+    yield "" if placed.default is MISSING else _default(placed)
 
 
 def _cells(placed: Placed, kinds: tuple[type[Operation], ...]) -> Iterator[str]:
@@ -37,13 +65,23 @@ def _values(placed: Placed) -> str:
     declared = placed.parameter
     if placed.enum is not None:
         return ", ".join(str(each.value) for each in placed.enum)
-    words = {Unit.FLAG: "true, false", Unit.CURVES: "selectors", Unit.POINTS: "points [x, y], mm"}
+    if isinstance(placed.default, Worded):
+        return ", ".join(placed.default.words())
+    words = {
+        Unit.FLAG: "true, false",
+        Unit.NAMES: "names",
+        Unit.CURVES: "selectors",
+        Unit.POINTS: "points [x, y], mm",
+        Unit.TEXT: "text",
+        Unit.OUTLINE: "points [height, radius], mm, or a name",
+        Unit.FEEDS: "rows of material, surface_speed, feed_per_tooth, plunge_share",
+    }
     return words.get(declared.unit) or declared.range_words()
 
 
 def _default(placed: Placed) -> str:
     declared, value = placed.parameter, placed.default
-    if placed.enum is not None:
+    if placed.enum is not None or isinstance(value, Worded):
         return str(value.value)
     if value is None:
         return declared.auto

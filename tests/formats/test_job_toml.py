@@ -109,11 +109,11 @@ def test_every_key_is_read() -> None:
         OriginZ.BOTTOM,
         9.0,
         3.0,
-        Order.PATENT_1986,
-        0.3,
         ("a", "b"),
+        0.3,
         "other",
         Units.INCH,
+        Order.PATENT_1986,
         True,
     )
     assert read.units is Units.INCH

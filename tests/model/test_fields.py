@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from enum import Enum
 from typing import Any
 
@@ -15,8 +16,10 @@ from app.cli.commands.make import COMMAND as MAKE
 from app.cli.make_options import make_options
 from app.core.errors import InputError, ParameterError
 from app.core.resources import resource
-from app.formats.job.toml import read_job
-from app.formats.job.write import job_lines
+from app.formats.job.toml import TOOL_KEYS, read_job
+from app.formats.job.write import job_lines, tool_lines
+from app.formats.tools.csv import UNITS, read_tool_csv, write_tool_csv
+from app.formats.tools.library import HEADER, ToolLibrary, read_library, write_library
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post
@@ -27,6 +30,7 @@ from app.model.fields import Unit, built, check_ranges, declared_of, parameter, 
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, Operation, Side, register
 from app.model.part import Part
+from app.model.tool import FeedRow, Tool, ToolKind
 from app.usecases.options import job_with_options
 from app.usecases.parameter_table import parameter_table
 from app.usecases.report_path import _parameters
@@ -156,6 +160,38 @@ def test_what_a_kind_leaves_unused_is_not_among_its_parameters() -> None:
     assert "stepdown" not in parameters_of(operations.DrillOperation)
     for kind in operations.OPERATION_KINDS.values():
         assert declared_of(kind).keys() >= kind.UNUSED
+
+
+def test_a_tools_parameters_are_told_alike_by_all_files() -> None:
+    keys = set(declared_of(Tool))
+    assert keys == {field.name for field in fields(Tool)} == set(TOOL_KEYS) == {*UNITS, "feeds"}
+    for key in keys:
+        assert re.search(rf"\b{key}\b|tool\.{key}", HEADER), f"the head of a library does not explain {key}"
+        assert f"| `{key}` |" in parameter_table()
+    whole = Tool(
+        3,
+        12.0,
+        ToolKind.TAPER,
+        "t",
+        3,
+        9000.0,
+        500.0,
+        90.0,
+        0.0,
+        2.0,
+        math.radians(12),
+        30.0,
+        80.0,
+        40.0,
+        12.0,
+        -1.0,
+        ((0.0, 10.0), (25.0, 15.0)),
+        "r",
+        (FeedRow("brass", 90.0, 0.03),),
+    )
+    library = read_library("l", write_library(ToolLibrary("l", (whole,)))).tools
+    assert library == read_tool_csv("l", write_tool_csv(ToolLibrary("l", (whole,))))[0].tools == (whole,)
+    assert read_job("j", "\n".join(tool_lines(whole)).encode()).job.tools == (whole,)
 
 
 def test_the_manual_has_a_table_of_all() -> None:

@@ -2,40 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
-from ...model.curve_selectors import Selector, on_layers, read_selectors
-from ...model.fields import Placed, Unit, built, declared_of, parameters_of
+from ...model.curve_selectors import on_layers
+from ...model.fields import built, declared_of, parameters_of
 from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
-from .tables import JobTable, read_angle, read_flag, read_number, read_points, read_share, read_texts, read_whole, word
-
-
-def read_curves(value: Any) -> tuple[Selector, ...]:
-    """Return what a list of texts selects.
-
-    Raises:
-        InputError: it is no list of texts. ParameterError: one selects nothing that could be.
-    """
-    return read_selectors(read_texts(value))
-
-
-_READERS: dict[Unit, Callable[[Any], Any]] = {
-    Unit.LENGTH: read_number,
-    Unit.ANGLE: read_angle,
-    Unit.SHARE: read_share,
-    Unit.COUNT: read_whole,
-    Unit.FLAG: read_flag,
-    Unit.CURVES: read_curves,
-    Unit.POINTS: read_points,
-}
-
-
-def reader_of(placed: Placed) -> Callable[[Any], Any]:
-    """Return what reads a parameter's value as TOML gives it; it raises InputError for what can be none."""
-    if placed.enum is not None:
-        return word({each.value: each for each in placed.enum}, placed.parameter.label.lower())
-    return _READERS[placed.parameter.unit]
+from .tables import JobTable, read_texts, reader_of, word
 
 
 def operations_of(tables: list[JobTable], kept: bool = False) -> Iterator[Operation]:

@@ -9,7 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from ...core.errors import HitofudeError, InputError
-from ...core.toml_tables import QUOTED, brief, known_words
+from ...core.toml_tables import QUOTED, Worded, brief, known_words
+from ...model.curve_selectors import Selector, read_selectors
+from ...model.fields import Placed, Unit
 from ...model.tool import FeedRow
 
 Value = TypeVar("Value")
@@ -244,3 +246,38 @@ def read_angle(value: Any) -> float:
 def word(choices: Mapping[str, Value], what: str) -> Callable[[Any], Value]:
     """Return a reader of a word that is one of some."""
     return lambda value: one_of(read_text(value), choices, what)
+
+
+def read_curves(value: Any) -> tuple[Selector, ...]:
+    """Return what a list of texts selects.
+
+    Raises:
+        InputError: it is no list of texts. ParameterError: one selects nothing that could be.
+    """
+    return read_selectors(read_texts(value))
+
+
+_READERS: dict[Unit, Callable[[Any], Any]] = {
+    Unit.LENGTH: read_number,
+    Unit.ANGLE: read_angle,
+    Unit.SHARE: read_share,
+    Unit.COUNT: read_whole,
+    Unit.FLAG: read_flag,
+    Unit.NAMES: read_texts,
+    Unit.CURVES: read_curves,
+    Unit.POINTS: read_points,
+    Unit.SPEED: read_number,
+    Unit.RATE: read_number,
+    Unit.TEXT: read_text,
+    Unit.OUTLINE: read_holder,
+    Unit.FEEDS: read_feeds,
+}
+
+
+def reader_of(placed: Placed) -> Callable[[Any], Any]:
+    """Return what reads a parameter's value as TOML gives it; it raises InputError for what can be none."""
+    if isinstance(placed.default, Worded):
+        return word(type(placed.default).words(), placed.parameter.label.lower())
+    if placed.enum is not None:
+        return word({each.value: each for each in placed.enum}, placed.parameter.label.lower())
+    return _READERS[placed.parameter.unit]

@@ -3,30 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed
-from ...model.job import Copies, Job, OriginXY, OriginZ, Stock
-from ...model.operation import Order
+from ...model.fields import Placed, declared_of, with_values
+from ...model.job import Job, OriginXY, OriginZ
 from ...model.part import Part, Units
 from ...model.tool import Tool
-from ...model.tool_kind import ToolKind
 from .operations import operations_of
 from .tables import (
     JobTable,
     JobText,
     one_of,
-    read_angle,
-    read_feeds,
-    read_flag,
-    read_holder,
-    read_number,
-    read_text,
-    read_texts,
-    read_whole,
+    reader_of,
     word,
 )
 
@@ -47,21 +39,38 @@ ORIGIN_XY = {
     "center": OriginXY.CENTRE,
 }
 ORIGIN_Z = {"top": OriginZ.TOP, "bottom": OriginZ.BOTTOM}
-TABLES = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out", "tool", "operation")
-_LENGTHS = ("flute_length", "overall_length", "stick_out", "shank_diameter", "length_offset")
-TOOL_KEYS: dict[str, Callable[[Any], Any]] = {
-    "number": read_whole,
-    "diameter": read_number,
-    "kind": word(ToolKind.words(), "kind of tool"),
-    "name": read_text,
-    "flutes": read_whole,
-    **dict.fromkeys(("spindle_speed", "feed_rate", "plunge_rate", "corner_radius", "tip_diameter"), read_number),
-    "tip_angle": read_angle,
-    **dict.fromkeys(_LENGTHS, read_number),
-    "holder": read_holder,
-    "remark": read_text,
-    "feeds": read_feeds,
+SETTINGS = ("stock", "origin", "heights", "drawing", "output", "copies", "keep_out")
+"""Tables that hold the job's own parameters, in the order in which they are written."""
+
+TABLES = (*SETTINGS, "tool", "operation")
+
+
+@dataclass(frozen=True)
+class WordList:
+    """Words that stand for values, the first of several being the one that is written; and what they are."""
+
+    words: Mapping[str, Any]
+    what: str
+
+
+WORDS = {
+    "origin_xy": WordList(ORIGIN_XY, "origin in the plane"),
+    "origin_z": WordList(ORIGIN_Z, "height of the origin"),
+    "out_units": WordList(OUT_UNITS, "unit of an NC program"),
 }
+"""Of parameters of the job whose words in files are not those of their enum."""
+
+
+def settings_of(table: str) -> Mapping[str, Placed]:
+    """Return the parameters of the job that stand in a table of a job file, by their keys there."""
+    return {
+        placed.parameter.word or placed.key: placed
+        for placed in declared_of(Job).values()
+        if placed.parameter.table == table
+    }
+
+
+TOOL_KEYS: dict[str, Callable[[Any], Any]] = {key: reader_of(placed) for key, placed in declared_of(Tool).items()}
 """Keys of a [[tool]], and how each is read."""
 
 ORIGIN_HELP = (
@@ -202,84 +211,48 @@ class _JobReader:
         for key in self._tree:
             if key not in TABLES:
                 raise self._wrong(key, f"is no table of a job file; use {', '.join(TABLES)}")
-        values: dict[str, Any] = {**self._origin(), **self._heights(), **self._output()}
-        drawing = self._drawing()
-        units = drawing.pop("units", None)
-        job = self._text.built(
-            "stock", 0, lambda: replace(Job(Part()), **values, **drawing, **self._stock(), **self._keep_out())
-        )
+        tables = {path: self._settings(path) for path in SETTINGS if path != "copies"}
+        self._check_drawing(tables["drawing"])
+        self._check_keep_out(tables["keep_out"])
+        values = {key: value for table in tables.values() for key, value in table.taken.items()}
+        units = values.pop("units", None)
+        job = self._text.built("stock", 0, lambda: with_values(Job(Part()), values))
         tools, operations = self._tool_list(), tuple(operations_of(self._tables("operation"), self._kept))
         tools = tools if "tool" in self._tree and (tools or self._kept) else job.tools
         operations = operations if "operation" in self._tree and (operations or self._kept) else job.operations
-        copies = self._text.built("copies", 0, self._copies)
-        job = replace(job, tools=tools, operations=operations, copies=copies)
+        copies = self._settings("copies")
+        self._check_copies(copies)
+        job = self._text.built("copies", 0, lambda: with_values(job, copies.taken))
+        job = replace(job, tools=tools, operations=operations)
         for index, operation in enumerate(operations if "operation" in self._tree and not self._kept else ()):
             self._text.built("operation", index, lambda each=operation: job.cutter(each))  # type: ignore[misc]
         return JobFile(job, units, frozenset(self._tree))
 
-    def _stock(self) -> dict[str, Any]:
-        table = self._table("stock")
-        table.take("margin", read_number)
-        table.take("thickness", read_number)
-        table.take("under", read_number)
-        table.done("margin, thickness, under")
-        return {"stock": Stock(**table.taken)}
+    def _settings(self, path: str) -> JobTable:
+        """Return a table of the job's parameters, its keys taken by those of the parameters."""
+        table, declared = self._table(path), settings_of(path)
+        if path == "drawing":
+            table.take("units", word(UNITS, "unit"))
+        for key, placed in declared.items():
+            known = WORDS.get(placed.key)
+            table.take(key, word(known.words, known.what) if known else reader_of(placed), placed.key)
+        table.done(", ".join((*(("units",) if path == "drawing" else ()), *declared)))
+        return table
 
-    def _origin(self) -> dict[str, Any]:
-        table = self._table("origin")
-        table.take("xy", word(ORIGIN_XY, "origin in the plane"), "origin_xy")
-        table.take("z", word(ORIGIN_Z, "height of the origin"), "origin_z")
-        table.done("xy, z")
-        return table.taken
-
-    def _heights(self) -> dict[str, Any]:
-        table = self._table("heights")
-        table.take("safe_z", read_number)
-        table.take("retract_z", read_number)
-        table.done("safe_z, retract_z")
-        return table.taken
-
-    def _drawing(self) -> dict[str, Any]:
-        table = self._table("drawing")
-        table.take("units", word(UNITS, "unit"))
-        table.take("layers", read_texts, "layer_names")
-        table.take("join_tolerance", read_number)
-        table.done("units, layers, join_tolerance")
+    def _check_drawing(self, table: JobTable) -> None:
         if not 0 <= table.taken.get("join_tolerance", 0.0) < 1e5:
             raise table.error("join_tolerance", "must be 0 or more, in mm")
-        return table.taken
 
-    def _copies(self) -> Copies:
-        table = self._table("copies")
-        table.take("columns", read_whole)
-        table.take("rows", read_whole)
-        table.take("dx", read_number)
-        table.take("dy", read_number)
-        table.done("columns, rows, dx, dy")
+    def _check_copies(self, table: JobTable) -> None:
         for key, count in (("dx", "columns"), ("dy", "rows")):
             if table.taken.get(key) and table.taken.get(count, 1) == 1 and not self._kept:
                 raise table.error(key, f"has no effect without {count}; add {count} = 2, or take it out")
-        return Copies(**table.taken)
 
-    def _keep_out(self) -> dict[str, Any]:
-        table = self._table("keep_out")
-        table.take("layers", read_texts, "keep_out_layers")
-        table.take("height", read_number, "keep_out_height")
-        table.done("layers, height")
+    def _check_keep_out(self, table: JobTable) -> None:
         if table.taken.get("keep_out_height") and not table.taken.get("keep_out_layers") and not self._kept:
             raise table.error("height", "has no effect without layers; add layers = ['clamps'], or take it out")
         if not 0 <= table.taken.get("keep_out_height", 0.0) < 1e5:
             raise table.error("height", "must be 0 or more and less than 100000, in mm above the stock's top")
-        return table.taken
-
-    def _output(self) -> dict[str, Any]:
-        table = self._table("output")
-        table.take("post", read_text)
-        table.take("units", word(OUT_UNITS, "unit of an NC program"), "out_units")
-        table.take("order", word({order.value: order for order in Order}, "order"))
-        table.take("exact_path", read_flag)
-        table.done("post, units, order, exact_path")
-        return table.taken
 
     def _tool_list(self) -> tuple[Tool, ...]:
         tools: list[Tool] = []

@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 from ...core.toml_tables import spelled
-from ...model.fields import Unit, declared_of, parameters_of
+from ...model.fields import Placed, Unit, declared_of, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.part import Units
 from ...model.tool import Tool
 from ...model.tool_kind import shape_keys
 from ..tools.library import shortest_degrees
-from .toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, TOOL_KEYS, UNITS
+from .toml import SETTINGS, TOOL_KEYS, UNITS, WORDS, settings_of
 
 Value = TypeVar("Value")
 
@@ -26,28 +26,18 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
         job: what they say.
         units: of a drawing that names none, or None.
     """
-    stock = job.stock
-    yield from _table("stock", {"margin": stock.margin, "thickness": stock.thickness, "under": stock.under})
-    yield from _table("origin", {"xy": word_of(ORIGIN_XY, job.origin_xy), "z": word_of(ORIGIN_Z, job.origin_z)})
-    yield from _table("heights", {"safe_z": job.safe_z, "retract_z": job.retract_z})
-    drawing = {"units": word_of(UNITS, units)} if units else {}
-    yield from _table("drawing", {**drawing, "layers": job.layer_names, "join_tolerance": job.join_tolerance})
-    yield from _table(
-        "output",
-        {
-            "post": job.post,
-            "units": word_of(OUT_UNITS, job.out_units),
-            "order": job.order,
-            "exact_path": job.exact_path,
-        },
-    )
-    copies = job.copies
-    yield from _table("copies", {"columns": copies.columns, "rows": copies.rows, "dx": copies.dx, "dy": copies.dy})
-    yield from _table("keep_out", {"layers": job.keep_out_layers, "height": job.keep_out_height})
+    for path in SETTINGS:
+        values = {key: _setting(placed, job) for key, placed in settings_of(path).items()}
+        yield from _table(path, {"units": word_of(UNITS, units), **values} if path == "drawing" and units else values)
     for tool in job.tools:
         yield from tool_lines(tool)
     for operation in job.operations:
         yield from _table("operation", dict(_operation(operation)), several=True)
+
+
+def _setting(placed: Placed, job: Job) -> Any:
+    value, known = placed.of(job), WORDS.get(placed.key)
+    return word_of(known.words, value) if known else value
 
 
 def empty_lists(job: Job) -> Iterator[str]:

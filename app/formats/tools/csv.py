@@ -18,6 +18,7 @@ from typing import Any
 
 from ...core.errors import HitofudeError, InputError, printable
 from ...core.toml_tables import QUOTED, brief
+from ...model.fields import Unit, declared_of
 from ...model.tool import FeedRow, HolderPoint, Tool
 from ...model.tool_kind import ToolKind, tool_kinds
 from .holders import outline_of
@@ -25,26 +26,19 @@ from .library import ToolLibrary, check_numbers, shortest_degrees
 
 LENGTH = {"mm": 1.0, "in": 25.4, "inch": 25.4, "": 1.0}
 RATE = {"mm_min": 1.0, "in_min": 25.4, "ipm": 25.4, "": 1.0}
-UNITS: dict[str, dict[str, float]] = {
-    "number": {"": 1.0},
-    "name": {"": 1.0},
-    "kind": {"": 1.0},
-    "diameter": LENGTH,
-    "flutes": {"": 1.0},
-    "spindle_speed": {"rpm": 1.0, "": 1.0},
-    "feed_rate": RATE,
-    "plunge_rate": RATE,
-    "corner_radius": LENGTH,
-    "tip_diameter": LENGTH,
-    "tip_angle": {"deg": math.pi / 180, "": math.pi / 180},
-    "flute_length": LENGTH,
-    "overall_length": LENGTH,
-    "stick_out": LENGTH,
-    "shank_diameter": LENGTH,
-    "length_offset": LENGTH,
-    "holder": {"mm": 1.0, "": 1.0},
-    "remark": {"": 1.0},
+_BY_UNIT = {
+    Unit.LENGTH: LENGTH,
+    Unit.SPEED: {"rpm": 1.0, "": 1.0},
+    Unit.RATE: RATE,
+    Unit.ANGLE: {"deg": math.pi / 180, "": math.pi / 180},
+    Unit.OUTLINE: {"mm": 1.0, "": 1.0},
 }
+DECLARED = {key: placed.parameter.unit for key, placed in declared_of(Tool).items() if key != "feeds"}
+UNITS: dict[str, dict[str, float]] = {
+    key: _BY_UNIT.get(DECLARED[key], {"": 1.0}) for key in dict.fromkeys(("number", "name", "kind", *DECLARED))
+}
+"""The columns of tools, and the units that may stand behind their names."""
+
 FEED_UNITS: dict[str, dict[str, float]] = {
     "surface_speed": {"m_min": 1.0, "": 1.0},
     "feed_per_tooth": LENGTH,
@@ -191,14 +185,15 @@ class _Sheet:
         return made
 
     def _value(self, column: _Column, cell: str, place: str) -> Any:
-        if column.field in ("name", "remark"):
+        unit = DECLARED.get(column.field)
+        if unit is Unit.TEXT:
             return cell
-        if column.field == "kind":
+        if unit is Unit.CHOICE:
             return _built(lambda: _kind(cell), place)
-        if column.field == "holder":
+        if unit is Unit.OUTLINE:
             return _built(lambda: _holder(cell), place)
         number = self._number(cell, place)
-        if column.field in ("number", "flutes"):
+        if unit is Unit.COUNT:
             if number != int(number):
                 raise InputError(f"{place} is {brief(cell, QUOTED)}; it must be a whole number.")
             return int(number)
@@ -311,4 +306,4 @@ def _cell(tool: Tool, field: str) -> str | int | float:
         return shortest_degrees(value)
     if value == 0:
         return ""
-    return float(value) if field not in ("number", "flutes", "name", "remark") else value
+    return value if DECLARED[field] in (Unit.COUNT, Unit.TEXT) else float(value)

@@ -8,16 +8,16 @@ are, where they are what some number of degrees is.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import MISSING, dataclass, make_dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 from ...core.errors import HitofudeError, InputError
 from ...core.resources import resource
 from ...core.settings import config_folder
 from ...core.toml_tables import read_tree, tables_of, write_tables
-from ...model.tool import FeedRow, HolderPoint, Tool
-from ...model.tool_kind import ToolKind
+from ...model.fields import Unit, declared_of
+from ...model.tool import Tool
 from .holders import outline_of
 
 FORMAT = 1
@@ -55,65 +55,56 @@ class ToolLibrary:
     remark: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class _Entry:
-    """A tool as the file has it; None: left out."""
+def _tool(entry: Any) -> Tool:
+    """Return the tool of an entry of a file.
 
-    number: int
-    diameter: float
-    kind: ToolKind | None = None
-    name: str | None = None
-    flutes: int | None = None
-    spindle_speed: float | None = None
-    feed_rate: float | None = None
-    plunge_rate: float | None = None
-    corner_radius: float | None = None
-    tip_diameter: float | None = None
-    tip_angle: float | None = None
-    flute_length: float | None = None
-    overall_length: float | None = None
-    stick_out: float | None = None
-    shank_diameter: float | None = None
-    length_offset: float | None = None
-    remark: str | None = None
-    holder: tuple[HolderPoint, ...] = ()
-    feeds: tuple[FeedRow, ...] = ()
-
-    def __post_init__(self) -> None:
-        self.tool()
-
-    def tool(self) -> Tool:
-        """Return the tool.
-
-        Raises:
-            ParameterError: a value is out of its range.
-        """
-        values = {each.name: value for each in fields(self) if (value := getattr(self, each.name)) is not None}
-        if self.tip_angle is not None:
-            values["tip_angle"] = math.radians(self.tip_angle)
-        return Tool(**values)
-
-    @staticmethod
-    def of(tool: Tool) -> _Entry:
-        """Return a tool's entry, without what is as the model has it anyway."""
-        usual = Tool(tool.number, tool.diameter)
-        values = {each.name: getattr(tool, each.name) for each in fields(_Entry)}
-        told = {
-            name: value
-            for name, value in values.items()
-            if name in ("number", "diameter") or value != getattr(usual, name)
-        }
-        if tool.tip_angle:
-            told["tip_angle"] = shortest_degrees(tool.tip_angle)
-        return _Entry(**told)
+    Raises:
+        ParameterError: a value is out of its range.
+    """
+    values = {key: value for key in _KEYS if (value := getattr(entry, key)) is not None}
+    if entry.tip_angle is not None:
+        values["tip_angle"] = math.radians(entry.tip_angle)
+    return Tool(**values)
 
 
-@dataclass(frozen=True, slots=True)
-class _File:
-    format: int
-    name: str = ""
-    remark: str = ""
-    tool: tuple[_Entry, ...] = ()
+def _entry(tool: Tool) -> Any:
+    """Return a tool's entry, without what is as the model has it anyway."""
+    told = {
+        key: placed.of(tool)
+        for key, placed in declared_of(Tool).items()
+        if placed.default is MISSING or placed.of(tool) != placed.default
+    }
+    if tool.tip_angle:
+        told["tip_angle"] = shortest_degrees(tool.tip_angle)
+    return _Entry(**told)
+
+
+_LISTS = (Unit.OUTLINE, Unit.FEEDS)
+_KEYS = sorted(declared_of(Tool), key=lambda key: declared_of(Tool)[key].parameter.unit in _LISTS)
+"""Of a [[tool]], in the order in which they are written: what is no list first."""
+
+
+def _entry_field(key: str, hint: Any) -> tuple[Any, ...]:
+    """Return the field of an entry for a parameter of tools: None, or no list, where the file leaves it out."""
+    placed = declared_of(Tool)[key]
+    if placed.default is MISSING:
+        return key, hint
+    return (key, hint, ()) if placed.parameter.unit in _LISTS else (key, hint | None, None)
+
+
+_Entry = make_dataclass(
+    "_Entry",
+    [_entry_field(key, get_type_hints(Tool)[key]) for key in _KEYS],
+    namespace={"__post_init__": _tool},
+    frozen=True,
+)
+"""A tool as the file has it."""
+
+_File = make_dataclass(
+    "_File",
+    [("format", int), ("name", str, ""), ("remark", str, ""), ("tool", tuple[_Entry, ...], ())],  # type: ignore[valid-type]
+    frozen=True,
+)
 
 
 def shortest_degrees(angle: float) -> float:
@@ -135,8 +126,8 @@ def read_library(name: str, data: bytes) -> ToolLibrary:
     """
     tree = read_tree(name, data)
     _draw_holders(name, tree)
-    read = tables_of(_File, tree, (name, data), RANGES)
-    tools = tuple(entry.tool() for entry in read.tool)
+    read: Any = tables_of(_File, tree, (name, data), RANGES)
+    tools = tuple(map(_tool, read.tool))
     check_numbers(name, tools)
     return ToolLibrary(read.name, tools, read.remark)
 
@@ -173,7 +164,7 @@ def write_library(library: ToolLibrary) -> bytes:
         InputError: two tools have the same number.
     """
     check_numbers(library.name or "tool library", library.tools)
-    made = _File(FORMAT, library.name, library.remark, tuple(_Entry.of(tool) for tool in library.tools))
+    made = _File(FORMAT, library.name, library.remark, tuple(map(_entry, library.tools)))
     return f"{HEADER}\n{write_tables(made)}".encode()
 
 
