@@ -19,11 +19,11 @@ from .program import SUMMARIES, listed, run_command
 from .signals import Stopped, Stopping, stoppable
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
-HELP = """\
+HELP = f"""\
 Hitofude: from a line drawing to tool paths that can be trusted on a real machine.
 
   hitofude [open] [FILE]              the window, with FILE or the sample part
-{commands}
+{listed()}
   hitofude --version                  this version
   hitofude --help                     this text
 
@@ -83,7 +83,7 @@ def _wait(stopped: Stopping, line: WaitLine, text: str) -> None:
 def _command(argv: list[str], stopped: Stopping) -> int:
     name = argv[0] if argv else ""
     if name in ("", "-h", "--help", "help"):
-        tell(HELP.format(commands=listed()).rstrip())
+        tell(HELP.rstrip())
         return DONE
     if name in ("-V", "--version"):
         tell(f"hitofude {__version__}")

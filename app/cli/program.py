@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from .command import CliCommand, OptionParser
 from .output import tell
 from .signals import Stopping
+
+if TYPE_CHECKING:
+    from .command import CliCommand
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,8 @@ SUMMARIES = {
 
 def program_parser() -> argparse.ArgumentParser:
     """Return the parser of the program, with a sub-parser a command."""
+    from .command import OptionParser  # not before signals are heard: it brings the model along
+
     parser = argparse.ArgumentParser(prog="hitofude", add_help=False, exit_on_error=False)
     commands = parser.add_subparsers(dest="command", parser_class=OptionParser)
     for name in SUMMARIES:
