@@ -21,7 +21,7 @@ _NAMED = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Selected:
+class SelectedCurves:
     """Contours of a drawing that an operation works on.
 
     Attributes:
@@ -32,13 +32,13 @@ class Selected:
     open: tuple[Contour, ...]
 
 
-def selected(drawn: Drawn, curves: Sequence[Selector]) -> Selected:
+def selected(drawn: Drawn, curves: Sequence[Selector]) -> SelectedCurves:
     """Return the contours that any of some selectors selects; without one all that the job machines."""
     if not curves:
-        return Selected(drawn.closed, drawn.open)
+        return SelectedCurves(drawn.closed, drawn.open)
     placed = any(each in (ContourKind.OUTER, ContourKind.INNER) for each in curves)
     inner = drawn.inner if placed else frozenset()
-    return Selected(
+    return SelectedCurves(
         tuple(c for c in drawn.closed if any(_selects(each, c, id(c) in inner) for each in curves)),
         tuple(c for c in drawn.open if any(_selects(each, c, False) for each in curves)),
     )
@@ -72,7 +72,7 @@ def about_selected(job: Job, drawn: Drawn) -> list[Finding]:
     ]
 
 
-def _usable(operation: Operation, found: Selected) -> bool:
+def _usable(operation: Operation, found: SelectedCurves) -> bool:
     """Tell whether an operation can machine something of what was found."""
     if operation.wall_side is Side.ON:
         return bool(found.closed or found.open)

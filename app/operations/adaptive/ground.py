@@ -89,7 +89,7 @@ class Disc:
 
 
 @dataclass
-class Discs:
+class ClearedDiscs:
     """Discs that are clear, in the order of cutting."""
 
     each: list[Disc] = field(default_factory=list)

@@ -45,7 +45,7 @@ def farthest(label: Label, levels: Levels) -> float:
 
 
 @dataclass(eq=False)
-class Passes:
+class DiscPasses:
     """Cuts parts at all depths.
 
     Attributes:

@@ -17,7 +17,7 @@ from ...toolpath.narrow import finest, necks, too_small
 from ...toolpath.setting import Setting, check_depth, levels_of
 from ...toolpath.sheets import Sheet
 from .limit import Limit
-from .passes import Passes, farthest, nearest_first
+from .passes import DiscPasses, farthest, nearest_first
 from .plan import Part, Task, least_turn, mirrored, mirrored_part, plan
 
 _INCH = 2.54
@@ -68,7 +68,7 @@ def adaptive(setting: Setting, index: int, progress: Progress) -> None:
     parts = tuple(nearest_first(parts, setting.at))
     keep = tool.radius + cut.stock_to_leave
     ground = Ground(tool, cut.entry, sheet.distances, keep, True, cut.direction, setting.cleared, setting.tabs)
-    passes = Passes(setting.builder, label, ground, levels, operation.lift)
+    passes = DiscPasses(setting.builder, label, ground, levels, operation.lift)
     passes.cut(parts, progress.part(0.9, 1.0))
     setting.strokes += sum(len(part.runs) for part in parts) * len(levels.passes)
     setting.at = (float(parts[-1].runs[-1].rows[-1, 2]), float(parts[-1].runs[-1].rows[-1, 3]))

@@ -14,12 +14,12 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
-from .axis import Axis, medial_axis
-from .ground import Discs, Point, Room
+from .axis import MedialAxis, medial_axis
+from .ground import ClearedDiscs, Point, Room
 from .limit import Limit
 from .ring import Proof, rounded, sharp_corners
 from .spiral import spiral
-from .walk import Stop, Tree, Walk, trees
+from .walk import AxisWalk, Tree, WalkStop, trees
 from .way import Run, Way
 
 Floats = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Part:
 
     runs: tuple[Run, ...]
     region: int
-    stops: tuple[Stop, ...] = ()
+    stops: tuple[WalkStop, ...] = ()
     unproven: tuple[Point, ...] = ()
 
 
@@ -96,14 +96,14 @@ def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Pa
         if axis.reach[tree.root] < limit.radius + least - 1e-9:
             continue
         part = progress.part(0.4 + 0.6 * k / len(found), 0.4 + 0.6 * (k + 1) / len(found))
-        parts.append(_part(_Area(room, axis, (fine, coarse), (tip, least), task), tree, limit, part))
+        parts.append(_part(_PlannedArea(room, axis, (fine, coarse), (tip, least), task), tree, limit, part))
     return tuple(parts)
 
 
 @dataclass(frozen=True, eq=False)
-class _Area:
+class _PlannedArea:
     room: Room
-    axis: Axis
+    axis: MedialAxis
     levels: tuple[Level, Level]
     turns: tuple[float, float]
     task: Task
@@ -122,7 +122,7 @@ def _tip(turns: Floats, limit: Limit, least: float) -> float:
     return max(min(least, _SLIVER * sine / max(1e-9, 1 - sine)), limit.least_turn)
 
 
-def _complete(axis: Axis, level: Level, room: Room) -> Axis:
+def _complete(axis: MedialAxis, level: Level, room: Room) -> MedialAxis:
     """Return the axis with a point in each part that has none, such as the middle of a circle."""
     points, reach = [axis.points], [axis.reach]
     for ring in level.rings:
@@ -137,11 +137,11 @@ def _complete(axis: Axis, level: Level, room: Room) -> Axis:
         reach.append(np.array([wide]))
     made = np.concatenate(points)
     lone = np.arange(len(axis.points), len(made))
-    return Axis(made, np.concatenate(reach), np.concatenate([axis.edges, np.column_stack([lone, lone])]))
+    return MedialAxis(made, np.concatenate(reach), np.concatenate([axis.edges, np.column_stack([lone, lone])]))
 
 
-def _part(area: _Area, tree: Tree, limit: Limit, progress: Progress) -> Part:
-    walk = Walk(limit, area.room, area.axis)
+def _part(area: _PlannedArea, tree: Tree, limit: Limit, progress: Progress) -> Part:
+    walk = AxisWalk(limit, area.room, area.axis)
     walk.along(tree, progress.part(0.0, 0.5))
     discs = walk.discs
     paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
@@ -160,7 +160,7 @@ def _begin(path: Rows) -> Point:
     return x, y
 
 
-def _rings(area: _Area, discs: Discs, limit: Limit, progress: Progress) -> tuple[list[Rows], list[Point]]:
+def _rings(area: _PlannedArea, discs: ClearedDiscs, limit: Limit, progress: Progress) -> tuple[list[Rows], list[Point]]:
     """Return the ways along the walls of a part, each proven; the coarse one where the fine one is not."""
     proof = Proof(limit, area.room, discs)
     done: list[Rows] = []
@@ -173,7 +173,7 @@ def _rings(area: _Area, discs: Discs, limit: Limit, progress: Progress) -> tuple
     return done, list(proof.unproven)
 
 
-def _beside(ring: Ring, discs: Discs, limit: Limit) -> bool:
+def _beside(ring: Ring, discs: ClearedDiscs, limit: Limit) -> bool:
     """Tell whether a ring lies along walls that discs of this part touch."""
     table = discs.table
     places = ring.rows[:, :2]
@@ -199,7 +199,7 @@ def mirrored_part(part: Part) -> Part:
     return replace(
         part,
         runs=tuple(Run(mirrored_rows(run.rows), run.clear) for run in part.runs),
-        stops=tuple(Stop((-stop.place[0], stop.place[1]), stop.width) for stop in part.stops),
+        stops=tuple(WalkStop((-stop.place[0], stop.place[1]), stop.width) for stop in part.stops),
         unproven=tuple((-x, y) for x, y in part.unproven),
     )
 
@@ -211,6 +211,6 @@ def mirrored_rows(rows: Rows) -> Rows:
     return out
 
 
-def narrow(parts: Sequence[Part]) -> list[Stop]:
+def narrow(parts: Sequence[Part]) -> list[WalkStop]:
     """Return where the area is too narrow for the limit."""
     return [stop for part in parts for stop in part.stops]

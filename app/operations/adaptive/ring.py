@@ -13,7 +13,7 @@ from ...core.progress import Progress
 from ...geometry.offset.offset import Ring
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, points_at, sweeps
 from ...toolpath.engagement.rim_kernels import bound_along
-from .ground import Disc, Discs, Point, Room
+from .ground import ClearedDiscs, Disc, Point, Room
 from .limit import Limit
 
 Floats = NDArray[np.float64]
@@ -89,7 +89,7 @@ class Proof:
 
     limit: Limit
     room: Room
-    discs: Discs
+    discs: ClearedDiscs
     unproven: list[Point] = field(default_factory=list)
 
     def holds(self, path: Rows, progress: Progress) -> bool:

@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...core.progress import Progress
-from .axis import Axis
-from .ground import Disc, Discs, Point, Room
+from .axis import MedialAxis
+from .ground import ClearedDiscs, Disc, Point, Room
 from .limit import Limit
 
 _CONTAINED = 1e-4
@@ -29,7 +29,7 @@ _HALVINGS = 40
 
 
 @dataclass(frozen=True)
-class Stop:
+class WalkStop:
     """A place beyond which the axis goes on and the cutter does not: where, mm, and how wide the area is there, mm."""
 
     place: Point
@@ -37,7 +37,7 @@ class Stop:
 
 
 @dataclass
-class Walk:
+class AxisWalk:
     """Walks along the axis of one connected part.
 
     Attributes:
@@ -47,9 +47,9 @@ class Walk:
 
     limit: Limit
     room: Room
-    axis: Axis
-    discs: Discs = field(default_factory=Discs)
-    stops: list[Stop] = field(default_factory=list)
+    axis: MedialAxis
+    discs: ClearedDiscs = field(default_factory=ClearedDiscs)
+    stops: list[WalkStop] = field(default_factory=list)
 
     def along(self, tree: Tree, progress: Progress) -> None:
         """Clear all of a tree, from its root on.
@@ -106,7 +106,7 @@ class Walk:
             found = self._farthest(start, points[ahead], payer)
             if found is None or math.dist(found, at) < _PROGRESS:
                 x, y = at.tolist()
-                self.stops.append(Stop((x, y), 2 * self.room.at((x, y))))
+                self.stops.append(WalkStop((x, y), 2 * self.room.at((x, y))))
                 return None
             centre, wide = self._exact(found, payer)
             payer = self._taken(centre, wide, payer)
@@ -161,7 +161,7 @@ class Tree:
         return self.after.get(node, [])
 
 
-def trees(axis: Axis) -> list[Tree]:
+def trees(axis: MedialAxis) -> list[Tree]:
     """Return a spanning tree of each connected part, made of its widest edges."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
@@ -185,7 +185,7 @@ def trees(axis: Axis) -> list[Tree]:
     return found
 
 
-def _tree(axis: Axis, root: int, order: list[int], before: np.ndarray) -> Tree:
+def _tree(axis: MedialAxis, root: int, order: list[int], before: np.ndarray) -> Tree:
     long = dict.fromkeys(order, 0.0)
     after: dict[int, list[int]] = {}
     for node in reversed(order[1:]):

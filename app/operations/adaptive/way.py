@@ -14,7 +14,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.primitives import Rows, distances, within_half_turn
 from ...toolpath.build import split_row
 from ...toolpath.linking.bridge import foot, fraction_at
-from .ground import Disc, Discs, Point
+from .ground import ClearedDiscs, Disc, Point
 from .limit import Limit
 from .link import Circle, Pose, Row, smooth_way, way_in
 
@@ -46,7 +46,7 @@ class Way:
     """
 
     limit: Limit
-    discs: Discs
+    discs: ClearedDiscs
     farthest: float
     runs: list[Run] = field(default_factory=list)
     _rows: list[Row] = field(default_factory=list)
