@@ -20,6 +20,8 @@ from app.gcode.interpreter.text import Text
 from app.model.motion import MotionKind
 
 SECONDS, BYTES, MEGABYTES = 2.0, 1_000_000, 500
+BUSY = 20
+"""Times the seconds of the processor that a process is waited for: others may be at work."""
 
 
 def judged(data: bytes, dialect: Dialect = Dialect.LINUXCNC) -> NcProgram:
@@ -73,13 +75,15 @@ def _judge_problems(program: NcProgram, data: bytes) -> None:
         assert problem.told("a.ngc").startswith(f"a.ngc:{problem.line}:")
 
 
-def judged_apart(texts: list[bytes], dialect: Dialect, seconds: float = 60.0) -> str:
-    """Judge texts in a process that may grow by 500 MB only; return what went wrong, or ""."""
+def judged_apart(texts: list[bytes], dialect: Dialect, seconds: int = 60) -> str:
+    """Judge texts in a process that may grow by 500 MB only, and take so many seconds of the processor; return what
+    went wrong, or "".
+    """
     ours, theirs = multiprocessing.get_context("fork").Pipe()
-    child = multiprocessing.get_context("fork").Process(target=_judge_all, args=(theirs, texts, dialect))
+    child = multiprocessing.get_context("fork").Process(target=_judge_all, args=(theirs, texts, dialect, seconds))
     child.start()
     theirs.close()
-    told = _told_in_time(ours, seconds)
+    told = _told_in_time(ours, BUSY * seconds)
     child.kill()
     child.join()
     return told
@@ -92,7 +96,8 @@ def _told_in_time(ours: Connection, seconds: float) -> str:
         return "the process died"
 
 
-def _judge_all(answer: Connection, texts: list[bytes], dialect: Dialect) -> None:
+def _judge_all(answer: Connection, texts: list[bytes], dialect: Dialect, seconds: int) -> None:
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))  # which ends it
     read_program(b"G0 X1\n")  # the compiled lane is loaded before memory is counted
     with open("/proc/self/statm") as file:
         size = int(file.read().split()[0]) * resource.getpagesize()
