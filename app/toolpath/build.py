@@ -173,7 +173,9 @@ class MovesBuilder:
         )
         self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
 
-    def along(self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: NDArray[np.float64]) -> None:
+    def along(
+        self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: NDArray[np.float64]
+    ) -> None:
         """Append a path whose rows each end at their own height, mm, and have their own feed, mm/min, (n,) each."""
         self._path(stroke, heights, label, feed)
 

@@ -198,3 +198,4 @@ def _on(centre: Point, radius: float, angle: float) -> Point:
 
 def _holds(circle: Circle, place: Point) -> bool:
     return math.dist(circle[:2], place) <= circle[2]
+
