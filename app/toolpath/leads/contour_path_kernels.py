@@ -1,9 +1,7 @@
 """Compiled inner loops on many paths at once: how far along each of them something is."""
 
-import math
-
 from ...core.jit import kernel
-from ...geometry.kernels import INF, nearest
+from ...geometry.kernels import INF, nearest, place_on
 
 _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
 _ROUNDING = 1e-9
@@ -41,22 +39,6 @@ def counts_below(values, first, run, asked, equal, out):
         out[i] = low - begin
 
 
-@kernel("UniTuple(float64, 2)(float64[:, ::1], int64, float64)", counts=False)
-def _place_at(rows, k, fraction):
-    """Return the place at a fraction in [0, 1] of the length of row k."""
-    ax, ay, bx, by, cx, cy, turn = rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3], rows[k, 4], rows[k, 5], rows[k, 7]
-    if turn == 0.0:
-        return ax + (bx - ax) * fraction, ay + (by - ay) * fraction
-    if fraction == 0.0:
-        return ax, ay
-    start = math.atan2(ay - cy, ax - cx)
-    sweep = turn * (math.atan2(by - cy, bx - cx) - start) % (2.0 * math.pi)
-    if ax == bx and ay == by:
-        sweep = 2.0 * math.pi
-    angle = start + turn * sweep * fraction
-    return cx + rows[k, 6] * math.cos(angle), cy + rows[k, 6] * math.sin(angle)
-
-
 @kernel(f"void({_TREE}, float64[:, ::1], float64[::1], float64[::1], float64, float64, boolean[::1])")
 def keep_clear(walls, order, nodes, rows, sizes, need, step, miss, good):
     """Write for each row (n, 8) whether all of it is at least `need` (n,) mm from all walls.
@@ -70,7 +52,7 @@ def keep_clear(walls, order, nodes, rows, sizes, need, step, miss, good):
     for k in range(len(rows)):
         at, known, good[k] = 0.0, INF, True
         while True:
-            x, y = _place_at(rows, k, min(at / max(sizes[k], 1e-300), 1.0))
+            x, y = place_on(rows, k, min(at / max(sizes[k], 1e-300), 1.0))
             limit = min(max(need[k], 0.0) + sizes[k] - at, known) + _ROUNDING
             distance, row = nearest(walls, order, nodes, x, y, limit)
             spare = distance - need[k]
