@@ -32,6 +32,45 @@ def enlarged(table, count, room):
     return larger
 
 
+@kernel("float64(float64[:, ::1], int64)", counts=False)
+def row_sweep(rows, j):
+    """Return the signed sweep of row j, radians; 0 for a line; a row that ends where it starts is a full turn."""
+    turn = rows[j, 7]
+    if turn == 0.0:
+        return 0.0
+    if rows[j, 0] == rows[j, 2] and rows[j, 1] == rows[j, 3]:
+        return 2.0 * math.pi * turn
+    a = math.atan2(rows[j, 1] - rows[j, 5], rows[j, 0] - rows[j, 4])
+    b = math.atan2(rows[j, 3] - rows[j, 5], rows[j, 2] - rows[j, 4])
+    return ((b - a) if turn > 0.0 else (a - b)) % (2.0 * math.pi) * turn
+
+
+@kernel("void(float64[:, ::1], float64[::1])")
+def row_sweeps(rows, found):
+    """Write the signed sweep of each row, see `row_sweep`."""
+    for j in range(len(rows)):
+        found[j] = row_sweep(rows, j)
+
+
+@kernel("UniTuple(float64, 2)(float64[:, ::1], int64, float64)", counts=False)
+def place_on(rows, j, fraction):
+    """Return the place at a fraction in [0, 1] of the length of row j."""
+    x, y = rows[j, 0], rows[j, 1]
+    if rows[j, 7] == 0.0:
+        return x + (rows[j, 2] - x) * fraction, y + (rows[j, 3] - y) * fraction
+    if fraction == 0.0:
+        return x, y
+    angle = math.atan2(y - rows[j, 5], x - rows[j, 4]) + row_sweep(rows, j) * fraction
+    return rows[j, 4] + rows[j, 6] * math.cos(angle), rows[j, 5] + rows[j, 6] * math.sin(angle)
+
+
+@kernel("void(float64[:, ::1], float64[::1], float64[:, ::1])")
+def places_on(rows, fractions, found):
+    """Write the place (n, 2) at a fraction in [0, 1] of the length of each row."""
+    for j in range(len(rows)):
+        found[j, 0], found[j, 1] = place_on(rows, j, fractions[j])
+
+
 @kernel("boolean(float64[:, ::1], int64, float64, float64)", counts=False)
 def in_sector(rows, j, x, y):
     """Return whether the centre of arc j sees a point in a direction in which it sees the arc."""

@@ -23,6 +23,8 @@ Rows = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _MAX_SWEEP = 0.75 * math.pi
+_MANY = 256
+"""Rows from which compiled code is worth being loaded."""
 
 _FEW = 8
 """Rows that are measured quicker one by one."""
@@ -189,6 +191,12 @@ def within_half_turn(rows: Rows) -> Rows:
 
 def sweeps(rows: Rows) -> NDArray[np.float64]:
     """Return the signed sweep of each row, radians; 0 for lines; a row that ends where it starts is a full turn."""
+    if len(rows) >= _MANY:
+        from . import kernels  # here, so that the window opens without the compiler
+
+        found = np.empty(len(rows))
+        kernels.row_sweeps(np.ascontiguousarray(rows, np.float64), found)
+        return found
     a = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX])
     b = np.arctan2(rows[:, Y1] - rows[:, CY], rows[:, X1] - rows[:, CX])
     turn = np.where(rows[:, TURN] >= 0, (b - a) % math.tau, (a - b) % math.tau)
@@ -283,6 +291,12 @@ def samples(rows: Rows, tolerance: float | NDArray[np.float64]) -> tuple[Indices
 
 def points_at(rows: Rows, fraction: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the point (n, 2) at a fraction in [0, 1] of each row's length."""
+    if len(rows) >= _MANY:
+        from . import kernels  # here, so that the window opens without the compiler
+
+        found = np.empty((len(rows), 2))
+        kernels.places_on(np.ascontiguousarray(rows, np.float64), np.ascontiguousarray(fraction, np.float64), found)
+        return found
     line = rows[:, :2] + (rows[:, 2:4] - rows[:, :2]) * fraction[:, None]
     angle = np.arctan2(rows[:, Y0] - rows[:, CY], rows[:, X0] - rows[:, CX]) + sweeps(rows) * fraction
     arc = rows[:, CX:R] + rows[:, [R]] * np.stack([np.cos(angle), np.sin(angle)], 1)

@@ -20,7 +20,7 @@ from ..model.part import Region
 from ..model.stock_box import StockBox
 from ..toolpath.coverage.flat import lines, move_rows, region_shapes
 from .bounds import Bound, bounds_of, cutting_radius, in_dog_bones, off_lines, out_of_holes
-from .clearance import curve_distance
+from .clearance import curve_distance, pair_distance
 
 Floats = NDArray[np.float64]
 
@@ -227,7 +227,7 @@ def _depths(rows: Floats, need: Floats, walls: Floats, progress: Progress = NO_P
         progress.step(first / len(rows), "Checking clearance")
         some = slice(first, first + _PORTION)
         move, wall = near(tree, lines(rows[some], _ROUGH), need[some] + 4 * _ROUGH)
-        distance, points = curve_distance(rows[some][move], walls[wall])
+        distance, points = pair_distance(rows[some], walls, move, wall)
         short = need[some][move] - distance
         order = np.lexsort((short, move))
         worst = order[np.flatnonzero(np.diff(move[order], append=-1))]  # of each move the last, which is the deepest

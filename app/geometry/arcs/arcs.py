@@ -14,6 +14,7 @@ from ...core.errors import GeometryError
 from ...model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Spline
 from . import span_kernels as kernels
 from .bezier import Pieces, pieces_of, products
+from .bezier_kernels import surely_not_round
 
 Floats = NDArray[np.float64]
 _MOST = 20_000
@@ -91,11 +92,15 @@ def _as_circle(curve: Ellipse | Spline, pieces: Pieces, closed: bool, tolerance:
     """Return one circle or arc for a curve that is one; a closed one may differ by the tolerance, as it has no ends to
     keep.
     """
+    given = curve.centre if isinstance(curve, Ellipse) else None
+    limit = tolerance if closed else tolerances.WELD
+    if surely_not_round(pieces.control, given is not None, *(given or (0.0, 0.0)), limit):
+        return None
     places = np.linspace(0.0, len(pieces), 8 * len(pieces) + 1)
     points, _ = pieces.at(places)
     centre = _middle_of(points[0], points[len(points) // 3], points[2 * len(points) // 3])
-    if isinstance(curve, Ellipse):
-        centre = np.array(curve.centre)
+    if given is not None:
+        centre = np.array(given)
     if centre is None:
         return None
     arms = points - centre

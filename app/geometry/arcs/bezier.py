@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.curves import Ellipse, Spline
+from . import bezier_kernels as kernels
 
 Floats = NDArray[np.float64]
 _CORNER = 1e-4
@@ -160,8 +161,6 @@ def _of_spline(curve: Spline) -> Pieces:
 def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:
     """Return the Bézier pieces of a B-spline, from knot to knot; spans that are empty are left out.
 
-    Control point j of a span is the blossom at its ends, taken p - j and j times.
-
     Args:
         points: (k, d) control points, homogeneous where the spline is rational.
         knots: (k + degree + 1,) not decreasing.
@@ -173,13 +172,5 @@ def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:
     p = degree
     spans = np.flatnonzero(np.diff(knots[p : len(points) + 1]) > 1e-12 * max(1e-300, knots[-1] - knots[0])) + p
     result = np.empty((len(spans), p + 1, points.shape[1]))
-    for j in range(p + 1):
-        b = points[spans[:, None] - p + np.arange(p + 1)]
-        for level in range(1, p + 1):
-            t = (knots[spans + 1] if level <= j else knots[spans])[:, None]
-            low = knots[spans[:, None] - p + level + np.arange(p - level + 1)]
-            high = knots[spans[:, None] + 1 + np.arange(p - level + 1)]
-            share = ((t - low) / (high - low))[..., None]
-            b = b[:, :-1] * (1 - share) + b[:, 1:] * share
-        result[:, j] = b[:, 0]
+    kernels.blossoms(np.ascontiguousarray(points, np.float64), np.ascontiguousarray(knots, np.float64), spans, result)
     return result

@@ -8,11 +8,17 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ...core.jit import kernel
 
 _CONTROL, _PIECE, _FOUND = "float64[:, :, ::1]", "float64[:, ::1]", "float64[::1]"
 _NEAR = 1e-5
 """Of a piece: so far on a curve that stands still at a place is looked at for where it goes."""
+_FLAT = 1e-6
+"""Twice the area of three places, shared by their greatest distance squared, below which they lie in a line."""
+_ROUNDING = 1e-3
+"""mm; far more than rounding makes of the radius to a place."""
 
 
 @kernel(f"void({_CONTROL}, float64, {_PIECE}, {_FOUND})", counts=False)
@@ -129,3 +135,60 @@ def off_circle(piece, x, y, cx, cy, products):  # type: ignore[no-untyped-def]
         gap /= least * least
         worst = max(worst, abs(gap / (math.sqrt(max(radius * radius + gap, 0.0)) + radius)))
     return worst
+
+
+@kernel(f"void({_PIECE}, {_FOUND}, int64[::1], {_CONTROL})")
+def blossoms(points, knots, spans, result):  # type: ignore[no-untyped-def]
+    """Write the control points of a B-spline's Bézier pieces: j of a span is the blossom at its ends, taken p - j and j
+    times.
+
+    Args:
+        points: (k, d) control points. knots: (k + p + 1,). spans: (n,) index of the knot that each piece begins at.
+        result: (n, p + 1, d) out.
+    """
+    p = result.shape[1] - 1
+    work = np.empty((p + 1, points.shape[1]))
+    for n in range(len(spans)):
+        span = spans[n]
+        for j in range(p + 1):
+            work[:] = points[span - p : span + 1]
+            for level in range(1, p + 1):
+                t = knots[span + 1] if level <= j else knots[span]
+                for i in range(p - level + 1):
+                    low = knots[span - p + level + i]
+                    share = (t - low) / (knots[span + 1 + i] - low)
+                    for axis in range(points.shape[1]):
+                        work[i, axis] = work[i, axis] * (1.0 - share) + work[i + 1, axis] * share
+            result[n, j] = work[0]
+
+
+@kernel(f"boolean({_CONTROL}, boolean, float64, float64, float64)")
+def surely_not_round(control, given, cx, cy, tolerance):  # type: ignore[no-untyped-def]
+    """Tell whether places on a curve show that it is no circle round a centre, or through three of them; False where
+    they do not.
+
+    Args:
+        given: whether the centre is, else it is that of the circle through the curve's thirds.
+        tolerance: by how much the curve may be off a circle, mm.
+    """
+    count = 8 * len(control) + 1
+    work, found = np.empty((control.shape[1], 3)), np.empty(4)
+    place(control, 0.0, work, found)
+    x, y = found[0], found[1]
+    if not given:
+        place(control, (count // 3) / 8, work, found)
+        ux, uy = found[0] - x, found[1] - y
+        place(control, (2 * count // 3) / 8, work, found)
+        vx, vy = found[0] - x, found[1] - y
+        double, u, v = 2.0 * (ux * vy - uy * vx), ux * ux + uy * uy, vx * vx + vy * vy
+        if abs(double) < _FLAT * max(u, v):
+            return abs(double) < 0.9 * _FLAT * max(u, v)
+        cx, cy = x + (vy * u - uy * v) / double, y + (ux * v - vx * u) / double
+    least = most = math.hypot(x - cx, y - cy)
+    for k in range(1, count):
+        place(control, k / 8, work, found)
+        radius = math.hypot(found[0] - cx, found[1] - cy)
+        least, most = min(least, radius), max(most, radius)
+        if most - least > 2.0 * tolerance + _ROUNDING:
+            return True
+    return False

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -54,6 +53,8 @@ class Gap:
         walls: indices of these rows among the sheet's.
         region: number of its region.
         bare: True when it begins or ends at a clamp or the frame.
+        left: (k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns
+            are left out.
         corner: (x, y) where the centre of the cutter turns that touches the wall before and behind it; None where there
             is none.
         excess: by how much more the wall turns left than the ring does there, radians; inf where there is no such
@@ -65,6 +66,7 @@ class Gap:
     walls: tuple[int, ...]
     region: int
     bare: bool
+    left: Floats
     corner: tuple[float, float] | None = None
     excess: float = np.inf
     turn: float = 0.0
@@ -84,14 +86,6 @@ class Gap:
             return False
         return bool(self.left.sum() <= _BOTTOM or self.left.max() >= self.left.sum() - _BESIDE)
 
-    @cached_property
-    def left(self) -> Floats:
-        """(k,) by how much the wall turns left at each of its joints and in each of its arcs, radians; right turns are
-        left out.
-        """
-        bent = np.where(self.rows[:, TURN] > 0, sweeps(self.rows), 0.0)
-        return np.concatenate([np.maximum(_turns(self.rows[:-1], self.rows[1:]), 0.0), bent])
-
 
 def gaps(level: Level, sheet: Sheet) -> list[Gap]:
     """Return all gaps in the walls of regions that a level's rings are in; clamps and the frame are no walls."""
@@ -100,9 +94,7 @@ def gaps(level: Level, sheet: Sheet) -> list[Gap]:
     known = {ring.region for ring in level.rings}
     spans = _covered(level, sheet)
     chains = _chains(_uncovered(spans, sheet, known), sheet)
-    found = [_gap(chain, sheet) for chain in chains]
-    found = [gap for gap in found if gap.length > _LEAST]
-    return _with_corners(found, level)
+    return _with_corners(_made(chains, sheet), level) if chains else []
 
 
 def feet(rows: Rows, fraction: float, distance: float) -> Floats:
@@ -197,18 +189,30 @@ def _chains(free: dict[int, list[tuple[float, float]]], sheet: Sheet) -> list[li
     return chains
 
 
-def _gap(chain: Sequence[tuple[int, float, float]], sheet: Sheet) -> Gap:
-    walls = np.array([row for row, _, _ in chain])
-    low, high = np.array([part[1] for part in chain]), np.array([part[2] for part in chain])
-    rows = sheet.distances.rows[walls].copy()
-    rows[:, :2], rows[:, 2:4] = (
-        points_at(rows, low),
-        np.where((high == 1.0)[:, None], rows[:, 2:4], points_at(rows, high)),
-    )
-    before, last = int(sheet.primitives.previous[walls[0]]), int(walls[-1])
-    after = np.flatnonzero(sheet.primitives.previous == last)
-    bare = bool((low[0] == 0.0 and sheet.bare[before]) or (high[-1] == 1.0 and sheet.bare[after].any()))
-    return Gap(rows, tuple(walls.tolist()), int(sheet.primitives.region[last]), bare)
+def _made(chains: Sequence[Sequence[tuple[int, float, float]]], sheet: Sheet) -> list[Gap]:
+    """Return the gap that each run of parts of walls is, of those that are long enough."""
+    parts = np.array([part for chain in chains for part in chain])
+    first = np.append(0, np.cumsum([len(chain) for chain in chains]))
+    walls, low, high = parts[:, 0].astype(np.int64), parts[:, 1], parts[:, 2]
+    rows = sheet.distances.rows[walls]
+    end = np.where((high == 1.0)[:, None], rows[:, 2:4], points_at(rows, high))
+    rows[:, :2], rows[:, 2:4] = points_at(rows, low), end
+    following = np.empty(len(sheet.primitives.previous), np.int64)
+    following[sheet.primitives.previous] = np.arange(len(following))
+    bare = (low == 0.0) & sheet.bare[sheet.primitives.previous[walls]], (high == 1.0) & sheet.bare[following[walls]]
+    joints = np.maximum(_turns(rows[:-1], rows[1:]), 0.0)
+    bends = np.where(rows[:, TURN] > 0, sweeps(rows), 0.0)
+    long = np.add.reduceat(lengths(rows), first[:-1]) > _LEAST
+    return [
+        Gap(
+            rows[a:b],
+            tuple(walls[a:b].tolist()),
+            int(sheet.primitives.region[walls[b - 1]]),
+            bool(bare[0][a] or bare[1][b - 1]),
+            np.concatenate([joints[a : b - 1], bends[a:b]]),
+        )
+        for a, b in zip(first[:-1][long].tolist(), first[1:][long].tolist(), strict=True)
+    ]
 
 
 def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:

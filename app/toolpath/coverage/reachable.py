@@ -8,7 +8,6 @@ square's middle bounds it all over.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,10 +18,10 @@ from ...core import tolerances
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import pack
 from ...model.part import Region
-from .proven import quarters
+from . import reachable_kernels as kernels
 
 _MOST = 200_000
-"""Squares in one round; a place that needs more counts as within reach."""
+"""Squares for one place; one that needs more counts as within reach."""
 
 _SLIVER = 0.25
 """Share of a cutter's radius below which a piece of metal is a sliver."""
@@ -34,9 +33,6 @@ goes there.
 
 _NEAR = 0.01
 """mm; so near to an area metal may lie in it, whatever chords make of its walls."""
-
-_START = 8
-"""Squares along a diameter at the beginning."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,24 +56,9 @@ class Cutter:
             spare: how much farther from the walls than asked it has to stay, mm.
         """
         field, wall = fields.of(self.regions), self.wall + spare
-        half = self.radius / _START
-        axis = np.arange(-_START + 1, _START, 2.0) * half
-        centres = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2) + (x, y)
-        while True:
-            off = half * math.sqrt(2)
-            near = np.hypot(*(centres - (x, y)).T) <= self.radius + off
-            distance = field.nearest(centres)[0]
-            inside = field.inside(centres) | (distance <= off)
-            open_ = near & inside & (distance + off >= wall)
-            if np.any(open_ & (distance >= wall) & (np.hypot(*(centres - (x, y)).T) <= self.radius)):
-                return True
-            centres = centres[open_]
-            if not len(centres):
-                return False
-            if len(centres) > _MOST or off < tolerances.FIT:
-                return True
-            half /= 2
-            centres = quarters(centres, half)
+        return bool(
+            kernels.within_reach(field.rows, field.order, field.nodes, x, y, self.radius, wall, tolerances.FIT, _MOST)
+        )
 
 
 class Fields:

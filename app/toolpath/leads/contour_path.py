@@ -250,17 +250,10 @@ def line_row(a: Floats, b: Floats) -> Rows:
 def keep_clear(field: DistanceField, rows: Rows, need: Floats) -> NDArray[np.bool_]:
     """Tell for each row (n, 8) whether all of it is at least `need` (n,) mm from everything.
 
-    Distance changes by no more than the way gone, so each step of what is to spare passes nothing unseen; all rows are
-    walked at once. Where nothing is to spare, as beside the wall that a path follows, steps are 1 um.
+    Distance changes by no more than the way gone, so each step of what is to spare passes nothing unseen. Where nothing
+    is to spare, as beside the wall that a path follows, steps are 1 um.
     """
-    size = lengths(rows)
-    at, good = np.zeros(len(rows)), np.ones(len(rows), np.bool_)
-    going = np.arange(len(rows))
-    while len(going):
-        part = np.minimum(at[going] / np.maximum(size[going], 1e-300), 1.0)
-        spare = field.nearest(points_at(rows[going], part))[0] - need[going]
-        good[going[spare < -_MISS]] = False
-        done = (at[going] >= size[going]) | (spare < -_MISS)
-        at[going] = np.minimum(at[going] + np.maximum(spare, _STEP), size[going])
-        going = going[~done]
+    good = np.empty(len(rows), np.bool_)
+    rows, need = np.ascontiguousarray(rows), np.ascontiguousarray(need, np.float64)
+    path_kernels.keep_clear(field.rows, field.order, field.nodes, rows, lengths(rows), need, _STEP, _MISS, good)
     return good

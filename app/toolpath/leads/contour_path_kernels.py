@@ -1,6 +1,11 @@
 """Compiled inner loops on many paths at once: how far along each of them something is."""
 
 from ...core.jit import kernel
+from ...geometry.kernels import INF, nearest, place_on
+
+_TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
+_ROUNDING = 1e-9
+"""mm; more than a distance is off by."""
 
 
 @kernel("void(float64[::1], int64[::1], float64[::1])")
@@ -32,3 +37,30 @@ def counts_below(values, first, run, asked, equal, out):
             else:
                 high = middle
         out[i] = low - begin
+
+
+@kernel(f"void({_TREE}, float64[:, ::1], float64[::1], float64[::1], float64, float64, boolean[::1])")
+def keep_clear(walls, order, nodes, rows, sizes, need, step, miss, good):
+    """Write for each row (n, 8) whether all of it is at least `need` (n,) mm from all walls.
+
+    Walls that are farther than what is needed and the rest of the row together are not looked for.
+
+    Args:
+        sizes: (n,) length of each row, mm.
+        step: shortest step, mm. miss: by which a distance may fall short, mm.
+    """
+    for k in range(len(rows)):
+        at, known, good[k] = 0.0, INF, True
+        while True:
+            x, y = place_on(rows, k, min(at / max(sizes[k], 1e-300), 1.0))
+            limit = min(max(need[k], 0.0) + sizes[k] - at, known) + _ROUNDING
+            distance, row = nearest(walls, order, nodes, x, y, limit)
+            spare = distance - need[k]
+            if spare < -miss:
+                good[k] = False
+                break
+            if at >= sizes[k]:
+                break
+            way = min(max(spare, step), sizes[k] - at)
+            at = at + way if way < sizes[k] - at else sizes[k]
+            known = distance + way if row >= 0 else INF

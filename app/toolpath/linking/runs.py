@@ -239,10 +239,7 @@ class _Space:
             -int(np.ceil((reach + self._radius / 4) / size)), int(np.ceil((reach + self._radius / 4) / size)) + 1
         )
         around = np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)
-        near = (np.floor(points / size).astype(np.int64)[:, None] + around).reshape(-1, 2)
-        first, high = near.min(axis=0), int(near[:, 1].max() - near[:, 1].min()) + 1
-        codes = np.unique((near[:, 0] - first[0]) * high + near[:, 1] - first[1])  # many times as quick as rows
-        cells = np.column_stack([codes // high, codes % high]) + first
+        cells = _different((_different(np.floor(points / size).astype(np.int64))[:, None] + around).reshape(-1, 2))
         return np.column_stack([(cells + 0.5) * size, np.full(len(cells), size / 2)])
 
     def _groups(self, gaps: list[_Gap], reach: float) -> list[list[_Gap]]:
@@ -348,6 +345,13 @@ class _Space:
 
     def _clear(self, row: Rows) -> bool:
         return is_clear(self._walls[0], row[:2], row[2:4], self._walls[1])
+
+
+def _different(cells: Indices) -> Indices:
+    """Return every one of some cells (n, 2) once, in order."""
+    first, high = cells.min(axis=0), int(cells[:, 1].max() - cells[:, 1].min()) + 1
+    codes = np.unique((cells[:, 0] - first[0]) * high + cells[:, 1] - first[1])  # many times as quick as rows
+    return np.column_stack([codes // high, codes % high]) + first
 
 
 def _along(rows: Rows, step: float) -> Floats:

@@ -1,0 +1,61 @@
+"""Compiled: can a cutter's centre be near a place? See `app.toolpath.coverage.reachable`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...core.jit import kernel
+from ...geometry.kernels import DEPTH, inside, nearest
+
+_TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
+_WAITING = 256
+"""Squares that wait at most: three of each size, of which there are some 40."""
+_ROUNDING = 1e-9
+"""mm; more than a distance is off by."""
+
+
+@kernel(f"boolean({_TREE}, float64, float64, float64, float64, float64, int64)")
+def within_reach(rows, order, nodes, x, y, radius, wall, finest, most):
+    """Return whether some place within a radius of (x, y) lies inside of closed rows and at least `wall` from them;
+    True also where that stays in doubt.
+
+    Squares are divided, where distances in their middles do not decide. A square that no row comes into is inside as
+    its middle is, and so are its quarters, and none of these is farther from a row than it and the way to it.
+
+    Args:
+        finest: half a diagonal of a square, mm, below which it is in doubt for good.
+        most: squares after which the place is in doubt.
+    """
+    waiting, stack = np.empty((_WAITING, 5)), np.empty(DEPTH, np.int64)
+    waiting[0, 0], waiting[0, 1], waiting[0, 2], waiting[0, 3], waiting[0, 4] = x, y, radius, np.inf, 0.0
+    top, looked = 1, 0
+    while top > 0:
+        top -= 1
+        looked += 1
+        px, py, half, known, within = waiting[top]
+        off, away = half * math.sqrt(2.0), math.hypot(px - x, py - y)
+        if away > radius + off:
+            continue
+        limit = min(max(wall, off) + _ROUNDING, known + _ROUNDING)
+        distance, row = nearest(rows, order, nodes, px, py, limit)
+        if distance + off < wall:
+            continue
+        asked = within == 0.0 and (distance > off or (distance >= wall and away <= radius))
+        it_is = within != 0.0 or (asked and inside(rows, order, nodes, px, py, stack))
+        if distance > off and not it_is:
+            continue
+        if it_is and distance >= wall and away <= radius:
+            return True
+        if off < finest or looked > most or top + 4 > _WAITING:
+            return True
+        half /= 2.0
+        known = distance + half * math.sqrt(2.0) if row >= 0 else np.inf
+        within = 1.0 if distance > off else 0.0
+        for corner in range(4):
+            waiting[top, 0] = px + (half if corner % 2 else -half)
+            waiting[top, 1] = py + (half if corner > 1 else -half)
+            waiting[top, 2], waiting[top, 3], waiting[top, 4] = half, known, within
+            top += 1
+    return False
