@@ -204,3 +204,7 @@ def test_an_axis_without_one_piece_has_less_area() -> None:
     assert area(axis) == pytest.approx(50, abs=1e-9)  # each piece from one of its two sides
     fewer = MedialAxis(axis.region, axis.rows, axis.angles, axis.pieces[1:].copy(), axis.middle)
     assert area(fewer) < area(axis) - 1
+
+
+def test_an_island_between_two_walls_that_are_the_same_from_end_to_end() -> None:
+    fills(packed(slot(), ring(3, 2, 0.5)))
