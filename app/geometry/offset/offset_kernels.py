@@ -18,7 +18,7 @@ SHORTEST = 1e-7  # mm; pieces below this are bridged by the stitching tolerance
 
 
 @kernel("float64(float64[:, ::1], int64, int64)", counts=False)
-def _vertex_turn(rows, k, i):
+def vertex_turn(rows, k, i):
     """Return the turn from the end of row k to the start of row i, radians, in [-2 pi, pi]; a half turn to either
     side.
     """
@@ -50,7 +50,7 @@ def element_angles(rows, previous, angles):
             turn = math.atan2(rows[i, 3] - rows[i, 5], rows[i, 2] - rows[i, 4]) - start
             angles[i, 0], angles[i, 1] = start, rows[i, 7] * ((rows[i, 7] * turn) % (2 * math.pi))
         k = previous[i]
-        turn = _vertex_turn(rows, k, i)
+        turn = vertex_turn(rows, k, i)
         if turn < -1e-9:
             ux, uy = rows[k, 2] - rows[k, 0], rows[k, 3] - rows[k, 1]
             if rows[k, 7] != 0.0:
