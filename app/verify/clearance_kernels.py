@@ -19,7 +19,7 @@ _MOST = 8
 
 
 @kernel(f"UniTuple(float64, 2)({_ROW}, float64, float64)", counts=False)
-def _on_line(row, x, y):  # type: ignore[no-untyped-def]
+def _on_line(row, x, y):
     """Return the point of the straight way between a row's ends that is nearest to a place."""
     dx, dy = row[2] - row[0], row[3] - row[1]
     square = dx * dx + dy * dy
@@ -31,7 +31,7 @@ def _on_line(row, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 2)({_ROW}, float64, float64)", counts=False)
-def _on_arc(row, x, y):  # type: ignore[no-untyped-def]
+def _on_arc(row, x, y):
     """Return the point of an arc that is nearest to a place."""
     dx, dy = x - row[4], y - row[5]
     length, turn = math.hypot(dx, dy), row[7]
@@ -48,7 +48,7 @@ def _on_arc(row, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 2)({_ROW}, float64, float64)", counts=False)
-def _on(row, x, y):  # type: ignore[no-untyped-def]
+def _on(row, x, y):
     """Return the point of a row that is nearest to a place; of none, its start."""
     if not (math.isfinite(x) and math.isfinite(y)):
         x, y = row[0], row[1]
@@ -56,14 +56,14 @@ def _on(row, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_ROWS}, {_ROWS}, {_ROWS})")
-def nearest_points(rows, points, found):  # type: ignore[no-untyped-def]
+def nearest_points(rows, points, found):
     """Write the point (n, 2) of each row that is nearest to its point; of one that is not a number, the row's start."""
     for k in range(len(rows)):
         found[k, 0], found[k, 1] = _on(rows[k], points[k, 0], points[k, 1])
 
 
 @kernel(f"UniTuple(float64, 4)({_ROW}, float64, float64, float64)", counts=False)
-def _line_circle(row, cx, cy, radius):  # type: ignore[no-untyped-def]
+def _line_circle(row, cx, cy, radius):
     """Return the two places where the line that carries a row crosses a circle; NaN where it does not."""
     dx, dy = row[2] - row[0], row[3] - row[1]
     square = dx * dx + dy * dy
@@ -79,7 +79,7 @@ def _line_circle(row, cx, cy, radius):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 4)({_ROW}, {_ROW})", counts=False)
-def _circle_circle(first, second):  # type: ignore[no-untyped-def]
+def _circle_circle(first, second):
     """Return the two places where two arcs' circles cross; NaN where they do not."""
     dx, dy = second[4] - first[4], second[5] - first[5]
     square = dx * dx + dy * dy
@@ -94,7 +94,7 @@ def _circle_circle(first, second):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 4)({_ROW}, {_ROW})", counts=False)
-def _crossings(first, second):  # type: ignore[no-untyped-def]
+def _crossings(first, second):
     """Return up to two places where the carriers (line, circle) of the curves cross; NaN where they do not."""
     if first[7] != 0.0:
         if second[7] != 0.0:
@@ -111,7 +111,7 @@ def _crossings(first, second):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"UniTuple(float64, 4)({_ROW}, {_ROW})", counts=False)
-def _common_normals(first, second):  # type: ignore[no-untyped-def]
+def _common_normals(first, second):
     """Return two places of the first curve's carrier whose normals may be the second's too; NaN where none."""
     if first[7] == 0.0:
         if second[7] == 0.0:
@@ -129,7 +129,7 @@ def _common_normals(first, second):  # type: ignore[no-untyped-def]
 
 
 @kernel(f"void({_ROWS}, {_ROWS}, int64[::1], int64[::1], {_FOUND}, {_ROWS})")
-def pair_distances(first, second, one, other, distances, places):  # type: ignore[no-untyped-def]
+def pair_distances(first, second, one, other, distances, places):
     """Write the least distance of each pair of curves, mm, and where on the first curve it is.
 
     Args:

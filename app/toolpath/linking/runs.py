@@ -351,7 +351,8 @@ def _different(cells: Indices) -> Indices:
     """Return every one of some cells (n, 2) once, in order."""
     first, high = cells.min(axis=0), int(cells[:, 1].max() - cells[:, 1].min()) + 1
     codes = np.unique((cells[:, 0] - first[0]) * high + cells[:, 1] - first[1])  # many times as quick as rows
-    return np.column_stack([codes // high, codes % high]) + first
+    different: Indices = np.column_stack([codes // high, codes % high]) + first
+    return different
 
 
 def _along(rows: Rows, step: float) -> Floats:
