@@ -46,7 +46,7 @@ def refused(word: str, tool: Tool) -> str:
 @pytest.mark.parametrize("word", OPERATION_KINDS)
 def test_it_is_computed_or_refused(qtbot, word, tool, way):
     job = Job(PART, (tool,), (OPERATION_KINDS[word](Cut(1)),))
-    computation = Computation(Document(job), worker := Worker())
+    computation = Computation(Document(job), worker := Worker(), lambda made: None)
     if way == "pixels":
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()
@@ -86,7 +86,7 @@ def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
 def test_all_operations_off_is_said_whichever_way(qtbot, pixels):
     job = Job(PART)
     job = replace(job, operations=tuple(replace(each, cut=replace(each.cut, enabled=False)) for each in job.operations))
-    computation = Computation(Document(job), worker := Worker())
+    computation = Computation(Document(job), worker := Worker(), lambda made: None)
     if pixels:
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()
