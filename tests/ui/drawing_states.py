@@ -200,7 +200,7 @@ class DrawingStates:
         self._window.actions_["plot"].trigger()
         self._wait(1000)
         yield "print"
-        self._wiring.plotting.leave()
+        self._wiring.plotting.left.emit()
 
     def windows(self, folder: Path, ending: str) -> None:
         """Save the pictures of the windows beside: keys, manual, shape language."""
