@@ -296,7 +296,7 @@ def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
     """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them
     to do.
     """
-    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines]
+    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines or each.CARVES]
     tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
     return tuple(
         Finding(
