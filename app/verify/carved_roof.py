@@ -1,0 +1,232 @@
+"""How much a V cutter has left of what it should carve: looked for on the medial axis, which is found here anew.
+
+Behind each place of a wall, along its normal, lies the largest disc that touches the wall there and holds no other: its
+centre c, its radius r. A cone as wide as r at c cuts all that lies between as deep as the wall is far. What cone there
+was, as wide as w round p, leaves nowhere between more than r - w + |c - p|, by the triangle's inequality: so what is
+left at c bounds what is left all the way to the wall. Discs are found by halving, on the distance field of the drawn
+curves alone; nothing is known of how the path was made.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, sweeps
+
+Floats = NDArray[np.float64]
+
+STEP = 0.05
+"""mm along walls between places that are looked at, at most."""
+
+_FEWEST = 8
+"""Places on each row, at least."""
+
+_FAN = math.radians(2)
+"""Between the normals of a reflex corner, at most."""
+
+_HALVINGS = 44
+_EMPTY = 1e-9
+_PORTION = 256
+_NEAR = 0.25
+"""mm; motions farther than this from a portion's discs are left aside, and asked only where the others leave more."""
+
+
+@dataclass(frozen=True, eq=False)
+class ConePath:
+    """Motions of one cone in metal, n of them, straight, part coordinates, the surface at Z 0.
+
+    Attributes:
+        start, end: (n, 3) of the tip, mm.
+        tip: radius of the flat at the cone's end, mm.
+        rate: mm of radius per mm of height.
+        greatest: depth that was asked for, mm.
+    """
+
+    start: Floats
+    end: Floats
+    tip: float
+    rate: float
+    greatest: float
+
+
+@dataclass(frozen=True)
+class RoofProof:
+    """What is left of a carving.
+
+    Attributes:
+        places: of walls that were looked at.
+        left_mm: most that stands above the carved roof, mm of height; 0 = nothing.
+        x, y: where.
+        above: places behind which more is left than is told of.
+        blunt_mm: length of wall that the flat tip is too wide for.
+        gap_mm: farthest that discs of neighbouring places are apart; between two of them no more is left than at one
+            of them and as much as `gap_mm` makes at the cone's slope.
+    """
+
+    places: int
+    left_mm: float
+    x: float
+    y: float
+    above: int
+    blunt_mm: float
+    gap_mm: float
+
+
+def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progress = NO_PROGRESS) -> RoofProof:
+    """Return what a path leaves of the roof over regions.
+
+    Args:
+        told: mm of height; what is left beyond it is counted.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    feet, normals, share = _feet(walls)
+    field = DistanceField.of(walls.rows)
+    most = path.tip + path.greatest * path.rate
+    radius = _largest(field, feet, normals, most, progress.part(0.0, 0.5))
+    centres = feet + normals * radius[:, None]
+    sharp = radius >= path.tip
+    left = np.zeros(len(feet))
+    chosen = np.flatnonzero(sharp)
+    for first in range(0, len(chosen), _PORTION):
+        progress.step(0.5 + 0.5 * first / len(chosen), "Prove what is carved")
+        some = chosen[first : first + _PORTION]
+        left[some] = _uncarved(path, centres[some], radius[some])
+    height = left / path.rate
+    worst = int(np.argmax(height)) if len(height) else 0
+    apart = np.hypot(*np.diff(centres, axis=0).T)
+    x, y = centres[worst].tolist()
+    return RoofProof(
+        len(feet),
+        max(0.0, float(height[worst])),
+        x,
+        y,
+        int(np.count_nonzero(height > told)),
+        float(share[~sharp].sum()),
+        float(apart[np.diff(_names(walls)) == 0].max(initial=0.0)),
+    )
+
+
+def _counts(walls: Primitives) -> NDArray[np.int64]:
+    return np.maximum(np.ceil(lengths(walls.rows) / STEP), _FEWEST).astype(np.int64)
+
+
+def _names(walls: Primitives) -> NDArray[np.int64]:
+    """Return the row of each place along rows; corners have numbers of their own."""
+    names = np.repeat(np.arange(len(walls.rows)), _counts(walls))
+    corners = [np.full(len(fan), len(walls.rows) + k) for k, (_, fan) in enumerate(_fans(walls))]
+    return np.concatenate([names, *corners])
+
+
+def _feet(walls: Primitives) -> tuple[Floats, Floats, Floats]:
+    """Return places (n, 2) on walls, their unit normals (n, 2) into the area, and the length each stands for, mm."""
+    counts = _counts(walls)
+    row = np.repeat(np.arange(len(counts)), counts)
+    number = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
+    share = (number + 0.5) / counts[row]
+    rows = walls.rows[row]
+    feet = points_at(rows, share)
+    parts = [(feet, _normals(rows, feet), lengths(walls.rows)[row] / counts[row])]
+    for corner, fan in _fans(walls):
+        parts.append((np.repeat(corner[None], len(fan), axis=0), np.stack([np.cos(fan), np.sin(fan)], 1), 0.0 * fan))
+    return tuple(np.concatenate([part[k] for part in parts]) for k in range(3))  # type: ignore[return-value]
+
+
+def _normals(rows: Floats, points: Floats) -> Floats:
+    """Return the unit normals (n, 2) of rows at points on them, to the left."""
+    way = rows[:, 2:4] - rows[:, :2]
+    straight = np.stack([-way[:, 1], way[:, 0]], 1)
+    normal = np.where(rows[:, [TURN]] == 0, straight, (rows[:, CX:R] - points) * rows[:, [TURN]])
+    unit: Floats = normal / np.maximum(np.hypot(*normal.T), 1e-300)[:, None]
+    return unit
+
+
+def _fans(walls: Primitives) -> list[tuple[Floats, Floats]]:
+    """Return the reflex corners, each a place (2,) and the angles of the normals there, radians."""
+    rows = walls.rows
+    before = rows[walls.previous]
+    into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
+    turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
+    found = []
+    for k in np.flatnonzero(turn < -_EMPTY).tolist():
+        begin, count = math.atan2(into[k, 1], into[k, 0]), max(2, math.ceil(-turn[k] / _FAN))
+        found.append((rows[k, :2], begin + turn[k] * (np.arange(count) + 0.5) / count))
+    return found
+
+
+def _largest(field: DistanceField, feet: Floats, normals: Floats, most: float, progress: Progress) -> Floats:
+    """Return the radius of the largest disc behind each foot that holds no wall, up to so many mm: a smaller one in it
+    holds none either, so halving finds it.
+    """
+    low, high = np.zeros(len(feet)), np.full(len(feet), most)
+    for k in range(_HALVINGS):
+        progress.step(k / _HALVINGS, "Prove what is carved")
+        radius = (low + high) / 2 if k else high
+        far = field.nearest(feet + normals * radius[:, None])[0]
+        empty = far >= radius - _EMPTY
+        low, high = np.where(empty, radius, low), np.where(empty, high, radius)
+    return low
+
+
+def _uncarved(path: ConePath, centres: Floats, radius: Floats) -> Floats:
+    """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it."""
+    wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
+    (x0, y0), (x1, y1) = centres.min(axis=0), centres.max(axis=0)
+    xs = np.sort(np.stack([path.start[:, 0], path.end[:, 0]]), axis=0)
+    ys = np.sort(np.stack([path.start[:, 1], path.end[:, 1]]), axis=0)
+    beside = np.hypot(
+        np.maximum(np.maximum(x0 - xs[1], xs[0] - x1), 0), np.maximum(np.maximum(y0 - ys[1], ys[0] - y1), 0)
+    )
+    useful = radius.min() - wide + beside <= _NEAR
+    near, rest = np.flatnonzero(useful & (beside <= _NEAR)), np.arange(len(wide))
+    found = _by_motions(path, near, centres, radius)
+    again = np.flatnonzero(found > _NEAR)
+    if len(again):
+        found[again] = _by_motions(path, rest, centres[again], radius[again])
+    return found
+
+
+def _by_motions(path: ConePath, motions: NDArray[np.int64], centres: Floats, radius: Floats) -> Floats:
+    if not len(motions):
+        return np.full(len(radius), np.inf)
+    start, way = path.start[motions, :2], path.end[motions, :2] - path.start[motions, :2]
+    size = np.hypot(*way.T)
+    first = path.tip - path.start[motions, 2] * path.rate
+    growth = (path.start[motions, 2] - path.end[motions, 2]) * path.rate
+    unit = way / np.maximum(size, 1e-300)[:, None]
+    off = centres[:, None] - start[None]
+    along = np.einsum("mni,ni->mn", off, unit)
+    aside = np.abs(off[:, :, 0] * unit[:, 1] - off[:, :, 1] * unit[:, 0])
+    slope = growth / np.maximum(size, 1e-300)
+    gentle = np.clip(slope, -1 + 1e-12, 1 - 1e-12)
+    best = along + aside * gentle / np.sqrt(1 - gentle**2)
+    share = np.clip(best / np.maximum(size, 1e-300), 0.0, 1.0)
+    share = np.where(size > 0, share, np.where(growth > 0, 1.0, 0.0))
+    place = start[None] + way[None] * share[:, :, None]
+    apart = np.hypot(centres[:, None, 0] - place[:, :, 0], centres[:, None, 1] - place[:, :, 1])
+    left: Floats = (apart + radius[:, None] - first[None] - growth[None] * share).min(axis=1)
+    return left
+
+
+def straightened(rows: Floats, heights: Sequence[tuple[float, float]] | Floats, chord: float) -> tuple[Floats, Floats]:
+    """Return starts and ends (n, 3) of motions, arcs as chords that stay within so many mm of them."""
+    heights = np.asarray(heights)
+    turn = np.abs(sweeps(rows))
+    step = 2 * np.arccos(np.clip(1 - chord / np.maximum(rows[:, R], chord), 0, 1))
+    counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
+    row = np.repeat(np.arange(len(rows)), counts)
+    number = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
+    begin, end = number / counts[row], (number + 1) / counts[row]
+    ends = []
+    for share in (begin, end):
+        z = heights[row, 0] + (heights[row, 1] - heights[row, 0]) * share
+        ends.append(np.column_stack([points_at(rows[row], share), z]))
+    return ends[0], ends[1]
