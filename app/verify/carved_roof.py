@@ -31,6 +31,9 @@ _FEWEST = 8
 _FAN = math.radians(2)
 """Between the normals of a reflex corner, at most."""
 
+_ROUNDS = 10
+"""Times that discs are put between those that are farther apart than STEP."""
+
 _HALVINGS = 44
 _EMPTY = 1e-9
 _PORTION = 256
@@ -88,56 +91,81 @@ def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progres
     Raises:
         Cancelled: by progress.
     """
-    feet, normals, share = _feet(walls)
-    field = DistanceField.of(walls.rows)
     most = path.tip + path.greatest * path.rate
-    radius = _largest(field, feet, normals, most, progress.part(0.0, 0.5))
-    centres = feet + normals * radius[:, None]
-    sharp = radius >= path.tip
-    left = np.zeros(len(feet))
-    chosen = np.flatnonzero(sharp)
+    elements = _Walls.of(walls)
+    discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
+    blunt = discs.radius < path.tip
+    left = np.zeros(len(blunt))
+    chosen = np.flatnonzero(~blunt)
     for first in range(0, len(chosen), _PORTION):
         progress.step(0.5 + 0.5 * first / len(chosen), "Prove what is carved")
         some = chosen[first : first + _PORTION]
-        left[some] = _uncarved(path, centres[some], radius[some])
+        left[some] = _uncarved(path, discs.centres[some], discs.radius[some])
     height = left / path.rate
-    worst = int(np.argmax(height)) if len(height) else 0
-    apart = np.hypot(*np.diff(centres, axis=0).T)
-    x, y = centres[worst].tolist()
+    worst = int(np.argmax(height))
+    x, y = discs.centres[worst].tolist()
     return RoofProof(
-        len(feet),
+        len(blunt),
         max(0.0, float(height[worst])),
         x,
         y,
         int(np.count_nonzero(height > told)),
-        float(share[~sharp].sum()),
-        float(apart[np.diff(_names(walls)) == 0].max(initial=0.0)),
+        _blunt_length(elements, discs, blunt),
+        float(discs.gaps().max(initial=0.0)),
     )
 
 
-def _counts(walls: Primitives) -> NDArray[np.int64]:
-    return np.maximum(np.ceil(lengths(walls.rows) / STEP), _FEWEST).astype(np.int64)
+def _blunt_length(walls: _Walls, discs: _Discs, blunt: NDArray[np.bool_]) -> float:
+    """Return the length of wall, mm, of the places that are told apart: each stands for half the way to its
+    neighbours.
+    """
+    same = np.diff(discs.wall) == 0
+    between = np.where(same, np.diff(discs.share) / 2, 0.0)
+    before = np.where(np.concatenate([[False], same]), np.concatenate([[0.0], between]), discs.share)
+    after = np.where(np.concatenate([same, [False]]), np.concatenate([between, [0.0]]), 1.0 - discs.share)
+    size = np.concatenate([lengths(walls.rows), np.zeros(len(walls.corners))])[discs.wall]
+    return float(((before + after) * size)[blunt].sum())
 
 
-def _names(walls: Primitives) -> NDArray[np.int64]:
-    """Return the row of each place along rows; corners have numbers of their own."""
-    names = np.repeat(np.arange(len(walls.rows)), _counts(walls))
-    corners = [np.full(len(fan), len(walls.rows) + k) for k, (_, fan) in enumerate(_fans(walls))]
-    return np.concatenate([names, *corners])
+@dataclass(frozen=True, eq=False)
+class _Walls:
+    """What discs touch: rows, and behind them the fans of normals at reflex corners, n of both.
 
+    Attributes:
+        rows: (m, 8).
+        corners: (n - m, 4) places x, y, the angle of the first normal and how far it turns, radians.
+    """
 
-def _feet(walls: Primitives) -> tuple[Floats, Floats, Floats]:
-    """Return places (n, 2) on walls, their unit normals (n, 2) into the area, and the length each stands for, mm."""
-    counts = _counts(walls)
-    row = np.repeat(np.arange(len(counts)), counts)
-    number = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
-    share = (number + 0.5) / counts[row]
-    rows = walls.rows[row]
-    feet = points_at(rows, share)
-    parts = [(feet, _normals(rows, feet), lengths(walls.rows)[row] / counts[row])]
-    for corner, fan in _fans(walls):
-        parts.append((np.repeat(corner[None], len(fan), axis=0), np.stack([np.cos(fan), np.sin(fan)], 1), 0.0 * fan))
-    return tuple(np.concatenate([part[k] for part in parts]) for k in range(3))  # type: ignore[return-value]
+    rows: Floats
+    corners: Floats
+
+    @staticmethod
+    def of(walls: Primitives) -> _Walls:
+        rows = walls.rows
+        before = rows[walls.previous]
+        into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
+        turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
+        reflex = turn < -_EMPTY
+        angle = np.arctan2(into[reflex, 1], into[reflex, 0])
+        return _Walls(rows, np.column_stack([rows[reflex, :2], angle, turn[reflex]]))
+
+    def counts(self) -> NDArray[np.int64]:
+        """Return how many places on each are looked at first."""
+        on_rows = np.maximum(np.ceil(lengths(self.rows) / STEP), _FEWEST)
+        at_corners = np.maximum(np.ceil(-self.corners[:, 3] / _FAN), _FEWEST)
+        return np.concatenate([on_rows, at_corners]).astype(np.int64)
+
+    def feet(self, wall: NDArray[np.int64], share: Floats) -> tuple[Floats, Floats]:
+        """Return places (k, 2) at fractions (k,) of walls, and their unit normals into the area."""
+        feet, normals = np.empty((len(wall), 2)), np.empty((len(wall), 2))
+        on = wall < len(self.rows)
+        rows = self.rows[wall[on]]
+        feet[on] = points_at(rows, share[on])
+        normals[on] = _normals(rows, feet[on])
+        corners = self.corners[wall[~on] - len(self.rows)]
+        angle = corners[:, 2] + corners[:, 3] * share[~on]
+        feet[~on], normals[~on] = corners[:, :2], np.stack([np.cos(angle), np.sin(angle)], 1)
+        return feet, normals
 
 
 def _normals(rows: Floats, points: Floats) -> Floats:
@@ -149,16 +177,40 @@ def _normals(rows: Floats, points: Floats) -> Floats:
     return unit
 
 
-def _fans(walls: Primitives) -> list[tuple[Floats, Floats]]:
-    """Return the reflex corners, each a place (2,) and the angles of the normals there, radians."""
-    rows = walls.rows
-    before = rows[walls.previous]
-    into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
-    turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
-    found = []
-    for k in np.flatnonzero(turn < -_EMPTY).tolist():
-        begin, count = math.atan2(into[k, 1], into[k, 0]), max(2, math.ceil(-turn[k] / _FAN))
-        found.append((rows[k, :2], begin + turn[k] * (np.arange(count) + 0.5) / count))
+@dataclass(frozen=True, eq=False)
+class _Discs:
+    """The largest discs behind places of walls, in order along each, n of them."""
+
+    wall: NDArray[np.int64]
+    share: Floats
+    centres: Floats
+    radius: Floats
+
+    def gaps(self) -> Floats:
+        """Return (n - 1,) how far each centre is from the next one behind the same wall, mm; 0 between walls."""
+        apart = np.hypot(*np.diff(self.centres, axis=0).T)
+        return np.where(np.diff(self.wall) == 0, apart, 0.0)
+
+
+def _discs(walls: _Walls, field: DistanceField, most: float, progress: Progress) -> _Discs:
+    """Return discs behind all walls; where neighbours are far apart, there are more between them."""
+    counts = walls.counts()
+    wall = np.repeat(np.arange(len(counts)), counts)
+    number = np.arange(len(wall)) - np.repeat(np.cumsum(counts) - counts, counts)
+    share = (number + 0.5) / counts[wall]
+    found = _Discs(wall[:0], share[:0], np.zeros((0, 2)), share[:0])
+    for k in range(_ROUNDS):
+        feet, normals = walls.feet(wall, share)
+        radius = _largest(field, feet, normals, most, progress.part(k / _ROUNDS, (k + 1) / _ROUNDS))
+        centres = feet + normals * radius[:, None]
+        wall, share = np.concatenate([found.wall, wall]), np.concatenate([found.share, share])
+        centres, radius = np.concatenate([found.centres, centres]), np.concatenate([found.radius, radius])
+        order = np.lexsort((share, wall))
+        found = _Discs(wall[order], share[order], centres[order], radius[order])
+        wide = np.flatnonzero(found.gaps() > STEP)
+        if not len(wide):
+            break
+        wall, share = found.wall[wide], (found.share[wide] + found.share[wide + 1]) / 2
     return found
 
 
