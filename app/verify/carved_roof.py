@@ -92,7 +92,7 @@ def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progres
         Cancelled: by progress.
     """
     most = path.tip + path.greatest * path.rate
-    elements = _Walls.of(walls)
+    elements = _Elements.of(walls)
     discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
     blunt = discs.radius < path.tip
     left = np.zeros(len(blunt))
@@ -115,7 +115,7 @@ def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progres
     )
 
 
-def _blunt_length(walls: _Walls, discs: _Discs, blunt: NDArray[np.bool_]) -> float:
+def _blunt_length(walls: _Elements, discs: _Discs, blunt: NDArray[np.bool_]) -> float:
     """Return the length of wall, mm, of the places that are told apart: each stands for half the way to its
     neighbours.
     """
@@ -128,7 +128,7 @@ def _blunt_length(walls: _Walls, discs: _Discs, blunt: NDArray[np.bool_]) -> flo
 
 
 @dataclass(frozen=True, eq=False)
-class _Walls:
+class _Elements:
     """What discs touch: rows, and behind them the fans of normals at reflex corners, n of both.
 
     Attributes:
@@ -140,14 +140,14 @@ class _Walls:
     corners: Floats
 
     @staticmethod
-    def of(walls: Primitives) -> _Walls:
+    def of(walls: Primitives) -> _Elements:
         rows = walls.rows
         before = rows[walls.previous]
         into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
         turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
         reflex = turn < -_EMPTY
         angle = np.arctan2(into[reflex, 1], into[reflex, 0])
-        return _Walls(rows, np.column_stack([rows[reflex, :2], angle, turn[reflex]]))
+        return _Elements(rows, np.column_stack([rows[reflex, :2], angle, turn[reflex]]))
 
     def counts(self) -> NDArray[np.int64]:
         """Return how many places on each are looked at first."""
@@ -192,7 +192,7 @@ class _Discs:
         return np.where(np.diff(self.wall) == 0, apart, 0.0)
 
 
-def _discs(walls: _Walls, field: DistanceField, most: float, progress: Progress) -> _Discs:
+def _discs(walls: _Elements, field: DistanceField, most: float, progress: Progress) -> _Discs:
     """Return discs behind all walls; where neighbours are far apart, there are more between them."""
     counts = walls.counts()
     wall = np.repeat(np.arange(len(counts)), counts)

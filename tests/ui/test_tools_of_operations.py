@@ -37,7 +37,15 @@ NO_MILL = (
 ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch one on"
 
 
+NO_CONE = (
+    "T1 {} is a {} cutter; a vcarve operation needs a V cutter with its angle: choose another tool, or give it kind "
+    "and tip_angle."
+)
+
+
 def refused(word: str, tool: Tool) -> str:
+    if OPERATION_KINDS[word].CARVES and tool.kind not in (ToolKind.DRILL, ToolKind.V):
+        return NO_CONE.format(tool.label, tool.kind.value)
     return NO_MILL.format(word) if tool.kind is ToolKind.DRILL and OPERATION_KINDS[word] is not DrillOperation else ""
 
 
@@ -46,7 +54,7 @@ def refused(word: str, tool: Tool) -> str:
 @pytest.mark.parametrize("word", OPERATION_KINDS)
 def test_it_is_computed_or_refused(qtbot, word, tool, way):
     job = Job(PART, (tool,), (OPERATION_KINDS[word](Cut(1)),))
-    computation = Computation(Document(job), worker := Worker())
+    computation = Computation(Document(job), worker := Worker(), lambda made: None)
     if way == "pixels":
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()

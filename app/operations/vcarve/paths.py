@@ -18,7 +18,6 @@ from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
 from ...model.operation import Operation
-from ...model.tool import ToolKind
 from ...toolpath.build import Label, MovesBuilder, Stroke
 from ...toolpath.depth.depth import Levels
 from ...toolpath.setting import Setting, check_depth, levels_of
@@ -29,6 +28,9 @@ _TOLD = 20
 """Places that are told one by one."""
 
 _SAME = 1e-9
+
+_CLEARED = 1e-3
+"""mm; stock to leave that is so near to how wide the cone is clears the floor that it leaves."""
 
 _SLACK = 1e-6
 """mm by which passes overlap, so that digits leave no gap between them."""
@@ -63,12 +65,7 @@ def cone_of(job: Job, operation: Operation) -> Cone:
     Raises:
         ParameterError: the tool has none, or is not as wide at the operation's depth.
     """
-    tool = job.tool(operation.cut.tool)
-    if tool.kind is not ToolKind.V or not 0 < tool.tip_angle < math.pi:
-        raise ParameterError(
-            f"T{tool.number} {tool.label} is a {tool.kind.value} cutter; a {operation.WORD} operation needs a V cutter "
-            "with its angle: choose another tool, or give it kind and tip_angle."
-        )
+    tool = job.cutter(operation)
     cone = Cone(tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), tool.radius)
     deepest = float(cone.depth(np.array([cone.widest]))[0])
     if operation.cut.depth > deepest + _SAME:
@@ -105,6 +102,7 @@ def vcarve(setting: Setting, index: int, progress: Progress) -> None:
     levels, label = levels_of(setting, cut), Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
     passes = list(carved(sheet.primitives, cone, levels.passes, progress.part(0.0, 0.9)))
     setting.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
+    setting.findings.extend(_cut_into(job, operation, cone))
     writer = _Writer(setting.builder, label, levels, cone)
     for k, each in enumerate(passes):
         progress.step(0.9 + 0.1 * k / len(passes), "Depth passes")
@@ -218,23 +216,48 @@ class _Writer:
 
 def _too_wide(job: Job, operation: Operation, cone: Cone, rings: Sequence[Ring]) -> list[Finding]:
     """Return where the area is wider than the V at its greatest depth, so that it leaves ridges on the floor."""
-    if not rings:
-        return []
     cut, tool = operation.cut, job.tool(operation.cut.tool)
-    floors = _floors(rings, cone.tip)
-    cleared = any(
-        each.CLEARS and each.cut.enabled and each.cut.curves == cut.curves and abs(each.cut.floor - cut.depth) < _SAME
-        for each in job.operations
-    )
+    wide = cut.depth * cone.rate
+    clears = [each for each in _beside(job, operation) if each.CLEARS and abs(each.cut.floor - cut.depth) < _SAME]
+    if any(abs(each.cut.stock_to_leave - wide) < _CLEARED for each in clears):
+        return []
+    floors = _floors(rings, cone.tip) if rings else []
     found = []
     for floor in sorted(floors, key=lambda each: -each.area)[:_TOLD]:
         x, y = shapely.get_coordinates(shapely.point_on_surface(floor))[0].tolist()
         text = (
             f"At ({x:.3f}, {y:.3f}) the area is wider than T{tool.number} {tool.label} at its greatest depth, "
             f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; clear them first by a pocket "
-            f"operation of the same depth with {cut.depth * cone.rate:.4f} mm of stock to leave."
+            f"operation of the same depth with {wide:.4f} mm of stock to leave."
         )
-        found.append(Finding(FindingKind.LEFT_OUT, text, x, y, counts=not cleared, amount=float(floor.area)))
+        found.append(Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(floor.area)))
+    return found
+
+
+def _beside(job: Job, operation: Operation) -> list[Operation]:
+    """Return the operations of a job that mill the same curves with upright walls."""
+    return [
+        each
+        for each in job.operations
+        if each.cut.enabled
+        and not (each.CARVES or each.DRILLS)
+        and each.wall_side is operation.wall_side
+        and each.cut.curves == operation.cut.curves
+    ]
+
+
+def _cut_into(job: Job, operation: Operation, cone: Cone) -> list[Finding]:
+    """Return which operations leave too little on the walls, and so cut into what is to be carved."""
+    found = []
+    for each in _beside(job, operation):
+        wide = min(each.cut.floor, operation.cut.depth) * cone.rate
+        if each.cut.stock_to_leave < wide - _CLEARED:
+            text = (
+                f"The {each.WORD} operation of T{each.cut.tool} leaves {each.cut.stock_to_leave:g} mm on the walls, "
+                f"and so cuts into the slanted ones of the {operation.WORD} operation, which are {wide:.4f} mm wide as "
+                f"deep as that; leave {wide:.4f} mm."
+            )
+            found.append(Finding(FindingKind.GOUGE, text, amount=wide - each.cut.stock_to_leave))
     return found
 
 
