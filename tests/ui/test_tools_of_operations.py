@@ -94,7 +94,7 @@ def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
 def test_all_operations_off_is_said_whichever_way(qtbot, pixels):
     job = Job(PART)
     job = replace(job, operations=tuple(replace(each, cut=replace(each.cut, enabled=False)) for each in job.operations))
-    computation = Computation(Document(job), worker := Worker())
+    computation = Computation(Document(job), worker := Worker(), lambda made: None)
     if pixels:
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()
