@@ -11,6 +11,7 @@ from .fields import part as whole
 from .operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
 from .tool import Tool
+from .tool_kind import ToolKind
 
 LARGEST_JOIN = 10.0
 """mm; a wider gap is no loose end any more."""
@@ -223,13 +224,19 @@ class Job:
         """Return the tool of an operation.
 
         Raises:
-            ParameterError: the job has no such tool, or it is a drill and the operation mills.
+            ParameterError: the job has no such tool, or one that cannot do it: a drill is to mill, or what has no cone
+                is to carve.
         """
         tool = self.tool(operation.cut.tool)
         if tool.kind.drills and not operation.DRILLS:
             raise ParameterError(
                 f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
                 "choose another tool, or make it a drill operation."
+            )
+        if operation.CARVES and tool.kind is not ToolKind.V:
+            raise ParameterError(
+                f"T{tool.number} {tool.label} is a {tool.kind.value} cutter; a {operation.WORD} operation needs a V "
+                "cutter with its angle: choose another tool, or give it kind and tip_angle."
             )
         return tool
 

@@ -182,6 +182,7 @@ class Operation:
         CLEARS: whether it clears the whole floor of its area, in rings.
         COARSE: whether its tool is the wide one, that goes over the area before others follow.
         FOLLOWS_WALLS: whether its path runs along the walls, or on the lines, and not over an area.
+        CARVES: whether its cutter's cone makes slanted walls that end at the drawn lines, and no floor.
     """
 
     cut: Cut = required_part(Cut)
@@ -192,6 +193,7 @@ class Operation:
     CLEARS: ClassVar[bool] = False
     COARSE: ClassVar[bool] = False
     FOLLOWS_WALLS: ClassVar[bool] = False
+    CARVES: ClassVar[bool] = False
 
     @property
     def wall_side(self) -> Side | None:
@@ -399,6 +401,18 @@ class RestOperation(Operation):
 
 
 @dataclass(frozen=True, slots=True)
+class VcarveOperation(Operation):
+    """Carve the area inside with a V cutter that touches both walls at the surface; `depth` is the greatest."""
+
+    WORD = "vcarve"
+    CARVES = True
+    UNUSED = frozenset({"stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"})
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+
+
+@dataclass(frozen=True, slots=True)
 class DrillOperation(Operation):
     """Drill the circles of the drawing at their centres."""
 
@@ -479,7 +493,7 @@ def register(kind: type[Operation]) -> None:
         raise ValueError(f"two kinds of operation are called {kind.WORD}")
 
 
-for _kind in (PocketOperation, AdaptiveOperation, RestOperation, ContourOperation, DrillOperation):
+for _kind in (PocketOperation, AdaptiveOperation, RestOperation, ContourOperation, VcarveOperation, DrillOperation):
     register(_kind)
 
 

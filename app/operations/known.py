@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from . import adaptive, contour, drill, pocket, rest
+from . import adaptive, contour, drill, pocket, rest, vcarve
 
-__all__ = ["adaptive", "contour", "drill", "pocket", "rest"]
+__all__ = ["adaptive", "contour", "drill", "pocket", "rest", "vcarve"]

@@ -37,6 +37,7 @@ from ..verify.verdict import (
     rapids_in_material,
 )
 from .bitmap_options import is_picture
+from .carving_proofs import carving_proofs
 from .cut import CutProgram
 from .cut_job import cut_job, news
 from .engagement_proofs import engagement_proofs
@@ -267,7 +268,8 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mad
     lines = np.concatenate([file.nc.lines for file in written.files]) if written.files else program.moves.line
     program = replace(program, moves=replace(program.moves, line=lines))
     progress.step(0.2, "Checking clearance")
-    proofs = engagement_proofs(program, job, written, progress.part(0.2, 0.22))
+    proofs = engagement_proofs(program, job, written, progress.part(0.2, 0.21))
+    carvings = carving_proofs(program, job, written, progress.part(0.21, 0.22))
     depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
@@ -279,6 +281,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mad
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
         *(finding for proof in proofs.values() for finding in proof.findings()),
+        *(finding for carving in carvings.values() for finding in carving.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -288,7 +291,8 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mad
     )
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
-    report = make_report(Measured(program, job, written, deepest, rapids, coverage, findings, metal, proofs))
+    measured = Measured(program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings)
+    report = make_report(measured)
     return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 
 
@@ -296,7 +300,7 @@ def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:
     """Return what is to say of tools that do not cut straight walls and a flat floor, as paths beside walls take them
     to do.
     """
-    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines]
+    moves, bare = program.moves, [k for k, each in enumerate(job.operations) if each.follows_lines or each.CARVES]
     tools = [job.tool(number) for number in dict.fromkeys(moves.tool[~np.isin(moves.operation, bare)].tolist())]
     return tuple(
         Finding(

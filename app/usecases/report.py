@@ -22,6 +22,7 @@ from ..toolpath.coverage.coverage import STRIP, Coverage, Place
 from ..toolpath.coverage.wanted import CHORD
 from ..verify.judgement import SpotKind
 from ..verify.verdict import Gouge, RapidInMaterial
+from .carving_proofs import CarvingProof
 from .cut import CutProgram
 from .engagement_proofs import OperationProof
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
@@ -60,7 +61,7 @@ class Measured:
         written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
         cut: the files, cut out of the stock; None without files.
-        proofs: of the engaged angle, by index of the operation.
+        proofs: of the engaged angle, by index of the operation. carvings: of what V cutters leave, alike.
     """
 
     program: Program
@@ -72,6 +73,7 @@ class Measured:
     findings: tuple[Finding, ...]
     cut: CutProgram | None
     proofs: Mapping[int, OperationProof] = field(default_factory=dict)
+    carvings: Mapping[int, CarvingProof] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -180,7 +182,8 @@ def make_report(measured: Measured) -> Report:
 
 
 def _proven(measured: Measured, index: int) -> Json:
-    return {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
+    engaged = {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
+    return engaged | ({"carved": measured.carvings[index].values()} if index in measured.carvings else {})
 
 
 def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:

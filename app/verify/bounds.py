@@ -36,6 +36,7 @@ class Bound:
         leave: stock to leave on its walls, mm.
         floor: how deep they may go, mm.
         holes: True where the area is circles to drill, which may cross: a drill stays in one of them.
+        carves: True where walls are slanted as the cutter is, and end at the area's outline.
     """
 
     operations: tuple[int, ...]
@@ -44,17 +45,19 @@ class Bound:
     leave: float
     floor: float
     holes: bool = False
+    carves: bool = False
 
 
 def bounds_of(program: Program, job: Job) -> list[Bound]:
     """Return what holds for the operations of a job that are switched on; tools without one may do what any other
     may.
     """
-    found: dict[tuple[int, int, float, float], list[int]] = {}
+    found: dict[tuple[int, int, float, float, bool], list[int]] = {}
     areas = areas_of_operations(program, job)
     for k, operation in enumerate(job.operations):
         if operation.cut.enabled and areas[k].regions:
-            key = id(areas[k].regions), id(areas[k].lines), operation.cut.stock_to_leave, deepest(operation, job)
+            leave, floor = operation.cut.stock_to_leave, deepest(operation, job)
+            key = id(areas[k].regions), id(areas[k].lines), leave, floor, operation.CARVES
             found.setdefault(key, []).append(k)
     busy = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
     idle = tuple(tool.number for tool in job.tools if tool.number not in busy)
@@ -66,8 +69,9 @@ def bounds_of(program: Program, job: Job) -> list[Bound]:
             leave,
             floor,
             job.operations[group[0]].DRILLS,
+            carves,
         )
-        for (_, _, leave, floor), group in found.items()
+        for (_, _, leave, floor, carves), group in found.items()
     ]
 
 

@@ -9,6 +9,9 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import pack
+from ..model.tool import ToolKind
 from ..simulation.field.outline import beside, inside
 from ..simulation.field.target import MARGIN, Target
 from ..simulation.field.workpiece import Grid
@@ -16,7 +19,7 @@ from ..toolpath.build import MovesBuilder
 from ..toolpath.coverage.areas import united
 from ..toolpath.coverage.flat import grown, region_shapes
 from ..toolpath.coverage.wanted import CHORD, bone_shape
-from .bounds import bounds_of
+from .bounds import Bound, bounds_of
 from .parts import FlatPart
 
 Mask = NDArray[np.bool_]
@@ -55,6 +58,9 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
         reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
         reach |= within
     for bound in bounds_of(part.program(NO_MOVES), part.job):
+        if bound.carves:
+            _carve(part, bound, FlatTarget(Target(grid, wanted, low, high), reach))
+            continue
         # drilled holes may cross, and cells are told inside by crossings of all outlines together
         mine = cells.within(united(region_shapes(bound.area.regions, CHORD)), slack - bound.leave)
         low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))
@@ -62,6 +68,38 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
             near = cells.within(bone_shape(bone), slack)
             low[near] = np.minimum(low[near], top - np.float32(bound.floor))
     return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
+
+
+def _carve(part: FlatPart, bound: Bound, target: FlatTarget) -> None:
+    """Put in the slanted walls that a cone makes: as high as the nearest wall is far, divided by the cone's slope.
+
+    What is left is spoken of where a pointed cone gets to the drawn depth; a flat tip leaves corners, and the middle of
+    what is wider than the cone belongs to other tools.
+    """
+    cones = [tool for tool in part.job.tools if tool.number in bound.tools and tool.kind is ToolKind.V]
+    if not cones:
+        return
+    grid, top = target.target.grid, np.float32(-part.origin[2])
+    x = grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0]
+    y = grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1]
+    centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    field = DistanceField.of(pack(bound.area.regions).rows)
+    held = np.flatnonzero(field.inside(centres))
+    far = np.zeros(len(centres))
+    far[held] = field.nearest(centres[held])[0]
+    steepest = max(tool.profile.cone for tool in cones)
+    depth = np.minimum(far * steepest, bound.floor).reshape(grid.rows, grid.cols)
+    surface = (top - depth).astype(np.float32)
+    inside = (far > 0).reshape(depth.shape)
+    slack = np.float32(CHORD * steepest)
+    low, high, wanted = target.target.low, target.target.high, target.target.around
+    low[inside] = np.minimum(low, surface - slack)[inside]
+    spoken = inside & np.isinf(high)
+    wanted[spoken] = surface[spoken]
+    if all(tool.tip_diameter == 0 for tool in cones) and len(cones) == 1:
+        sharp = spoken & (depth < bound.floor)
+        high[sharp] = surface[sharp] + slack
+        target.reach[sharp] = True
 
 
 @dataclass(frozen=True, eq=False)

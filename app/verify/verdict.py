@@ -13,14 +13,16 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..geometry.distance import DistanceField
 from ..geometry.near import near
-from ..geometry.primitives import TURN, contour_rows, pack
+from ..geometry.primitives import TURN, contour_rows, pack, within_half_turn
 from ..model.job import Job
 from ..model.moves import MoveKind, Moves, Program
 from ..model.part import Region
 from ..model.stock_box import StockBox
+from ..model.tool import ToolKind
 from ..toolpath.coverage.flat import lines, move_rows, region_shapes
 from .bounds import Bound, bounds_of, cutting_radius, in_dog_bones, off_lines, out_of_holes
 from .clearance import curve_distance, pair_distance
+from .slanted_clearance import SlantedMoves, reach_beyond
 
 Floats = NDArray[np.float64]
 
@@ -122,6 +124,10 @@ def gouge_depths(
         deep, where = _beyond(
             bound, rows[mine], radius[mine] + bound.leave, progress.part(k / len(bounds), (k + 1) / len(bounds))
         )
+        if bound.carves:
+            move, slanted, places_of = _slanted(bound, moves, job)
+            own, at = np.isin(chosen[mine], move), np.isin(move, chosen[mine])
+            deep[own], where[own] = slanted[at], places_of[at]
         deep[exempt[mine]] = -np.inf
         too_deep = -low[mine] - bound.floor
         deeper = too_deep > np.maximum(deep, _SURFACE)
@@ -129,6 +135,28 @@ def gouge_depths(
         better = deep < depth[mine]
         depth[mine[better]], places[mine[better]] = deep[better], where[better]
     return Depths(chosen, depth, np.column_stack([places, low]))
+
+
+def _slanted(bound: Bound, moves: Moves, job: Job) -> tuple[NDArray[np.int64], Floats, Floats]:
+    """Return which moves are straight ones of a cone that go up or down, how far they reach beyond walls, each as wide
+    as it is there, and where, (n, 2).
+    """
+    cones = {tool.number: tool.profile for tool in job.tools if tool.kind is ToolKind.V}
+    start, end = moves.start, moves.end
+    straight = np.isin(moves.tool, list(cones)) & (moves.kind <= MoveKind.LINE)
+    mine = np.flatnonzero(straight & (start[:, 2] != end[:, 2]) & (start[:, :2] != end[:, :2]).any(axis=1))
+    numbers = moves.tool[mine].tolist()
+    tip = np.array([cones[number].flat for number in numbers])
+    rate = np.array([1 / cones[number].cone for number in numbers])
+    widest = np.array([job.tool(number).radius for number in numbers])
+    slanted = SlantedMoves(start[mine], end[mine], tip, rate, widest)
+    walls = np.concatenate([contour_rows(contour) for region in bound.area.regions for contour in region.contours])
+    depth, places = reach_beyond(slanted, within_half_turn(walls))
+    rows = move_rows(moves)[mine]
+    outside, beyond = _outside(rows, bound.area.regions)
+    depth[outside] = np.maximum(slanted.width(np.ones(len(mine)))[outside], 0.0) + beyond
+    places[outside] = rows[outside, 2:4]
+    return mine, depth, places
 
 
 def clear_moves(moves: Moves, depths: Depths, within: float) -> NDArray[np.bool_]:

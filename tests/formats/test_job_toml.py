@@ -28,6 +28,7 @@ from app.model.operation import (
     PocketOperation,
     RestOperation,
     Side,
+    VcarveOperation,
     declared,
 )
 from app.model.part import Part, Units
@@ -44,11 +45,12 @@ def test_the_sample_says_the_defaults(samples: Path) -> None:
 def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     """Those that have no value by default stand behind a # and are read when that is taken away."""
     text = re.sub(r"(?m)^# (\[\[operation|\[\[tool|\w+ = )", r"\1", (samples / "job.toml").read_text("utf-8"))
-    pocket, rest, contour, adaptive, drill = read_job("job.toml", text.encode()).job.operations
+    pocket, rest, contour, adaptive, carving, drill = read_job("job.toml", text.encode()).job.operations
     assert isinstance(pocket, PocketOperation) and pocket.stepover == 3.0
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert adaptive == AdaptiveOperation(Cut(1))
+    assert carving == VcarveOperation(Cut(1))
     assert drill == DrillOperation(Cut(1), 1.0, 5.9, 6.1, 0.0)
     named = set(re.findall(r"(?m)^(\w+) = ", text))
     assert {"kind", *declared()} | set(TOOL_KEYS) - {"feeds"} <= named
@@ -178,7 +180,7 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ("[[operation]]\nkind = 'saw'\ntool = 1", "j:2: kind is 'saw'"),
         (
             "[[operation]]\nkind = 'drill'\nstepdown = 1\ntool = 1",
-            "j:3: stepdown belongs to pocket, adaptive, rest and contour operations",
+            "j:3: stepdown belongs to pocket, adaptive, rest, contour and vcarve operations",
         ),
         (
             "[[operation]]\nkind = 'pocket'\ntool = 1\npeck = 1",

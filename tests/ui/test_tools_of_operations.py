@@ -37,7 +37,15 @@ NO_MILL = (
 ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch one on"
 
 
+NO_CONE = (
+    "T1 {} is a {} cutter; a vcarve operation needs a V cutter with its angle: choose another tool, or give it kind "
+    "and tip_angle."
+)
+
+
 def refused(word: str, tool: Tool) -> str:
+    if OPERATION_KINDS[word].CARVES and tool.kind not in (ToolKind.DRILL, ToolKind.V):
+        return NO_CONE.format(tool.label, tool.kind.value)
     return NO_MILL.format(word) if tool.kind is ToolKind.DRILL and OPERATION_KINDS[word] is not DrillOperation else ""
 
 

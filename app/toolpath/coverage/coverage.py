@@ -222,8 +222,9 @@ def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, 
 def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = None) -> list[_Path]:
     """Return the path of each tool's moves, or of some of them (n,), that cut as deep as so many mm, or deeper."""
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
-    drills = [tool.number for tool in job.tools if tool.kind.drills]  # their tips leave a cone
-    chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, drills) & (True if of is None else of)
+    pointed = [tool.number for tool in job.tools if tool.kind.drills]  # their tips leave a cone
+    pointed += [each.cut.tool for each in job.operations if each.CARVES]
+    chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, pointed) & (True if of is None else of)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
     return [
         _Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers

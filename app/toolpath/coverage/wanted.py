@@ -124,7 +124,7 @@ def _cutting(program: Program, job: Job) -> list[_Work]:
     return [
         _Work(operation, area)
         for operation, area in zip(job.operations, areas, strict=True)
-        if operation.cut.enabled and area.regions and not operation.DRILLS
+        if operation.cut.enabled and area.regions and not (operation.DRILLS or operation.CARVES)
     ]
 
 

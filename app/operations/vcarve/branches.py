@@ -1,0 +1,120 @@
+"""The medial axis as branches of chords: what a cutter can go along in straight moves.
+
+A chord is as near to its piece as asked in x, y and radius together, so a cone on it neither cuts beyond a wall nor
+keeps off it by more: distance from walls changes by no more than the way gone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import GeometryError
+from ...geometry.medial_axis.axis import MedialAxis
+
+Floats = NDArray[np.float64]
+
+CHORD = 5e-4
+"""mm; half of what a path may be off, the other half is for the digits that it is written with."""
+
+_LOOKED = np.linspace(0.0, 1.0, 9)
+"""Fractions of a chord at which it is held against its piece."""
+
+_HALVINGS = 30
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A way along the medial axis.
+
+    Attributes:
+        discs: (n, 3) x, y and radius of the disc, mm, n > 1.
+    """
+
+    discs: Floats
+
+    @property
+    def length(self) -> float:
+        """Seen from above, mm."""
+        return float(np.hypot(*np.diff(self.discs[:, :2], axis=0).T).sum())
+
+    def backwards(self) -> Branch:
+        """Return it from its end to its beginning."""
+        return Branch(np.ascontiguousarray(self.discs[::-1]))
+
+    def between(self, low: float, high: float) -> list[Branch]:
+        """Return the parts of it whose radius is within limits, mm; they end at the limit."""
+        found: list[Branch] = []
+        points: list[Floats] = []
+        for a, b in zip(self.discs[:-1], self.discs[1:], strict=True):
+            part = _clipped(a, b, low, high)
+            if part is None:
+                continue
+            if points and not np.array_equal(points[-1], part[0]):
+                found.append(Branch(np.array(points)))
+                points = []
+            points += [part[1]] if points else list(part)
+        return [*found, Branch(np.array(points))] if len(points) > 1 else found
+
+
+def _clipped(a: Floats, b: Floats, low: float, high: float) -> tuple[Floats, Floats] | None:
+    """Return what of a chord has a radius within limits; None where nothing has."""
+    rise = float(b[2] - a[2])
+    if rise == 0.0:
+        return (a, b) if low <= a[2] <= high else None
+    first, last = sorted(((low - a[2]) / rise, (high - a[2]) / rise))
+    first, last = max(first, 0.0), min(last, 1.0)
+    if last <= first:
+        return None
+    return (a if first == 0.0 else a + (b - a) * first), (b if last == 1.0 else a + (b - a) * last)
+
+
+def branches(axis: MedialAxis) -> list[Branch]:
+    """Return the pieces of an axis as chords that are within CHORD of them.
+
+    Raises:
+        GeometryError: a piece bends more than can be told.
+    """
+    waiting, name, done = axis.pieces, np.arange(len(axis.pieces)), []
+    for _ in range(_HALVINGS):
+        if not len(waiting):
+            break
+        discs = replace(axis, pieces=np.ascontiguousarray(waiting)).discs(_LOOKED)
+        straight = _bent(discs) <= CHORD
+        done += [
+            (int(k), float(begin), ends[0], ends[-1])
+            for k, begin, ends in zip(name[straight], waiting[straight, 2], discs[straight], strict=True)
+        ]
+        again, name = waiting[~straight], np.repeat(name[~straight], 2)
+        middle = (again[:, 2] + again[:, 3]) / 2
+        waiting = np.repeat(again, 2, axis=0)
+        waiting[::2, 3], waiting[1::2, 2] = middle, middle
+    if len(waiting):
+        x, y = axis.discs(_LOOKED)[name[0], 4, :2].tolist()
+        raise GeometryError(
+            f"The medial axis of region {axis.region} bends more near ({x:.3f}, {y:.3f}) than a path of straight moves "
+            "can follow; look there for edges that cross or lie on one another, and mend them."
+        )
+    forward = np.where(axis.pieces[:, 3] >= axis.pieces[:, 2], 1.0, -1.0)
+    chains: dict[int, list[tuple[float, Floats, Floats]]] = {}
+    for k, begin, a, b in done:
+        chains.setdefault(k, []).append((begin * forward[k], a, b))
+    found = []
+    for _, chords in sorted(chains.items()):
+        chords.sort(key=lambda each: each[0])
+        found.append(Branch(np.array([chords[0][1], *(each[2] for each in chords)])))
+    return found
+
+
+def _bent(discs: Floats) -> Floats:
+    """Return (m,) how far discs (m, k, 3) leave the chord from the first to the last, in x, y and radius together."""
+    chord = discs[:, -1] - discs[:, 0]
+    size = np.maximum(np.einsum("mi,mi->m", chord, chord), 1e-300)
+    off = discs - discs[:, :1]
+    along = np.clip(np.einsum("mki,mi->mk", off, chord) / size[:, None], 0.0, 1.0)
+    away = off - along[:, :, None] * chord[:, None]
+    # in the plane and in radius: both shift the cone's rim sideways
+    bent: Floats = (np.hypot(away[:, :, 0], away[:, :, 1]) + np.abs(away[:, :, 2])).max(axis=1)
+    return bent

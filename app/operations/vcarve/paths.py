@@ -1,0 +1,270 @@
+"""V-carving: straight moves along the medial axis, as deep as the cone is when it touches the walls at the surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from ...core.errors import ParameterError
+from ...core.progress import Progress
+from ...geometry.medial_axis.axis import medial_axes
+from ...geometry.offset.offset import Ring, offset_levels
+from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample
+from ...model.finding import Finding, FindingKind
+from ...model.job import Job
+from ...model.moves import Purpose
+from ...model.operation import Operation
+from ...toolpath.build import Label, MovesBuilder, Stroke
+from ...toolpath.depth.depth import Levels
+from ...toolpath.setting import Setting, check_depth, levels_of
+from .branches import Branch, Floats, branches
+from .graph import graph_of, prune, trails
+
+_TOLD = 20
+"""Places that are told one by one."""
+
+_SAME = 1e-9
+
+_CLEARED = 1e-3
+"""mm; stock to leave that is so near to how wide the cone is clears the floor that it leaves."""
+
+_SLACK = 1e-6
+"""mm by which passes overlap, so that digits leave no gap between them."""
+
+
+@dataclass(frozen=True)
+class Cone:
+    """A V cutter.
+
+    Attributes:
+        tip: radius of the flat at its end, mm.
+        rate: mm of radius per mm of height: the tangent of half the tip's angle.
+        widest: radius where the cone ends, mm.
+    """
+
+    tip: float
+    rate: float
+    widest: float
+
+    def radius(self, depth: float) -> float:
+        """Return how wide it is at the surface when its tip is so deep, mm."""
+        return self.tip + depth * self.rate
+
+    def depth(self, radius: Floats) -> Floats:
+        """Return how deep its tip is when it is so wide at the surface, mm; never above it."""
+        return np.maximum(radius - self.tip, 0.0) / self.rate
+
+
+def cone_of(job: Job, operation: Operation) -> Cone:
+    """Return the cone of an operation's tool.
+
+    Raises:
+        ParameterError: the tool has none, or is not as wide at the operation's depth.
+    """
+    tool = job.cutter(operation)
+    cone = Cone(tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), tool.radius)
+    deepest = float(cone.depth(np.array([cone.widest]))[0])
+    if operation.cut.depth > deepest + _SAME:
+        raise ParameterError(
+            f"Depth is {operation.cut.depth:g} mm, but the cone of T{tool.number} {tool.label} is {deepest:.3f} mm "
+            "high: it would cut with its shank; reduce the depth, or take a wider cutter."
+        )
+    return cone
+
+
+@dataclass(frozen=True, eq=False)
+class Carved:
+    """The ways of one depth pass.
+
+    Attributes:
+        trails: along the medial axis.
+        rings: at the pass's height, where the area is wider than the cone.
+    """
+
+    z: float
+    trails: tuple[Branch, ...]
+    rings: tuple[Ring, ...]
+
+
+def vcarve(setting: Setting, index: int, progress: Progress) -> None:
+    """Carve the area of an operation."""
+    job = setting.job
+    operation = job.operations[index]
+    sheet, cut, tool = setting.sheets.of(operation), operation.cut, job.tool(operation.cut.tool)
+    cone = cone_of(job, operation)
+    if sheet is None:
+        return
+    check_depth(job, cut)
+    levels, label = levels_of(setting, cut), Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
+    passes = list(carved(sheet.primitives, cone, levels.passes, progress.part(0.0, 0.9)))
+    setting.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
+    setting.findings.extend(_cut_into(job, operation, cone))
+    writer = _Writer(setting.builder, label, levels, cone)
+    for k, each in enumerate(passes):
+        progress.step(0.9 + 0.1 * k / len(passes), "Depth passes")
+        writer.cut(each, setting.at)
+        if setting.builder.at[0] == setting.builder.at[0]:
+            setting.at = setting.builder.at[:2]
+        setting.strokes += len(each.trails) + len(each.rings)
+
+
+def carved(primitives: Primitives, cone: Cone, heights: Sequence[float], progress: Progress) -> Iterator[Carved]:
+    """Yield the ways of each depth pass: what of the axis is deeper than the pass before, and at the pass's own height
+    the ring from which the cone touches the walls.
+
+    Raises:
+        GeometryError: the medial axis is not proven right.
+        Cancelled: by progress.
+    """
+    whole: list[Branch] = []
+    lone: list[Floats] = []
+    for axis in medial_axes(primitives, progress.part(0.0, 0.6)):
+        graph = graph_of(branches(axis))
+        lone += prune(graph)
+        whole += [graph.branches[k] for k in sorted({k for own in graph.at for k in own})]
+    lone += _round_ones(primitives)
+    radii = [cone.radius(-z) for z in heights]
+    rings = offset_levels(primitives, radii, progress.part(0.6, 1.0))
+    low = max(cone.tip, _SAME)
+    for z, high, level in zip(heights, radii, rings, strict=True):
+        parts = [part for branch in whole for part in branch.between(low - _SLACK, high)]
+        points = [Branch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
+        yield Carved(z, (*trails(graph_of(parts)), *points), level.rings)
+        low = high
+
+
+def _round_ones(primitives: Primitives) -> list[Floats]:
+    """Return the disc of each region that is one: its medial axis is a point."""
+    found = []
+    for number in np.unique(primitives.region):
+        rows = primitives.rows[primitives.region == number]
+        alike = np.ptp(rows[:, CX : R + 1], axis=0).max() < _SAME
+        if (rows[:, TURN] > 0).all() and alike:
+            found.append(rows[0, CX : R + 1].copy())
+    return found
+
+
+@dataclass(eq=False)
+class _Writer:
+    """Appends the moves of passes."""
+
+    builder: MovesBuilder
+    label: Label
+    levels: Levels
+    cone: Cone
+
+    def cut(self, each: Carved, at: tuple[float, float]) -> None:
+        """Append a pass: whichever way begins nearest comes next, from its nearer end."""
+        x, y, _ = self.builder.at
+        at = at if x != x else (x, y)
+        left = list(each.trails)
+        starts = np.array([(*way.discs[0, :2], *way.discs[-1, :2]) for way in left]).reshape(-1, 4)
+        waiting = np.ones(len(left), np.bool_)
+        while waiting.any():
+            first, last = (np.hypot(*(starts[:, k : k + 2] - at).T) for k in (0, 2))
+            k = int(np.argmin(np.where(waiting, np.minimum(first, last), np.inf)))
+            waiting[k] = False
+            way = left[k].backwards() if last[k] < first[k] else left[k]
+            at = (float(way.discs[-1, 0]), float(way.discs[-1, 1]))
+            self._trail(way, each.z)
+        for ring in each.rings:
+            self._ring(ring, each.z)
+
+    def _trail(self, way: Branch, z: float) -> None:
+        discs = way.discs
+        heights = np.maximum(-self.cone.depth(discs[:, 2]), z)
+        self._down(float(discs[0, 0]), float(discs[0, 1]), float(heights[0]))
+        if len(discs) > 1:
+            rows = np.zeros((len(discs) - 1, 8))
+            rows[:, :2], rows[:, 2:4] = discs[:-1, :2], discs[1:, :2]
+            self._along(rows, heights[1:])
+        self._up()
+
+    def _ring(self, ring: Ring, z: float) -> None:
+        self._down(float(ring.rows[0, 0]), float(ring.rows[0, 1]), z)
+        self._along(ring.rows, np.full(len(ring.rows), z))
+        self._up()
+
+    def _along(self, rows: Rows, heights: Floats) -> None:
+        """Go along rows that end at heights, down no faster than a plunge."""
+        stroke = Stroke(rows, np.full(len(rows), Purpose.CONTOUR, np.uint8), 0)
+        fall = -np.diff(heights, prepend=self.builder.at[2])
+        size = np.hypot(np.hypot(*(rows[:, 2:4] - rows[:, :2]).T), fall)
+        steep = np.maximum(fall, 0.0) / np.maximum(size, 1e-12)
+        feed = np.minimum(self.label.feed, self.label.plunge_rate / np.maximum(steep, 1e-9))
+        self.builder.along(stroke, heights, self.label, np.maximum(feed, min(self.label.feed, self.label.plunge_rate)))
+
+    def _down(self, x: float, y: float, z: float) -> None:
+        levels = self.levels
+        self.builder.straight((x, y, levels.travel), Purpose.RAPID, self.label)
+        if levels.retract < levels.travel and not self._beside_clamp(x, y):
+            self.builder.straight((x, y, levels.retract), Purpose.RAPID, self.label)
+        self.builder.straight((x, y, z), Purpose.PLUNGE, self.label)
+
+    def _up(self) -> None:
+        x, y, _ = self.builder.at
+        self.builder.straight((x, y, self.levels.travel), Purpose.RAPID, self.label)
+
+    def _beside_clamp(self, x: float, y: float) -> bool:
+        clamps, wide = self.levels.clamps, self.levels.wide
+        return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
+
+
+def _too_wide(job: Job, operation: Operation, cone: Cone, rings: Sequence[Ring]) -> list[Finding]:
+    """Return where the area is wider than the V at its greatest depth, so that it leaves ridges on the floor."""
+    cut, tool = operation.cut, job.tool(operation.cut.tool)
+    wide = cut.depth * cone.rate
+    clears = [each for each in _beside(job, operation) if each.CLEARS and abs(each.cut.floor - cut.depth) < _SAME]
+    if any(abs(each.cut.stock_to_leave - wide) < _CLEARED for each in clears):
+        return []
+    floors = _floors(rings, cone.tip) if rings else []
+    found = []
+    for floor in sorted(floors, key=lambda each: -each.area)[:_TOLD]:
+        x, y = shapely.get_coordinates(shapely.point_on_surface(floor))[0].tolist()
+        text = (
+            f"At ({x:.3f}, {y:.3f}) the area is wider than T{tool.number} {tool.label} at its greatest depth, "
+            f"{cut.depth:g} mm: {floor.area:.3f} mm2 of floor are left to a flat tool; clear them first by a pocket "
+            f"operation of the same depth with {wide:.4f} mm of stock to leave."
+        )
+        found.append(Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(floor.area)))
+    return found
+
+
+def _beside(job: Job, operation: Operation) -> list[Operation]:
+    """Return the operations of a job that mill the same curves with upright walls."""
+    return [
+        each
+        for each in job.operations
+        if each.cut.enabled
+        and not (each.CARVES or each.DRILLS)
+        and each.wall_side is operation.wall_side
+        and each.cut.curves == operation.cut.curves
+    ]
+
+
+def _cut_into(job: Job, operation: Operation, cone: Cone) -> list[Finding]:
+    """Return which operations leave too little on the walls, and so cut into what is to be carved."""
+    found = []
+    for each in _beside(job, operation):
+        wide = min(each.cut.floor, operation.cut.depth) * cone.rate
+        if each.cut.stock_to_leave < wide - _CLEARED:
+            text = (
+                f"The {each.WORD} operation of T{each.cut.tool} leaves {each.cut.stock_to_leave:g} mm on the walls, "
+                f"and so cuts into the slanted ones of the {operation.WORD} operation, which are {wide:.4f} mm wide as "
+                f"deep as that; leave {wide:.4f} mm."
+            )
+            found.append(Finding(FindingKind.GOUGE, text, amount=wide - each.cut.stock_to_leave))
+    return found
+
+
+def _floors(rings: Sequence[Ring], tip: float) -> list[shapely.Polygon]:
+    """Return what rings bound, without what a flat tip clears on its way along them."""
+    outer = [shapely.Polygon(sample(ring.rows, 1e-3)) for ring in rings if ring.area > 0]
+    inner = [shapely.Polygon(sample(ring.rows, 1e-3)) for ring in rings if ring.area <= 0]
+    filled = shapely.difference(shapely.union_all(outer), shapely.union_all(inner))
+    left = shapely.buffer(filled, -tip, quad_segs=64) if tip else filled
+    return [part for part in shapely.get_parts(left).tolist() if part.area > 1e-6]

@@ -1,0 +1,284 @@
+"""How much a V cutter has left of what it should carve: looked for on the medial axis, which is found here anew.
+
+Behind each place of a wall, along its normal, lies the largest disc that touches the wall there and holds no other: its
+centre c, its radius r. A cone as wide as r at c cuts all that lies between as deep as the wall is far. What cone there
+was, as wide as w round p, leaves nowhere between more than r - w + |c - p|, by the triangle's inequality: so what is
+left at c bounds what is left all the way to the wall. Discs are found by halving, on the distance field of the drawn
+curves alone; nothing is known of how the path was made.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import CX, TURN, Primitives, R, lengths, points_at, sweeps
+
+Floats = NDArray[np.float64]
+
+STEP = 0.05
+"""mm along walls between places that are looked at, at most."""
+
+_FEWEST = 8
+"""Places on each row, at least."""
+
+_FAN = math.radians(2)
+"""Between the normals of a reflex corner, at most."""
+
+_ROUNDS = 10
+"""Times that discs are put between those that are farther apart than STEP."""
+
+_HALVINGS = 44
+_EMPTY = 1e-9
+_PORTION = 256
+_NEAR = 0.25
+"""mm; motions farther than this from a portion's discs are left aside, and asked only where the others leave more."""
+
+
+@dataclass(frozen=True, eq=False)
+class ConePath:
+    """Motions of one cone in metal, n of them, straight, part coordinates, the surface at Z 0.
+
+    Attributes:
+        start, end: (n, 3) of the tip, mm.
+        tip: radius of the flat at the cone's end, mm.
+        rate: mm of radius per mm of height.
+        greatest: depth that was asked for, mm.
+    """
+
+    start: Floats
+    end: Floats
+    tip: float
+    rate: float
+    greatest: float
+
+
+@dataclass(frozen=True)
+class RoofProof:
+    """What is left of a carving.
+
+    Attributes:
+        places: of walls that were looked at.
+        left_mm: most that stands above the carved roof, mm of height; 0 = nothing.
+        x, y: where.
+        above: places behind which more is left than is told of.
+        blunt_mm: length of wall that the flat tip is too wide for.
+        gap_mm: farthest that discs of neighbouring places are apart; between two of them no more is left than at one
+            of them and as much as `gap_mm` makes at the cone's slope.
+    """
+
+    places: int
+    left_mm: float
+    x: float
+    y: float
+    above: int
+    blunt_mm: float
+    gap_mm: float
+
+
+def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progress = NO_PROGRESS) -> RoofProof:
+    """Return what a path leaves of the roof over regions.
+
+    Args:
+        told: mm of height; what is left beyond it is counted.
+
+    Raises:
+        Cancelled: by progress.
+    """
+    most = path.tip + path.greatest * path.rate
+    elements = _Elements.of(walls)
+    discs = _discs(elements, DistanceField.of(walls.rows), most, progress.part(0.0, 0.5))
+    blunt = discs.radius < path.tip
+    left = np.zeros(len(blunt))
+    chosen = np.flatnonzero(~blunt)
+    for first in range(0, len(chosen), _PORTION):
+        progress.step(0.5 + 0.5 * first / len(chosen), "Prove what is carved")
+        some = chosen[first : first + _PORTION]
+        left[some] = _uncarved(path, discs.centres[some], discs.radius[some])
+    height = left / path.rate
+    worst = int(np.argmax(height))
+    x, y = discs.centres[worst].tolist()
+    return RoofProof(
+        len(blunt),
+        max(0.0, float(height[worst])),
+        x,
+        y,
+        int(np.count_nonzero(height > told)),
+        _blunt_length(elements, discs, blunt),
+        float(discs.gaps().max(initial=0.0)),
+    )
+
+
+def _blunt_length(walls: _Elements, discs: _Discs, blunt: NDArray[np.bool_]) -> float:
+    """Return the length of wall, mm, of the places that are told apart: each stands for half the way to its
+    neighbours.
+    """
+    same = np.diff(discs.wall) == 0
+    between = np.where(same, np.diff(discs.share) / 2, 0.0)
+    before = np.where(np.concatenate([[False], same]), np.concatenate([[0.0], between]), discs.share)
+    after = np.where(np.concatenate([same, [False]]), np.concatenate([between, [0.0]]), 1.0 - discs.share)
+    size = np.concatenate([lengths(walls.rows), np.zeros(len(walls.corners))])[discs.wall]
+    return float(((before + after) * size)[blunt].sum())
+
+
+@dataclass(frozen=True, eq=False)
+class _Elements:
+    """What discs touch: rows, and behind them the fans of normals at reflex corners, n of both.
+
+    Attributes:
+        rows: (m, 8).
+        corners: (n - m, 4) places x, y, the angle of the first normal and how far it turns, radians.
+    """
+
+    rows: Floats
+    corners: Floats
+
+    @staticmethod
+    def of(walls: Primitives) -> _Elements:
+        rows = walls.rows
+        before = rows[walls.previous]
+        into, out = _normals(before, before[:, 2:4]), _normals(rows, rows[:, :2])
+        turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ni,ni->n", into, out))
+        reflex = turn < -_EMPTY
+        angle = np.arctan2(into[reflex, 1], into[reflex, 0])
+        return _Elements(rows, np.column_stack([rows[reflex, :2], angle, turn[reflex]]))
+
+    def counts(self) -> NDArray[np.int64]:
+        """Return how many places on each are looked at first."""
+        on_rows = np.maximum(np.ceil(lengths(self.rows) / STEP), _FEWEST)
+        at_corners = np.maximum(np.ceil(-self.corners[:, 3] / _FAN), _FEWEST)
+        return np.concatenate([on_rows, at_corners]).astype(np.int64)
+
+    def feet(self, wall: NDArray[np.int64], share: Floats) -> tuple[Floats, Floats]:
+        """Return places (k, 2) at fractions (k,) of walls, and their unit normals into the area."""
+        feet, normals = np.empty((len(wall), 2)), np.empty((len(wall), 2))
+        on = wall < len(self.rows)
+        rows = self.rows[wall[on]]
+        feet[on] = points_at(rows, share[on])
+        normals[on] = _normals(rows, feet[on])
+        corners = self.corners[wall[~on] - len(self.rows)]
+        angle = corners[:, 2] + corners[:, 3] * share[~on]
+        feet[~on], normals[~on] = corners[:, :2], np.stack([np.cos(angle), np.sin(angle)], 1)
+        return feet, normals
+
+
+def _normals(rows: Floats, points: Floats) -> Floats:
+    """Return the unit normals (n, 2) of rows at points on them, to the left."""
+    way = rows[:, 2:4] - rows[:, :2]
+    straight = np.stack([-way[:, 1], way[:, 0]], 1)
+    normal = np.where(rows[:, [TURN]] == 0, straight, (rows[:, CX:R] - points) * rows[:, [TURN]])
+    unit: Floats = normal / np.maximum(np.hypot(*normal.T), 1e-300)[:, None]
+    return unit
+
+
+@dataclass(frozen=True, eq=False)
+class _Discs:
+    """The largest discs behind places of walls, in order along each, n of them."""
+
+    wall: NDArray[np.int64]
+    share: Floats
+    centres: Floats
+    radius: Floats
+
+    def gaps(self) -> Floats:
+        """Return (n - 1,) how far each centre is from the next one behind the same wall, mm; 0 between walls."""
+        apart = np.hypot(*np.diff(self.centres, axis=0).T)
+        return np.where(np.diff(self.wall) == 0, apart, 0.0)
+
+
+def _discs(walls: _Elements, field: DistanceField, most: float, progress: Progress) -> _Discs:
+    """Return discs behind all walls; where neighbours are far apart, there are more between them."""
+    counts = walls.counts()
+    wall = np.repeat(np.arange(len(counts)), counts)
+    number = np.arange(len(wall)) - np.repeat(np.cumsum(counts) - counts, counts)
+    share = (number + 0.5) / counts[wall]
+    found = _Discs(wall[:0], share[:0], np.zeros((0, 2)), share[:0])
+    for k in range(_ROUNDS):
+        feet, normals = walls.feet(wall, share)
+        radius = _largest(field, feet, normals, most, progress.part(k / _ROUNDS, (k + 1) / _ROUNDS))
+        centres = feet + normals * radius[:, None]
+        wall, share = np.concatenate([found.wall, wall]), np.concatenate([found.share, share])
+        centres, radius = np.concatenate([found.centres, centres]), np.concatenate([found.radius, radius])
+        order = np.lexsort((share, wall))
+        found = _Discs(wall[order], share[order], centres[order], radius[order])
+        wide = np.flatnonzero(found.gaps() > STEP)
+        if not len(wide):
+            break
+        wall, share = found.wall[wide], (found.share[wide] + found.share[wide + 1]) / 2
+    return found
+
+
+def _largest(field: DistanceField, feet: Floats, normals: Floats, most: float, progress: Progress) -> Floats:
+    """Return the radius of the largest disc behind each foot that holds no wall, up to so many mm: a smaller one in it
+    holds none either, so halving finds it.
+    """
+    low, high = np.zeros(len(feet)), np.full(len(feet), most)
+    for k in range(_HALVINGS):
+        progress.step(k / _HALVINGS, "Prove what is carved")
+        radius = (low + high) / 2 if k else high
+        far = field.nearest(feet + normals * radius[:, None])[0]
+        empty = far >= radius - _EMPTY
+        low, high = np.where(empty, radius, low), np.where(empty, high, radius)
+    return low
+
+
+def _uncarved(path: ConePath, centres: Floats, radius: Floats) -> Floats:
+    """Return by how much cones are too narrow or too far from discs, mm, each by the motion that is best for it."""
+    wide = path.tip - np.minimum(path.start[:, 2], path.end[:, 2]) * path.rate
+    (x0, y0), (x1, y1) = centres.min(axis=0), centres.max(axis=0)
+    xs = np.sort(np.stack([path.start[:, 0], path.end[:, 0]]), axis=0)
+    ys = np.sort(np.stack([path.start[:, 1], path.end[:, 1]]), axis=0)
+    beside = np.hypot(
+        np.maximum(np.maximum(x0 - xs[1], xs[0] - x1), 0), np.maximum(np.maximum(y0 - ys[1], ys[0] - y1), 0)
+    )
+    useful = radius.min() - wide + beside <= _NEAR
+    near, rest = np.flatnonzero(useful & (beside <= _NEAR)), np.arange(len(wide))
+    found = _by_motions(path, near, centres, radius)
+    again = np.flatnonzero(found > _NEAR)
+    if len(again):
+        found[again] = _by_motions(path, rest, centres[again], radius[again])
+    return found
+
+
+def _by_motions(path: ConePath, motions: NDArray[np.int64], centres: Floats, radius: Floats) -> Floats:
+    if not len(motions):
+        return np.full(len(radius), np.inf)
+    start, way = path.start[motions, :2], path.end[motions, :2] - path.start[motions, :2]
+    size = np.hypot(*way.T)
+    first = path.tip - path.start[motions, 2] * path.rate
+    growth = (path.start[motions, 2] - path.end[motions, 2]) * path.rate
+    unit = way / np.maximum(size, 1e-300)[:, None]
+    off = centres[:, None] - start[None]
+    along = np.einsum("mni,ni->mn", off, unit)
+    aside = np.abs(off[:, :, 0] * unit[:, 1] - off[:, :, 1] * unit[:, 0])
+    slope = growth / np.maximum(size, 1e-300)
+    gentle = np.clip(slope, -1 + 1e-12, 1 - 1e-12)
+    best = along + aside * gentle / np.sqrt(1 - gentle**2)
+    share = np.clip(best / np.maximum(size, 1e-300), 0.0, 1.0)
+    share = np.where(size > 0, share, np.where(growth > 0, 1.0, 0.0))
+    place = start[None] + way[None] * share[:, :, None]
+    apart = np.hypot(centres[:, None, 0] - place[:, :, 0], centres[:, None, 1] - place[:, :, 1])
+    left: Floats = (apart + radius[:, None] - first[None] - growth[None] * share).min(axis=1)
+    return left
+
+
+def straightened(rows: Floats, heights: Sequence[tuple[float, float]] | Floats, chord: float) -> tuple[Floats, Floats]:
+    """Return starts and ends (n, 3) of motions, arcs as chords that stay within so many mm of them."""
+    heights = np.asarray(heights)
+    turn = np.abs(sweeps(rows))
+    step = 2 * np.arccos(np.clip(1 - chord / np.maximum(rows[:, R], chord), 0, 1))
+    counts = np.where(rows[:, TURN] == 0, 1, np.maximum(1, np.ceil(turn / step))).astype(np.int64)
+    row = np.repeat(np.arange(len(rows)), counts)
+    number = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
+    begin, end = number / counts[row], (number + 1) / counts[row]
+    ends = []
+    for share in (begin, end):
+        z = heights[row, 0] + (heights[row, 1] - heights[row, 0]) * share
+        ends.append(np.column_stack([points_at(rows[row], share), z]))
+    return ends[0], ends[1]

@@ -1,0 +1,62 @@
+"""What is left of a carving, on paths made by hand: closed forms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.geometry.primitives import pack
+from app.geometry.region import nested
+from app.verify.carved_roof import ConePath, prove_roof
+from tests.part_shapes import circle, square
+
+PYRAMID = ConePath(
+    np.array([[0, 0, 0], [20, 0, 0], [0, 20, 0], [20, 20, 0]], float),
+    np.array([[10, 10, -10.0]] * 4),
+    0.0,
+    1.0,
+    99.0,
+)
+WALLS = pack(nested([square(20)]).regions)
+
+
+def test_a_pyramid_is_whole() -> None:
+    proof = prove_roof(PYRAMID, WALLS, 0.005)
+    assert proof.left_mm == pytest.approx(0.0, abs=1e-6) and proof.above == 0
+    assert proof.blunt_mm == 0 and proof.gap_mm <= 0.1
+
+
+def test_a_corner_that_is_left_out_is_left() -> None:
+    three = replace(PYRAMID, start=PYRAMID.start[:3], end=PYRAMID.end[:3])
+    proof = prove_roof(three, WALLS, 0.005)
+    assert proof.above > 100
+    # the disc in the corner, held by the one at the centre: (sqrt 2 - 1) times as far away as it is smaller
+    assert proof.left_mm == pytest.approx(10 * (math.sqrt(2) - 1), rel=0.01)
+    assert proof.x == pytest.approx(20, abs=0.1) and proof.y == pytest.approx(20, abs=0.1)
+
+
+@pytest.mark.parametrize("rate", [0.5, 1.0, 2.0])
+def test_what_is_too_shallow_is_left_by_as_much(rate: float) -> None:
+    path = replace(PYRAMID, rate=rate, start=PYRAMID.start / [1, 1, rate], end=PYRAMID.end / [1, 1, rate] + [0, 0, 0.1])
+    proof = prove_roof(path, WALLS, 0.005)
+    assert proof.left_mm == pytest.approx(0.1, rel=0.01)
+
+
+def test_a_flat_tip_does_not_reach_corners() -> None:
+    proof = prove_roof(
+        replace(PYRAMID, tip=1.0, start=PYRAMID.start + [0, 0, 1], end=PYRAMID.end + [0, 0, 1]), WALLS, 0.005
+    )
+    assert proof.left_mm == pytest.approx(0.0, abs=1e-6)
+    assert proof.blunt_mm == pytest.approx(8.0, abs=0.1)
+
+
+def test_the_greatest_depth_is_all_that_is_asked() -> None:
+    walls = pack(nested([circle(8)]).regions)
+    angle = np.linspace(0, math.tau, 2001)
+    ring = np.column_stack([6 * np.cos(angle), 6 * np.sin(angle), np.full(2001, -2.0)])
+    path = ConePath(ring[:-1], ring[1:], 0.0, 1.0, 2.0)
+    assert prove_roof(path, walls, 0.005).left_mm < 1e-4
+    assert prove_roof(replace(path, greatest=3.0), walls, 0.005).left_mm == pytest.approx(2.0, abs=1e-3)
