@@ -212,6 +212,8 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         (
             Spec("compute", "&Compute", "F5", "compute"),
             Spec("cancel", "C&ancel", "Shift+F5", "cancel"),
+            Spec("propose", "Pr&opose operations", "Ctrl+F5"),
+            Spec("propose_1986", "Operations as in 1&986"),
             Spec("scene_nc", "Show the scene's NC &program"),
             Spec("scene_cut", "Show the scene's c&ut"),
             Spec("stages_again", "Compute the &stages"),

@@ -1,0 +1,96 @@
+"""Replaces the job's operations by those that are proposed for the drawing, found on a worker of its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from ...core.progress import Progress
+from ...model.job import Job
+from ...model.operation import Order
+from ..framework.commands import Commands, on_trigger
+from ..framework.figures import counted
+from ..framework.worker import Answer, Worker
+from ..framework.workspace import Workspace
+from ..panels.changes import Subject, SubjectKind, operation_name
+from ..panels.side_panel import SidePanel
+
+if TYPE_CHECKING:
+    from ...usecases.proposal.propose import Proposal
+
+NOTHING_DRAWN = "Nothing is drawn yet; draw a closed curve or open a drawing first."
+A_PICTURE = "All of a picture's pixels is pockets; trace it first to have operations proposed."
+
+
+def proposed_for(job: Job, nesting: bool, progress: Progress) -> Proposal:
+    """Return the operations proposed for a job's drawing, by how its curves lie in one another or as in 1986."""
+    from ...usecases.proposal.propose import as_in_1986, propose  # imports the engines: never on the window's thread
+
+    return propose(job, progress=progress) if nesting else as_in_1986(job)
+
+
+class ProposalControl(QObject):
+    """Asks for proposals and takes them, as one step each.
+
+    Signals:
+        failed(sentence): what went wrong. said(sentence): what was done.
+    """
+
+    failed = Signal(str)
+    said = Signal(str)
+
+    def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
+        super().__init__(panel)
+        self._panel, self._workspace, self._commands = panel, workspace, commands
+        self._document = workspace.document
+        self.worker = Worker(self)
+        workspace.activity.follow(self.worker, "Looking at the drawing…")
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        on_trigger(commands, "propose", lambda: self.propose(nesting=True))
+        on_trigger(commands, "propose_1986", lambda: self.propose(nesting=False))
+        panel.operations.proposal.connect(commands["propose"].trigger)
+        panel.operations.rule_of_1986.connect(commands["propose_1986"].trigger)
+
+    def propose(self, nesting: bool) -> None:
+        """Have operations proposed by how the curves lie in one another, or by the rule of 1986."""
+        job = self._document.job
+        if not job.part.entities:
+            self.said.emit(NOTHING_DRAWN)
+        elif nesting and self._workspace.computation.pixels_of(job.part) is not None:
+            self.failed.emit(A_PICTURE)
+        else:
+            self._workspace.notice.dismiss()
+            self.worker.start(lambda progress: proposed_for(job, nesting, progress), self._document.revision)
+
+    def _on_done(self, answer: Answer) -> None:
+        from ...usecases.proposal.propose import Proposal, Rule
+
+        proposal = answer.value
+        assert isinstance(proposal, Proposal)
+        if answer.revision != self._document.revision:
+            self.said.emit("The drawing was changed meanwhile; propose the operations again.")
+            return
+        nesting = proposal.rule is Rule.NESTING
+        # outlines free the parts, so they must stay last
+        self._panel.subject = Subject(SubjectKind.OPERATION, 0)
+        job = replace(proposal.job, order=Order.POCKET_FIRST) if nesting else proposal.job
+        self._document.change_job("Propose operations" if nesting else "Operations as in 1986", job)
+        for each in proposal.operations:
+            self._workspace.log.note(f"propose {operation_name(each.operation)} T{each.operation.cut.tool}", each.why)
+        for finding in proposal.findings:
+            self._workspace.log.note("propose", finding.text, error=True)
+        self._ask_on(proposal, nesting)
+
+    def _ask_on(self, proposal: Proposal, nesting: bool) -> None:
+        """Say what there is now, and offer what comes next."""
+        names = ", ".join(operation_name(each.operation).lower() for each in proposal.operations)
+        left = f" {counted(len(proposal.findings), 'gap')} to close: see the log." if proposal.findings else ""
+        other = ("As in 1986", "propose_1986") if nesting else ("By the drawing", "propose")
+        answers = [("Compute", "compute"), other, ("Undo", "undo")]
+        self._workspace.notice.ask(
+            f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers]
+        )
+        self.said.emit(f"{counted(len(proposal.operations), 'operation')} proposed; the log says why.")

@@ -1,0 +1,84 @@
+"""Operations proposed and chosen in the window: a step each, undone as one, right at the first F5."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.model.operation import ContourOperation, DrillOperation, PocketOperation, Side
+from app.ui.framework.computation import State
+from app.ui.shell.proposing import NOTHING_DRAWN
+
+WAIT_MS = 20_000
+PLATE = ("rectangle 0,0 80,50", "rectangle 25,15 55,35", "circle 12,25 3", "circle 68,25 3")
+
+
+@pytest.fixture
+def plate(wiring):
+    """A plate with an inner rectangle and two holes of 6 mm."""
+    for line in PLATE:
+        wiring.document.run(line)
+    return wiring
+
+
+def proposed(qtbot, wiring, command="propose"):
+    with qtbot.waitSignal(wiring.proposing.worker.done, timeout=WAIT_MS):
+        wiring.window_.actions_[command].trigger()
+    return wiring.document.job
+
+
+def test_a_plate_comes_out_right_at_the_first_compute(qtbot, plate):
+    job = proposed(qtbot, plate)
+    kinds = [type(each) for each in job.operations]
+    assert kinds[0] is DrillOperation
+    assert PocketOperation in kinds
+    assert isinstance(job.operations[-1], ContourOperation)
+    assert job.operations[-1].side is Side.OUTSIDE
+    notes = [line for line in plate.log.lines if line.command.startswith("propose ")]
+    assert len(notes) == len(kinds)
+    assert "2 holes of 6 mm" in notes[0].reply
+    plate.window_.notice.buttons[0].click()
+    qtbot.waitUntil(lambda: plate.computation.state is not State.RUNNING, timeout=WAIT_MS)
+    assert plate.computation.state is State.CURRENT, plate.computation.error
+    assert [each.text for each in plate.computation.made.findings if each.counts] == []
+
+
+def test_one_undo_brings_back_operations_tools_and_stock(qtbot, plate):
+    before = plate.document.job
+    assert proposed(qtbot, plate) != before
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == before
+
+
+def test_as_in_1986_gives_back_the_rule_that_a_job_begins_with(qtbot, plate):
+    before = plate.document.job
+    proposed(qtbot, plate)
+    after = proposed(qtbot, plate, "propose_1986")
+    assert (after.operations, after.tools) == (before.operations, before.tools)
+
+
+def test_nothing_drawn_is_said(wiring):
+    wiring.window_.actions_["propose"].trigger()
+    assert not wiring.proposing.worker.busy
+    assert wiring.window_.status.message.toolTip() == NOTHING_DRAWN
+
+
+def test_an_opened_drawing_offers_a_proposal_and_keeps_its_operations(qtbot, wiring, tmp_path):
+    path = tmp_path / "plate.draw"
+    path.write_text("\n".join(PLATE) + "\n")
+    before = wiring.document.job.operations
+    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+        wiring.files.open_file(path)
+    notice = wiring.window_.notice
+    assert notice.isVisible()
+    assert [each.text() for each in notice.buttons] == ["Propose operations"]
+    assert wiring.document.job.operations == before
+    with qtbot.waitSignal(wiring.proposing.worker.done, timeout=WAIT_MS):
+        notice.buttons[0].click()
+    assert isinstance(wiring.document.job.operations[0], DrillOperation)
+
+
+def test_the_plus_menu_of_the_operations_proposes(qtbot, plate):
+    entries = {each.text(): each for each in plate.window_.panel.operations.menu.actions()}
+    with qtbot.waitSignal(plate.proposing.worker.done, timeout=WAIT_MS):
+        entries["Propose operations"].trigger()
+    assert isinstance(plate.document.job.operations[0], DrillOperation)
