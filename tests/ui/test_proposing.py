@@ -6,7 +6,7 @@ import pytest
 
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, Side
 from app.ui.framework.computation import State
-from app.ui.shell.proposing import NOTHING_DRAWN
+from app.ui.shell.proposing import NOTHING_DRAWN, NOTHING_SELECTED
 
 WAIT_MS = 20_000
 PLATE = ("rectangle 0,0 80,50", "rectangle 25,15 55,35", "circle 12,25 3", "circle 68,25 3")
@@ -82,3 +82,86 @@ def test_the_plus_menu_of_the_operations_proposes(qtbot, plate):
     with qtbot.waitSignal(plate.proposing.worker.done, timeout=WAIT_MS):
         entries["Propose operations"].trigger()
     assert isinstance(plate.document.job.operations[0], DrillOperation)
+
+
+def machined(qtbot, wiring, way, *numbers):
+    wiring.document.select(numbers)
+    with qtbot.waitSignal(wiring.proposing.worker.done, timeout=WAIT_MS):
+        wiring.window_.actions_[f"machine_{way}"].trigger()
+    return wiring.document.job
+
+
+@pytest.fixture
+def numbers(plate):
+    """Numbers of the curves: outline, inner rectangle, holes."""
+    ids = [entity.id for entity in plate.document.part.entities]
+    assert len(ids) == 10
+    return ids[:4], ids[4:8], ids[8:]
+
+
+WAYS = {
+    "pocket": (PocketOperation, None, 1),
+    "outside": (ContourOperation, Side.OUTSIDE, 0),
+    "inside": (ContourOperation, Side.INSIDE, 1),
+    "on": (ContourOperation, Side.ON, 1),
+    "drill": (DrillOperation, None, 2),
+    "engrave": (ContourOperation, Side.ON, 1),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_selection_becomes_an_operation_of_its_own_curves(qtbot, plate, numbers, way):
+    kind, side, which = WAYS[way]
+    before = plate.document.job
+    job = machined(qtbot, plate, way, *numbers[which])
+    shown = plate.window_.panel.subject
+    new = job.operations[shown.key]
+    assert isinstance(new, kind)
+    assert side is None or new.side is side
+    wanted = numbers[which] if way == "drill" else numbers[which][:1]
+    assert [each.text for each in new.cut.curves] == [f"#{number}" for number in wanted]
+    assert len(job.operations) == len(before.operations) + 1
+    assert job.tool(new.cut.tool) in job.tools
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == before
+
+
+def test_saying_what_each_curve_is_makes_a_plate_that_is_right_at_once(qtbot, plate, numbers):
+    outline, inner, holes = numbers
+    machined(qtbot, plate, "outside", *outline)
+    plate.window_.notice.buttons[0].click()
+    machined(qtbot, plate, "pocket", *inner)
+    plate.document.select(holes)
+    job = machined(qtbot, plate, "drill", *holes)
+    on = [each for each in job.operations if each.cut.enabled]
+    assert [type(each) for each in on] == [DrillOperation, PocketOperation, ContourOperation]
+    plate.compute()
+    qtbot.waitUntil(lambda: plate.computation.state is not State.RUNNING, timeout=WAIT_MS)
+    assert plate.computation.state is State.CURRENT, plate.computation.error
+    assert [each.kind for each in plate.computation.made.findings if each.counts] == []
+
+
+def test_an_empty_selection_is_said(plate):
+    plate.document.select(())
+    before = plate.document.job
+    plate.window_.actions_["machine_pocket"].trigger()
+    assert not plate.proposing.worker.busy
+    assert plate.document.job == before
+    assert plate.window_.status.message.toolTip() == NOTHING_SELECTED
+
+
+def test_what_is_no_circle_is_not_drilled(qtbot, plate, numbers):
+    plate.document.select(numbers[1])
+    with qtbot.waitSignal(plate.proposing.worker.failed, timeout=WAIT_MS):
+        plate.window_.actions_["machine_drill"].trigger()
+    assert "no circle" in plate.window_.notice.text.text()
+
+
+def test_the_menu_at_the_mouse_offers_it_for_a_selection_alone(plate, numbers):
+    menu = plate.context_menu
+    plate.document.select(())
+    assert "Machine this" not in [each.text() for each in menu.made(None).actions()]
+    plate.document.select(numbers[1])
+    made = menu.made(None)
+    (sub,) = [each.menu() for each in made.actions() if each.text() == "Machine this"]
+    assert [each.objectName() for each in sub.actions()] == [f"machine_{way}" for way in WAYS]

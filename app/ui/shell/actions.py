@@ -38,6 +38,7 @@ class Spec:
 
 
 SEPARATOR = Spec("", "")
+MACHINE_THIS = "&Machine this"
 _TOOLS = frozenset(f"tool_{tool.value}" for tool in (CanvasTool.SELECT, *TOOLS))
 
 MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
@@ -205,6 +206,13 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
             Spec("add_rest", "Add &rest machining"),
             Spec("add_contour", "Add &contour"),
             Spec("add_drill", "Add &drilling"),
+            SEPARATOR,
+            Spec("machine_pocket", "&Pocket", under=MACHINE_THIS),
+            Spec("machine_outside", "Contour &outside", under=MACHINE_THIS),
+            Spec("machine_inside", "Contour &inside", under=MACHINE_THIS),
+            Spec("machine_on", "Contour on &line", under=MACHINE_THIS),
+            Spec("machine_drill", "&Drill", under=MACHINE_THIS),
+            Spec("machine_engrave", "&Engrave", under=MACHINE_THIS),
         ),
     ),
     (

@@ -1,8 +1,11 @@
-"""Replaces the job's operations by those that are proposed for the drawing, found on a worker of its own."""
+"""Replaces the job's operations by those that are proposed for the drawing, or adds some for what is selected; found on
+a worker of its own.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -18,9 +21,13 @@ from ..panels.changes import Subject, SubjectKind, operation_name
 from ..panels.side_panel import SidePanel
 
 if TYPE_CHECKING:
+    from ...usecases.proposal.chosen import Chosen
     from ...usecases.proposal.propose import Proposal
 
 NOTHING_DRAWN = "Nothing is drawn yet; draw a closed curve or open a drawing first."
+NOTHING_SELECTED = "Nothing is selected; click a line first."
+WAYS = ("pocket", "outside", "inside", "on", "drill", "engrave")
+"""What a selection can become, as the commands name it: `machine_pocket`, …"""
 A_PICTURE = "All of a picture's pixels is pockets; trace it first to have operations proposed."
 
 
@@ -29,6 +36,13 @@ def proposed_for(job: Job, nesting: bool, progress: Progress) -> Proposal:
     from ...usecases.proposal.propose import as_in_1986, propose  # imports the engines: never on the window's thread
 
     return propose(job, progress=progress) if nesting else as_in_1986(job)
+
+
+def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) -> Chosen:
+    """Return the job with an operation for some curves, by their numbers; `way` is one of `WAYS`."""
+    from ...usecases.proposal.chosen import Way, with_chosen  # imports the engines: never on the window's thread
+
+    return with_chosen(job, numbers, Way[way.upper()], progress)
 
 
 class ProposalControl(QObject):
@@ -51,6 +65,8 @@ class ProposalControl(QObject):
         self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
         on_trigger(commands, "propose", lambda: self.propose(nesting=True))
         on_trigger(commands, "propose_1986", lambda: self.propose(nesting=False))
+        for way in WAYS:
+            on_trigger(commands, f"machine_{way}", partial(self.machine, way))
         panel.operations.proposal.connect(commands["propose"].trigger)
         panel.operations.rule_of_1986.connect(commands["propose_1986"].trigger)
 
@@ -65,14 +81,62 @@ class ProposalControl(QObject):
             self._workspace.notice.dismiss()
             self.worker.start(lambda progress: proposed_for(job, nesting, progress), self._document.revision)
 
-    def _on_done(self, answer: Answer) -> None:
-        from ...usecases.proposal.propose import Proposal, Rule
+    def machine(self, way: str) -> None:
+        """Have an operation added for the selected curves; `way` is one of `WAYS`."""
+        job, numbers = self._document.job, self._document.selection
+        if not numbers:
+            self.said.emit(NOTHING_SELECTED)
+        elif self._workspace.computation.pixels_of(job.part) is not None:
+            self.failed.emit(A_PICTURE)
+        else:
+            self._workspace.notice.dismiss()
+            self.worker.start(lambda progress: chosen_for(job, numbers, way, progress), self._document.revision)
 
-        proposal = answer.value
-        assert isinstance(proposal, Proposal)
+    def _on_done(self, answer: Answer) -> None:
+        from ...usecases.proposal.chosen import Chosen
+        from ...usecases.proposal.propose import Proposal
+
         if answer.revision != self._document.revision:
-            self.said.emit("The drawing was changed meanwhile; propose the operations again.")
-            return
+            self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
+        elif isinstance(answer.value, Chosen):
+            self._add(answer.value)
+        elif isinstance(answer.value, Proposal):
+            self._take(answer.value)
+
+    def _add(self, chosen: Chosen) -> None:
+        """Take over operations that were added, and offer to switch off what machines all curves besides."""
+        self._panel.choose(Subject(SubjectKind.OPERATION, chosen.index))
+        self._document.change_job(f"{operation_name(chosen.added[0].operation)} this", chosen.job)
+        self._panel.choose(Subject(SubjectKind.OPERATION, chosen.index))
+        for each in chosen.added:
+            curves = ", ".join(curve.text for curve in each.operation.cut.curves)
+            self._workspace.log.note(f"{operation_name(each.operation)} T{each.operation.cut.tool} {curves}", each.why)
+        name = operation_name(chosen.added[0].operation)
+        if chosen.others:
+            verb = "machines" if chosen.others == 1 else "machine"
+            self._workspace.notice.ask(
+                f"{name} added. {counted(chosen.others, 'operation')} still {verb} all curves of the drawing.",
+                [("Switch off", self._switch_off_others), ("Compute", self._commands["compute"].trigger)],
+            )
+        self.said.emit(f"{name} added.")
+
+    def _switch_off_others(self) -> None:
+        """Leave only operations that have curves of their own switched on."""
+
+        def make(job: Job) -> Job:
+            return replace(
+                job,
+                operations=tuple(
+                    each if each.cut.curves else replace(each, cut=replace(each.cut, enabled=False))
+                    for each in job.operations
+                ),
+            )
+
+        self._panel.change("Switch operations off", make)
+
+    def _take(self, proposal: Proposal) -> None:
+        from ...usecases.proposal.propose import Rule
+
         nesting = proposal.rule is Rule.NESTING
         # outlines free the parts, so they must stay last
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
