@@ -6,6 +6,7 @@ import pytest
 
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, Side
 from app.ui.framework.computation import State
+from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.proposing import NOTHING_DRAWN, NOTHING_SELECTED
 
 WAIT_MS = 20_000
@@ -165,3 +166,37 @@ def test_the_menu_at_the_mouse_offers_it_for_a_selection_alone(plate, numbers):
     made = menu.made(None)
     (sub,) = [each.menu() for each in made.actions() if each.text() == "Machine this"]
     assert [each.objectName() for each in sub.actions()] == [f"machine_{way}" for way in WAYS]
+
+
+def test_the_curves_of_the_chosen_operation_are_marked(qtbot, plate, numbers):
+    panel, canvas = plate.window_.panel, plate.window_.canvas
+    machined(qtbot, plate, "pocket", *numbers[1])
+    qtbot.waitUntil(lambda: not canvas.owned.isEmpty(), timeout=WAIT_MS)
+    box = canvas.owned.boundingRect()
+    assert (box.left(), box.top(), box.right(), box.bottom()) == (25, 15, 55, 35)
+    panel.choose(Subject(SubjectKind.OPERATION, 0 if panel.subject.key else 1))
+    assert canvas.owned.isEmpty(), "one that machines all marks none"
+
+
+def test_an_operation_takes_the_selected_curves_in_one_step(qtbot, plate, numbers):
+    panel, canvas = plate.window_.panel, plate.window_.canvas
+    panel.choose(Subject(SubjectKind.OPERATION, 0))
+    before = plate.document.job
+    plate.document.select(numbers[2])
+    with qtbot.waitSignal(plate.proposing.worker.done, timeout=WAIT_MS):
+        panel.operation_form.use.click()
+    own = plate.document.job.operations[0].cut.curves
+    assert [each.text for each in own] == [f"#{number}" for number in numbers[2]]
+    qtbot.waitUntil(lambda: canvas.owned.boundingRect().right() == pytest.approx(71), timeout=WAIT_MS)
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == before
+    assert canvas.owned.isEmpty()
+
+
+def test_an_operation_takes_nothing_from_an_empty_selection(plate):
+    plate.window_.panel.choose(Subject(SubjectKind.OPERATION, 0))
+    plate.document.select(())
+    before = plate.document.job
+    plate.window_.panel.operation_form.use.click()
+    assert plate.document.job == before
+    assert plate.window_.status.message.toolTip() == NOTHING_SELECTED

@@ -4,20 +4,22 @@ a worker of its own.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
 from ...core.progress import Progress
+from ...model.curve_selectors import Selector
 from ...model.job import Job
 from ...model.operation import Order
 from ..framework.commands import Commands, on_trigger
 from ..framework.figures import counted
 from ..framework.worker import Answer, Worker
 from ..framework.workspace import Workspace
-from ..panels.changes import Subject, SubjectKind, operation_name
+from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
 from ..panels.side_panel import SidePanel
 
 if TYPE_CHECKING:
@@ -36,6 +38,26 @@ def proposed_for(job: Job, nesting: bool, progress: Progress) -> Proposal:
     from ...usecases.proposal.propose import as_in_1986, propose  # imports the engines: never on the window's thread
 
     return propose(job, progress=progress) if nesting else as_in_1986(job)
+
+
+@dataclass(frozen=True)
+class OwnSelection:
+    """Curves that an operation is to have.
+
+    Attributes:
+        index: of the operation. curves: one of each contour that is selected.
+    """
+
+    index: int
+    curves: tuple[Selector, ...]
+
+
+def selection_of(job: Job, numbers: frozenset[int], index: int, progress: Progress) -> OwnSelection:
+    """Return curves, by their numbers, as the operation at an index has them."""
+    from ...usecases.proposal.chosen import numbers_of  # imports the engines: never on the window's thread
+
+    progress.step(0.0, "Sorting contours")
+    return OwnSelection(index, numbers_of(job, numbers))
 
 
 def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) -> Chosen:
@@ -67,6 +89,7 @@ class ProposalControl(QObject):
         on_trigger(commands, "propose_1986", lambda: self.propose(nesting=False))
         for way in WAYS:
             on_trigger(commands, f"machine_{way}", partial(self.machine, way))
+        panel.operation_form.selection.connect(self.use_selection)
         panel.operations.proposal.connect(commands["propose"].trigger)
         panel.operations.rule_of_1986.connect(commands["propose_1986"].trigger)
 
@@ -83,6 +106,14 @@ class ProposalControl(QObject):
 
     def machine(self, way: str) -> None:
         """Have an operation added for the selected curves; `way` is one of `WAYS`."""
+        self._start_on_selection(lambda job, numbers, progress: chosen_for(job, numbers, way, progress))
+
+    def use_selection(self) -> None:
+        """Have the selected curves be those of the operation that is shown."""
+        index = self._panel.operation_form.index
+        self._start_on_selection(lambda job, numbers, progress: selection_of(job, numbers, index, progress))
+
+    def _start_on_selection(self, find: Callable[[Job, frozenset[int], Progress], object]) -> None:
         job, numbers = self._document.job, self._document.selection
         if not numbers:
             self.said.emit(NOTHING_SELECTED)
@@ -90,7 +121,7 @@ class ProposalControl(QObject):
             self.failed.emit(A_PICTURE)
         else:
             self._workspace.notice.dismiss()
-            self.worker.start(lambda progress: chosen_for(job, numbers, way, progress), self._document.revision)
+            self.worker.start(lambda progress: find(job, numbers, progress), self._document.revision)
 
     def _on_done(self, answer: Answer) -> None:
         from ...usecases.proposal.chosen import Chosen
@@ -100,6 +131,8 @@ class ProposalControl(QObject):
             self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
         elif isinstance(answer.value, Chosen):
             self._add(answer.value)
+        elif isinstance(answer.value, OwnSelection):
+            self._give(answer.value)
         elif isinstance(answer.value, Proposal):
             self._take(answer.value)
 
@@ -119,6 +152,14 @@ class ProposalControl(QObject):
                 [("Switch off", self._switch_off_others), ("Compute", self._commands["compute"].trigger)],
             )
         self.said.emit(f"{name} added.")
+
+    def _give(self, own: OwnSelection) -> None:
+        """Give an operation its curves."""
+        self._panel.change(
+            "Change curves",
+            lambda job: with_cut(job, own.index, replace(job.operations[own.index].cut, curves=own.curves)),
+        )
+        self.said.emit(f"{operation_name(self._document.job.operations[own.index])} has the selected curves.")
 
     def _switch_off_others(self) -> None:
         """Leave only operations that have curves of their own switched on."""

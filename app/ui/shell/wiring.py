@@ -48,6 +48,7 @@ from .keys_window import KeysWindow
 from .language import LanguageWiring
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
+from .owning import OwnCurves
 from .palette import Palette
 from .proposing import ProposalControl
 from .recovering import Recovering
@@ -144,6 +145,7 @@ class Wiring(QObject):
         self.files.saving.beside.watch(self.underlaying, self.language.control)
         self.advising = Advising(window.panel, workspace)
         self.proposing = ProposalControl(window.panel, workspace, commands)
+        self.owning = OwnCurves(window.panel, canvas, workspace)
         self.inspecting = Inspecting(window.drawing_page, window.notice, commands)
         self.cleaning = Cleaning(window.drawing_page.cleanup, canvas, workspace)
         self.engaging = Engaging(canvas, window.views.legend, workspace)

@@ -102,9 +102,15 @@ def with_chosen(job: Job, numbers: Iterable[int], way: Way, progress: Progress =
 
 
 def numbers_of(job: Job, numbers: Iterable[int]) -> tuple[Selector, ...]:
-    """Return the selectors of the contours that some curves are of, one a contour, by the lowest of these numbers."""
+    """Return the selectors of the contours that some curves are of, one a contour, by the lowest of these numbers.
+
+    Raises:
+        GeometryError: the job machines none of them.
+    """
     seen, wanted = drawn(replace(job, copies=Copies())), frozenset(numbers)
-    return _numbers([each for each in (*seen.closed, *seen.open) if wanted.intersection(each.entity_ids)], wanted)
+    contours = [each for each in (*seen.closed, *seen.open) if wanted.intersection(each.entity_ids)]
+    _check(contours, Way.ON)
+    return _numbers(contours, wanted)
 
 
 def _numbers(contours: Sequence[Contour], wanted: frozenset[int]) -> tuple[Selector, ...]:
