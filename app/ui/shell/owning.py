@@ -75,7 +75,7 @@ class OwnCurves(QObject):
     def _follow(self) -> None:
         """Find the curves of what is chosen, unless they are shown or on their way."""
         job, subject = self._document.job, self._panel.subject
-        own = ()
+        own: tuple[Selector, ...] = ()
         if subject.kind is SubjectKind.OPERATION and subject.key < len(job.operations):
             own = job.operations[subject.key].cut.curves
         if not own:
