@@ -170,10 +170,13 @@ class OperationSection(ListSection):
 
     Signals:
         added(kind): the user wants another one. switched(index, on). moved(index, way): earlier (-1) or later (1).
-        copied(index): wanted twice.
+        copied(index): wanted twice. proposal(), rule_of_1986(): wants operations proposed for the drawing, or those of
+            the rule of 1986.
     """
 
     added = Signal(type)
+    proposal = Signal()
+    rule_of_1986 = Signal()
     switched = Signal(int, bool)
     moved = Signal(int, int)
     copied = Signal(int)
@@ -186,6 +189,10 @@ class OperationSection(ListSection):
             action = QAction(word.capitalize(), menu)
             action.triggered.connect(lambda _=False, k=kind: self.added.emit(k))
             menu.addAction(action)
+        menu.addSeparator()
+        menu.addAction("Propose operations").triggered.connect(lambda *_: self.proposal.emit())
+        menu.addAction("Operations as in 1986").triggered.connect(lambda *_: self.rule_of_1986.emit())
+        self.menu = menu
         self.add_button.clicked.connect(
             lambda: menu.popup(self.add_button.mapToGlobal(self.add_button.rect().bottomLeft()))
         )

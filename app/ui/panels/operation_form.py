@@ -47,11 +47,13 @@ class OperationForm(Form):
 
     Signals:
         moved(way): to be cut earlier (-1) or later (1). copied(): wanted twice. tabs(): tabs are to be put by hand.
+        selection(): its curves are to be those that are selected.
     """
 
     moved = Signal(int)
     copied = Signal()
     tabs = Signal()
+    selection = Signal()
 
     def __init__(self) -> None:
         super().__init__("Operation", removable="operation")
@@ -61,6 +63,7 @@ class OperationForm(Form):
         self._add_buttons()
         self._add_main()
         self.hand: QPushButton
+        self.use: QPushButton
         self.groups: list[OperationGroup] = []
         titles = {placed.parameter.group for placed, _ in parameters().values()} - {""}
         for title in (*(title for title in EXTRAS if title in titles), *sorted(titles - EXTRAS.keys())):

@@ -26,6 +26,7 @@ from .parameter_fields import ParameterField
 from .pictures import Picture
 
 BY_HAND = "Put tabs by hand"
+USE_SELECTION = "Use selection"
 _OF_WALLS = ("Walls", "Lead in and out")
 
 
@@ -34,7 +35,9 @@ class GroupHost(Protocol):
 
     fields: dict[str, ParameterField]
     hand: QPushButton
+    use: QPushButton
     tabs: SignalInstance
+    selection: SignalInstance
 
     def begin_group(self, title: str) -> Group:
         """Begin a group: what is added next is in it."""
@@ -193,7 +196,11 @@ _PLACES = {ContourKind.OUTER: "Outer contours", ContourKind.INNER: "Inner contou
 
 
 def _curves(form: GroupHost) -> Show:
-    """Offer the layers of the drawing, and curves by where they lie."""
+    """Offer the layers of the drawing, curves by where they lie, and those that are selected."""
+    form.use = QPushButton(USE_SELECTION)
+    form.use.setToolTip("Machine the curves that are selected in Draw, and no others")
+    form.use.clicked.connect(form.selection)
+    form.add(form.use)
 
     def show(shown: Shown) -> None:
         field, own = form.fields["curves"].field, shown.operation.cut.curves

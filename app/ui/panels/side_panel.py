@@ -33,11 +33,12 @@ class SidePanel(QScrollArea):
 
     Signals:
         refused(sentence): a change that the job does not allow. advice_shown(): the sheet "Which tool?" has been
-        opened.
+        opened. shown(): the job, or another subject of it, is shown.
     """
 
     refused = Signal(str)
     advice_shown = Signal()
+    shown = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -210,6 +211,7 @@ class SidePanel(QScrollArea):
         self.job_form.setVisible(kind is SubjectKind.JOB and not opened)
         self.tool_form.setVisible(kind is SubjectKind.TOOL and not opened)
         self.operation_form.setVisible(kind is SubjectKind.OPERATION and not opened)
+        self.shown.emit()
 
     def _on_change(self, change: Change) -> None:
         if change & Change.JOB:

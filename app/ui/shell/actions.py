@@ -38,6 +38,7 @@ class Spec:
 
 
 SEPARATOR = Spec("", "")
+MACHINE_THIS = "&Machine this"
 _TOOLS = frozenset(f"tool_{tool.value}" for tool in (CanvasTool.SELECT, *TOOLS))
 
 MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
@@ -205,6 +206,13 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
             Spec("add_rest", "Add &rest machining"),
             Spec("add_contour", "Add &contour"),
             Spec("add_drill", "Add &drilling"),
+            SEPARATOR,
+            Spec("machine_pocket", "&Pocket", under=MACHINE_THIS),
+            Spec("machine_outside", "Contour &outside", under=MACHINE_THIS),
+            Spec("machine_inside", "Contour &inside", under=MACHINE_THIS),
+            Spec("machine_on", "Contour on &line", under=MACHINE_THIS),
+            Spec("machine_drill", "&Drill", under=MACHINE_THIS),
+            Spec("machine_engrave", "&Engrave", under=MACHINE_THIS),
         ),
     ),
     (
@@ -212,6 +220,8 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         (
             Spec("compute", "&Compute", "F5", "compute"),
             Spec("cancel", "C&ancel", "Shift+F5", "cancel"),
+            Spec("propose", "Pr&opose operations", "Ctrl+F5"),
+            Spec("propose_1986", "Operations as in 1&986"),
             Spec("scene_nc", "Show the scene's NC &program"),
             Spec("scene_cut", "Show the scene's c&ut"),
             Spec("stages_again", "Compute the &stages"),

@@ -12,6 +12,8 @@ from ...core.errors import InputError
 from ...drafting.document import Document
 from ..framework.commands import Commands
 from ..views.canvas.canvas import Canvas
+from .actions import MACHINE_THIS, plain
+from .proposing import WAYS
 
 _FOR_SELECTION = (
     "tool_move",
@@ -64,6 +66,11 @@ class ContextMenu(QObject):
         if under is not None:
             chain = menu.addAction("Select chain")
             chain.triggered.connect(lambda *_: self._run(f"select chain {under}"))
+            menu.addSeparator()
+        if self._document.selection:
+            machined = menu.addMenu(plain(MACHINE_THIS))
+            for way in WAYS:
+                machined.addAction(self._commands[f"machine_{way}"])
             menu.addSeparator()
         for name in _FOR_SELECTION if self._document.selection else _WITHOUT:
             if name:

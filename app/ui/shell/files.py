@@ -213,6 +213,11 @@ class Files(QObject):
             window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
         elif opened.drawing.question is not None:
             self._ask_after(opened)
+        elif opened.job.part.entities:
+            window.notice.ask(
+                f"{opened.path.name} says nothing about machining; the operations are those that were there before.",
+                [("Propose operations", window.actions_["propose"].trigger)],
+            )
         self._see_all()
 
     def _see_all(self) -> None:

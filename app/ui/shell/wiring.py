@@ -48,7 +48,9 @@ from .keys_window import KeysWindow
 from .language import LanguageWiring
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
+from .owning import OwnCurves
 from .palette import Palette
+from .proposing import ProposalControl
 from .recovering import Recovering
 from .shortcuts import Shortcuts
 from .showing import Showing
@@ -142,6 +144,8 @@ class Wiring(QObject):
         self.language = LanguageWiring(window.command_line.edit, HelpWindow(window), workspace, commands)
         self.files.saving.beside.watch(self.underlaying, self.language.control)
         self.advising = Advising(window.panel, workspace)
+        self.proposing = ProposalControl(window.panel, workspace, commands)
+        self.owning = OwnCurves(window.panel, canvas, workspace)
         self.inspecting = Inspecting(window.drawing_page, window.notice, commands)
         self.cleaning = Cleaning(window.drawing_page.cleanup, canvas, workspace)
         self.engaging = Engaging(canvas, window.views.legend, workspace)
@@ -160,8 +164,9 @@ class Wiring(QObject):
         window, views = self.window_, self.window_.views
         self._on("export_drawing", self.drawing_export.start)
         self.drawing_export.failed.connect(self._say_error)
-        for part in (self.drawing_export, self.tools):
+        for part in (self.drawing_export, self.tools, self.proposing):
             part.said.connect(self._say)
+        self.proposing.failed.connect(self._say_error)
         self.underlaying.refused.connect(lambda text: window.status.show_message(text, error=True))
         window.panel.advice.place_wanted.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
         self.inspecting.front_wanted.connect(partial(self._show_side_page, DRAWING_PAGE))

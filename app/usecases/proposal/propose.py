@@ -22,7 +22,7 @@ from ...geometry.region import nest, polygon_contour
 from ...model.curve_selectors import Selector
 from ...model.entry import Tabs
 from ...model.finding import Finding
-from ...model.job import Copies, Job
+from ...model.job import Copies, Job, Stock
 from ...model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
 from ...model.part import Contour, Region
 from ...model.stock_box import extent
@@ -169,7 +169,7 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
     seen = drawn(replace(job, copies=Copies()))
     found = sorted_contours(job.part, seen)
     rack = Rack(options.tools or shipped_tools())
-    work = _Work(seen, found, rack, thickness, min(options.depth, thickness))
+    work = Work(seen, found, rack, thickness, min(options.depth, thickness))
     made = [
         *work.drills(),
         *work.pockets(progress.part(0.1, 0.5)),
@@ -185,9 +185,6 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
         raise GeometryError(
             f"{job.part.name}: there is no curve that an operation could be proposed for. {said}".strip()
         )
-    # the points of drills that go through come out below
-    under = max([job.stock.under, *(math.ceil(tip_length(tool)) for tool in rack.taken)])
-    margin = max([job.stock.margin, *(tool.diameter + SPARE for tool in work.round_tools)])
     progress.step(1.0)
     return Proposal(
         Rule.NESTING,
@@ -195,7 +192,7 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
             job,
             tools=tuple(sorted(rack.taken, key=lambda tool: tool.number)),
             operations=tuple(each.operation for each in made),
-            stock=replace(job.stock, margin=margin, under=under),
+            stock=work.stock(job.stock),
         ),
         tuple(made),
         found.gaps,
@@ -203,7 +200,7 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
 
 
 @dataclass
-class _Work:
+class Work:
     """What is proposed for each sort of contour.
 
     Attributes:
@@ -223,7 +220,7 @@ class _Work:
     def _curves(self, contours: Sequence[Contour]) -> tuple[Selector, ...]:
         return selectors_for(contours, self.seen, self.drilled)
 
-    def _cut(self, tool: Tool, depth: float, curves: tuple[Selector, ...]) -> Cut:
+    def cut(self, tool: Tool, depth: float, curves: tuple[Selector, ...]) -> Cut:
         """Return depth and steps: no step deeper than half the tool is wide."""
         step = min(Cut(1).stepdown, max(tool.diameter / 2, depth / 500))
         return Cut(self.rack.take(tool).number, depth, step, curves=curves)
@@ -232,6 +229,12 @@ class _Work:
         """Return a tool, and whether one has to be had that the library lacks."""
         long = " (a longer one than the library has)" if self.rack.is_long(tool) else ""
         return f"T{tool.number} {tool.kind.value} {tool.diameter:g} mm{long}"
+
+    def stock(self, stock: Stock) -> Stock:
+        """Return the stock with room round it for what cuts parts out, and below it for the points of drills."""
+        under = max([stock.under, *(math.ceil(tip_length(tool)) for tool in self.rack.taken)])
+        margin = max([stock.margin, *(tool.diameter + SPARE for tool in self.round_tools)])
+        return replace(stock, margin=margin, under=under)
 
     def drills(self) -> list[Proposed]:
         """Return the holes for which there is a drill of their size."""
@@ -254,13 +257,13 @@ class _Work:
                 continue
             tool = self.rack.boring(size, self.thickness)
             loose = size > 2 * tool.diameter
-            tabs = _tabs(circles, math.pi * tool.diameter) if loose else Tabs()
+            tabs = tabs_for(circles, math.pi * tool.diameter) if loose else Tabs()
             why = (
                 f"{_counted(len(circles), 'hole')} of {size:g} mm, through: the library has no drill of that size, so "
                 f"{self._named(tool)} mills {'them' if len(circles) > 1 else 'it'}"
                 + (f", with {tabs.count} tabs to hold what falls out" if loose else "")
             )
-            cut = self._cut(tool, self.thickness, selectors_for(circles, self.seen, as_circles=True))
+            cut = self.cut(tool, self.thickness, selectors_for(circles, self.seen, as_circles=True))
             made.append(Proposed(ContourOperation(cut, Side.INSIDE, tabs=tabs), why))
         return made
 
@@ -285,7 +288,7 @@ class _Work:
         """Return the operations that clear what contours bound: one tool, or a wide one and one for what it leaves."""
         if not contours:
             return []
-        regions = _regions(contours)
+        regions = regions_within(contours)
         # the larger the area, the wider the tool that pays for its change, and for the corners that it leaves
         widest = max(WIDEST, math.sqrt(sum(map(_area, regions))) / 10)
         mills = self.rack.mills(depth)
@@ -293,9 +296,9 @@ class _Work:
         advice = advise(regions, usable, Plan(depth, min(2.0, depth)), progress)
         curves = self._curves(contours)
         wide, fine = advice.pocket, advice.contour
-        made = [Proposed(PocketOperation(self._cut(wide, depth, curves)), f"{what}. {advice.why.rstrip('.')}")]
+        made = [Proposed(PocketOperation(self.cut(wide, depth, curves)), f"{what}. {advice.why.rstrip('.')}")]
         if fine is not wide:
-            named, cut = self._named(fine), self._cut(fine, depth, curves)
+            named, cut = self._named(fine), self.cut(fine, depth, curves)
             made.append(Proposed(RestOperation(cut), f"what T{wide.number} does not reach, with {named}"))
             made.append(Proposed(ContourOperation(cut), f"along the walls of the same, with {named}"))
         return made
@@ -311,7 +314,7 @@ class _Work:
             for some, what in ((self.found.lines, "open line"), (self.found.strokes, "stroke of letters"))
             if some
         ]
-        cut = self._cut(tool, depth, self._curves(lines))
+        cut = self.cut(tool, depth, self._curves(lines))
         why = f"{' and '.join(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
         return [Proposed(ContourOperation(cut, Side.ON), why)]
 
@@ -320,16 +323,16 @@ class _Work:
         outlines = self.found.outlines
         if not outlines:
             return []
-        least = room(_outside(outlines))
+        least = room(space_round(outlines))
         tool = self.rack.fitting(least, WIDEST, self.thickness)
         self.round_tools.append(tool)
-        tabs = replace(_tabs(outlines), height=min(Tabs().height, self.thickness / 2))
+        tabs = replace(tabs_for(outlines), height=min(Tabs().height, self.thickness / 2))
         narrow = f"; its narrowest place has room for {least:.3g} mm alone" if tool.diameter > least + 0.01 else ""
         why = (
             f"{_counted(len(outlines), 'outline')}: cut out outside, through {self.thickness:g} mm, last, by "
             f"{self._named(tool)}, with {tabs.count} tabs each and {tool.diameter + SPARE:g} mm of stock round{narrow}"
         )
-        cut = self._cut(tool, self.thickness, self._curves(outlines))
+        cut = self.cut(tool, self.thickness, self._curves(outlines))
         return [Proposed(ContourOperation(cut, Side.OUTSIDE, tabs=tabs), why)]
 
 
@@ -338,19 +341,20 @@ def _area(region: Region) -> float:
     return sum(signed_area(contour_rows(each)) for each in region.contours)
 
 
-def _regions(contours: Sequence[Contour]) -> tuple[Region, ...]:
+def regions_within(contours: Sequence[Contour]) -> tuple[Region, ...]:
+    """Return what closed contours bound, even-odd."""
     return nest(without_crossings(contours).contours)
 
 
-def _outside(outlines: Sequence[Contour]) -> tuple[Region, ...]:
+def space_round(outlines: Sequence[Contour]) -> tuple[Region, ...]:
     """Return what lies round outlines, with room for every tool."""
     x0, y0, x1, y1 = extent(outlines) or (0.0, 0.0, 0.0, 0.0)
     far = 4 * WIDEST
     frame = polygon_contour([(x0 - far, y0 - far), (x1 + far, y0 - far), (x1 + far, y1 + far), (x0 - far, y1 + far)])
-    return _regions((frame, *outlines))
+    return regions_within((frame, *outlines))
 
 
-def _tabs(contours: Sequence[Contour], shorter: float = 0.0) -> Tabs:
+def tabs_for(contours: Sequence[Contour], shorter: float = 0.0) -> Tabs:
     """Return tabs that the shortest of some contours has room for, whose path is so much shorter than it, mm."""
     shortest = min(float(lengths(contour_rows(each)).sum()) for each in contours) - shorter
     return Tabs(_TABS) if shortest >= _SMALL else Tabs(_FEWER, width=max(0.5, min(Tabs().width, shortest / 20)))

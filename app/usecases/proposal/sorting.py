@@ -93,7 +93,7 @@ def sorted_contours(part: Part, drawn: Drawn) -> Sorted:
 
     return Sorted(
         of(Sort.OUTLINE),
-        _by_diameter(of(Sort.HOLE)),
+        by_diameter(of(Sort.HOLE)),
         of(Sort.BORE),
         of(Sort.POCKET),
         of(Sort.ISLAND),
@@ -141,7 +141,7 @@ def _is_round(contour: Contour) -> bool:
     return bool(total.max() >= _HALF_TURN)
 
 
-def _by_diameter(circles: Sequence[Contour]) -> tuple[tuple[float, tuple[Contour, ...]], ...]:
+def by_diameter(circles: Sequence[Contour]) -> tuple[tuple[float, tuple[Contour, ...]], ...]:
     """Return circles in groups of one diameter, mm, rising."""
     sizes = [(2 * circle.radius, each) for each in circles if (circle := as_circle(each)) is not None]
     groups: list[tuple[float, list[Contour]]] = []

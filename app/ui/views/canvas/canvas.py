@@ -58,6 +58,7 @@ class Canvas(Hands):
     Attributes:
         frame: the display of 400 x 400 cells, or another.
         around: clamps and copies round the part.
+        owned: curves of the operation that is chosen, mm; empty where it has none of its own.
     """
 
     def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
@@ -75,7 +76,7 @@ class Canvas(Hands):
         )
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | Note | None = None
-        self._lit_path = QPainterPath()
+        self._lit_path, self.owned = QPainterPath(), QPainterPath()
         self._fresh = True
         self.setMinimumSize(200, 150)
         self.setAccessibleName("Drawing")
@@ -125,6 +126,12 @@ class Canvas(Hands):
         """Show what a command would make of the drawing before it is carried out; an empty difference shows nothing."""
         self._trial = trial
         self.update()
+
+    def set_owned(self, path: QPainterPath) -> None:
+        """Mark the curves of an operation, mm, in the drawing; an empty path marks none."""
+        if not (path.isEmpty() and self.owned.isEmpty()):
+            self.owned = path
+            self.update()
 
     def set_findings(self, findings: tuple[Finding, ...]) -> None:
         """Mark the places of these findings."""
@@ -244,6 +251,8 @@ class Canvas(Hands):
         """Paint what follows the mouse."""
         theme = self._look.theme
         painter.setClipRect(self.area)
+        if self._mode is CanvasMode.DRAW:
+            overlay.paint_owned(painter, self.view, self.owned, theme)
         if isinstance(self._lit, Note):
             paint_note(painter, self.view, self._lit, (theme.accent_text, 2.2), self.area)
         elif self._lit is not None and not self.runner.shows_change:

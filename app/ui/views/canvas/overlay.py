@@ -13,7 +13,7 @@ from ....model.curves import Point
 from ....model.finding import Finding
 from ...framework.theme import Theme, text_font
 from ...framework.words import tr
-from .curve_path import curve_path
+from .curve_path import MANY, curve_path
 from .drawing_tool import Preview
 from .notes_picture import paint_notes
 from .pens import FINE, screen_pen
@@ -22,6 +22,7 @@ from .view import View
 
 _GRIP_HALF = 3.5
 _LABEL_GAP = 16.0
+_OWNED_PX, _OWNED_ALPHA = 7.0, 0.35
 
 
 def paint_preview(painter: QPainter, view: View, preview: Preview, theme: Theme) -> None:
@@ -72,6 +73,23 @@ class TrialPicture:
             painter.setPen(screen_pen(painter, colour, FINE if fine else width))
             painter.drawPath(path)
         painter.restore()
+
+
+def paint_owned(painter: QPainter, view: View, path: QPainterPath, theme: Theme) -> None:
+    """Paint curves of an operation, mm: a broad, faint band of the accent beside which their own colour stays."""
+    if path.isEmpty():
+        return
+    band = QColor(theme.accent)
+    band.setAlphaF(_OWNED_ALPHA)
+    painter.save()
+    painter.setTransform(view.transform(), True)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    pen = screen_pen(painter, band, FINE if path.elementCount() > MANY else _OWNED_PX)
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+    pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+    painter.setPen(pen)
+    painter.drawPath(path)
+    painter.restore()
 
 
 def paint_points(painter: QPainter, view: View, points: list[tuple[float, float]], theme: Theme) -> None:

@@ -1,0 +1,99 @@
+"""Shows on the drawing which curves the operation that is chosen in the panel has of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QPainterPath
+
+from ...core.progress import Progress
+from ...model.curve_selectors import Selector
+from ...model.job import Copies, Job
+from ..framework.worker import Answer, Worker
+from ..framework.workspace import Workspace
+from ..panels.changes import SubjectKind
+from ..panels.side_panel import SidePanel
+from ..views.canvas.canvas import Canvas
+from ..views.canvas.curve_path import curve_path
+
+if TYPE_CHECKING:
+    from ...toolpath.drawn import Drawn
+
+
+@dataclass(frozen=True, eq=False)
+class Owned:
+    """Curves of a drawing that an operation has of its own.
+
+    Attributes:
+        job: whose drawing it is. drawn: its contours, which chaining takes time to find. path: of the curves, mm.
+    """
+
+    job: Job
+    drawn: Drawn
+    path: QPainterPath
+
+
+def _same_contours(one: Job, other: Job) -> bool:
+    """Tell whether two jobs machine the same contours of the same drawing."""
+
+    def layers(job: Job) -> object:
+        return job.layer_names, job.keep_out_layers, [(each.cut.curves, each.cut.enabled) for each in job.operations]
+
+    return one.part is other.part and one.join_tolerance == other.join_tolerance and layers(one) == layers(other)
+
+
+def owned_curves(job: Job, curves: tuple[Selector, ...], known: Owned | None, progress: Progress) -> Owned:
+    """Return the curves that some selectors select; `known` is what was found before, its contours still hold."""
+    from ...toolpath.drawn import drawn  # chains contours: never on the window's thread
+    from ...toolpath.selected import selected
+
+    progress.step(0.0)
+    seen = known.drawn if known is not None else drawn(replace(job, copies=Copies()))
+    found = selected(seen, curves)
+    ids = {number for each in (*found.closed, *found.open) for number in each.entity_ids}
+    progress.step(0.9)
+    return Owned(job, seen, curve_path(*(each.curve for each in job.part.entities if each.id in ids)))
+
+
+class OwnCurves(QObject):
+    """Follows the panel and the document; an operation that machines all curves of the job marks none."""
+
+    def __init__(self, panel: SidePanel, canvas: Canvas, workspace: Workspace) -> None:
+        super().__init__(panel)
+        self._panel, self._canvas, self._document = panel, canvas, workspace.document
+        self._known: Owned | None = None
+        self._asked: tuple[Job, tuple[Selector, ...]] | None = None
+        self.worker = Worker(self)
+        workspace.activity.ended.connect(self.worker.finish)
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(lambda _: self._show_none())
+        panel.shown.connect(self._follow)
+        self._unsubscribe = self._document.subscribe(lambda _: self._follow())
+
+    def _follow(self) -> None:
+        """Find the curves of what is chosen, unless they are shown or on their way."""
+        job, subject = self._document.job, self._panel.subject
+        own: tuple[Selector, ...] = ()
+        if subject.kind is SubjectKind.OPERATION and subject.key < len(job.operations):
+            own = job.operations[subject.key].cut.curves
+        if not own:
+            self._asked, self._known = None, None
+            self.worker.cancel()
+            self._show_none()
+            return
+        asked = self._asked
+        if asked is not None and asked[1] == own and _same_contours(asked[0], job):
+            return
+        self._asked = job, own
+        known = self._known if self._known is not None and _same_contours(self._known.job, job) else None
+        self.worker.start(lambda progress: owned_curves(job, own, known, progress), self._document.revision)
+
+    def _on_done(self, answer: Answer) -> None:
+        assert isinstance(answer.value, Owned)
+        self._known = answer.value
+        self._canvas.set_owned(answer.value.path)
+
+    def _show_none(self) -> None:
+        self._canvas.set_owned(QPainterPath())
