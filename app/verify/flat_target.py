@@ -16,6 +16,7 @@ from ..simulation.field.outline import beside, inside
 from ..simulation.field.target import MARGIN, Target
 from ..simulation.field.workpiece import Grid
 from ..toolpath.build import MovesBuilder
+from ..toolpath.coverage.areas import united
 from ..toolpath.coverage.flat import grown, region_shapes
 from ..toolpath.coverage.wanted import CHORD, bone_shape
 from .bounds import Bound, bounds_of
@@ -60,7 +61,8 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
         if bound.carves:
             _carve(part, bound, FlatTarget(Target(grid, wanted, low, high), reach))
             continue
-        mine = cells.within(region_shapes(bound.area.regions, CHORD), slack - bound.leave)
+        # drilled holes may cross, and cells are told inside by crossings of all outlines together
+        mine = cells.within(united(region_shapes(bound.area.regions, CHORD)), slack - bound.leave)
         low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))
         for bone in part.dog_bones:
             near = cells.within(bone_shape(bone), slack)
@@ -108,8 +110,8 @@ class _Cells:
     grid: Grid
 
     def within(self, shape: Shape | NDArray[np.object_], by: float = 0.0) -> Mask:
-        """Return (rows, cols) which cells' centres lie in a shape, or in one of several: in all that comes within `by`
-        mm of it, or, where that is negative, in what of its parts is deeper inside.
+        """Return (rows, cols) which cells' centres lie in a shape, or in several that do not overlap: in all that
+        comes within `by` mm of it, or, where that is negative, in what of its parts is deeper inside.
         """
         parts = shapely.get_parts(shape)
         if abs(by) > self.grid.pitch:  # cells near edges would be too many

@@ -89,25 +89,58 @@ class Chance:
 
 
 LINES = """
-line P P | line P P P close polyline P P arc P P close arc P P P | arc P P radius D large | arc on P | arc P P centre P
-cw circle P D | circle P through P as c | circle through P P P rect P P | rect P P round D polygon 6 P P | polygon 5 P
-side P slot P P D ellipse P P D | ellipse P P D from A to A cw spline P P P P | spline degree 2 P P P weights 1 2 1
-text P 10 "R2" angle A point P guide P A | guide up P as g dimension C place P | dimension P P place P across |
-dimension angle P P P place P select all | select C | select chain C | select add crossing P P | select layer L |
-select none delete C reverse S layer L | layer L C move @3,-2 S copy @D<A times 2 S rotate P A S scale P 0.5 S | scale
-P -1 S | scale P 1.001 S mirror P P copy S array 2 3 @D,D C | array polar P 4 C hide L show L lock L unlock L colour L
-"#d55e00" | colour L none order layer L before L rename layer L to "other" remove layer L trim C P | trim C1 middle(C1)
-by C2 N | line P P; trim C P extend C P | extend C P to N break C P | break C P P | break C1 middle(C1) fillet D C P C
-P | fillet D S | fillet 0 C1 C2 | fillet D C1 C2 chamfer D C C | chamfer D and D S | chamfer D C1 C2 offset D P C |
-offset D P S round join S | join within D S explode C measure | measure S | measure P P heal 0.01 | heal D S pull C1
-start(C1) to P | pull C1 C2 finish(C1) to P | pull S P to P set C length D | set C radius D | set C angle A | set C
-major D | set C sweep A | set C start P | set C end P | set C centre P undo | undo 2 redo
+line P P | line P P P close
+polyline P P arc P P close
+arc P P P | arc P P radius D large | arc on P | arc P P centre P cw
+circle P D | circle P through P as c | circle through P P P
+rect P P | rect P P round D
+polygon 6 P P | polygon 5 P side P
+slot P P D
+ellipse P P D | ellipse P P D from A to A cw
+spline P P P P | spline degree 2 P P P weights 1 2 1
+text P 10 "R2" angle A
+point P
+guide P A | guide up P as g
+dimension C place P | dimension P P place P across | dimension angle P P P place P
+select all | select C | select chain C | select add crossing P P | select layer L | select none
+delete C
+reverse S
+layer L | layer L C
+move @3,-2 S
+copy @D<A times 2 S
+rotate P A S
+scale P 0.5 S | scale P -1 S | scale P 1.001 S
+mirror P P copy S
+array 2 3 @D,D C | array polar P 4 C
+hide L
+show L
+lock L
+unlock L
+colour L "#d55e00" | colour L none
+order layer L before L
+rename layer L to "other"
+remove layer L
+trim C P | trim C1 middle(C1) by C2 N | line P P; trim C P
+extend C P | extend C P to N
+break C P | break C P P | break C1 middle(C1)
+fillet D C P C P | fillet D S | fillet 0 C1 C2 | fillet D C1 C2
+chamfer D C C | chamfer D and D S | chamfer D C1 C2
+offset D P C | offset D P S round
+join S | join within D S
+explode C
+measure | measure S | measure P P
+heal 0.01 | heal D S
+pull C1 start(C1) to P | pull C1 C2 finish(C1) to P | pull S P to P
+set C length D | set C radius D | set C angle A | set C major D | set C sweep A | set C start P | set C end P
+    | set C centre P
+undo | undo 2
+redo
 """
 """What is asked for, a command a line: P a point, D a length, A an angle, C a curve, S some curves, N a note, L a
 layer.
 """
 
-CHOICES = {words.split()[0]: words.split(" | ") for words in LINES.strip().splitlines()}
+CHOICES = {words.split()[0]: words.split(" | ") for words in LINES.replace("\n    | ", " | ").strip().splitlines()}
 
 
 def test_every_command_is_among_those_drawn_at_random() -> None:

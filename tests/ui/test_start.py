@@ -69,7 +69,7 @@ plain = control.NcControl._on_foreign
 def watched(self, remember, shown):
     plain(self, remember, shown)
     print(shown.source.name, len(shown.shapes))
-    QTimer.singleShot(50, self._window.close)
+    QTimer.singleShot(50, self._view.window().close)
 control.NcControl._on_foreign = watched
 """
 

@@ -7,7 +7,8 @@ from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
 from app.ui.framework.samples import Sample
 from app.ui.framework.theme import LIGHT
-from app.ui.shell.views import View, Views
+from app.ui.framework.view import Page, View
+from app.ui.shell.views import Views
 from app.ui.views.canvas.canvas import Canvas
 from app.ui.views.canvas.modes import ColourBy
 
@@ -16,7 +17,10 @@ from app.ui.views.canvas.modes import ColourBy
 def views(qtbot):
     document = Document()
     document.run("circle 50,50 20")
-    made = Views(Canvas(document, LIGHT))
+    canvas = Canvas(document, LIGHT)
+    made = Views(canvas)
+    drawn = Page(canvas, canvas)
+    made.take_pages({View.DRAW: drawn, View.PATHS: drawn, View.NC: Page(made.nc, made.nc)})
     qtbot.addWidget(made)
     made.resize(900, 600)
     made.show()

@@ -212,7 +212,7 @@ def test_stock_to_leave_is_taken_off() -> None:
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.07, 0.2])
-@pytest.mark.parametrize("kind", [ToolKind.FLAT, ToolKind.BALL])
+@pytest.mark.parametrize("kind", [ToolKind.FLAT, ToolKind.BALL], ids=lambda kind: kind.value)
 def test_the_certificate_holds_on_a_grid_eight_times_as_fine(shift: float, kind: ToolKind) -> None:
     rng = np.random.default_rng(int(100 * shift))
     lanes = "".join(

@@ -30,7 +30,7 @@ _NEIGHBOURS = 1
 
 
 @dataclass(frozen=True, eq=False)
-class MedialAxis:
+class RoughAxis:
     """A graph.
 
     Attributes:
@@ -44,7 +44,7 @@ class MedialAxis:
     edges: Indices
 
 
-def medial_axis(walls: Primitives, room: Room, corners: Floats, spacing: float, progress: Progress) -> MedialAxis:
+def rough_axis(walls: Primitives, room: Room, corners: Floats, spacing: float, progress: Progress) -> RoughAxis:
     """Return the axis where a cutter finds room.
 
     Args:
@@ -70,7 +70,7 @@ def medial_axis(walls: Primitives, room: Room, corners: Floats, spacing: float, 
     reach[used] = room.reach(diagram.vertices[used])
     points, edges = _renumbered(*_cut_off(diagram.vertices, reach >= room.needed, edges, room))
     points, edges = _with_corners(points, edges, corners)
-    axis = MedialAxis(points, room.reach(points), edges)
+    axis = RoughAxis(points, room.reach(points), edges)
     return _pruned(axis, len(points) - len(corners), room)
 
 
@@ -122,7 +122,7 @@ def _with_corners(points: Floats, edges: Indices, corners: Floats) -> tuple[Floa
     return np.concatenate([points, corners]), np.concatenate([edges, more])
 
 
-def _pruned(axis: MedialAxis, first: int, room: Room) -> MedialAxis:
+def _pruned(axis: RoughAxis, first: int, room: Room) -> RoughAxis:
     """Return the axis without branches whose tips add next to nothing; corners, from number `first` on, stay."""
     edges, kept = axis.edges, np.ones(len(axis.edges), np.bool_)
     joined: list[list[int]] = [[] for _ in axis.points]
@@ -141,11 +141,11 @@ def _pruned(axis: MedialAxis, first: int, room: Room) -> MedialAxis:
                 for end in edges[k].tolist():
                     alive[end] -= 1
     points, edges = axis.points, edges[kept]
-    return MedialAxis(points, axis.reach, edges)
+    return RoughAxis(points, axis.reach, edges)
 
 
 def _branch(
-    axis: MedialAxis, joined: Sequence[Sequence[int]], kept: NDArray[np.bool_], tip: int
+    axis: RoughAxis, joined: Sequence[Sequence[int]], kept: NDArray[np.bool_], tip: int
 ) -> tuple[list[int], int]:
     """Return the edges from a tip to where the axis branches, and the point there."""
     way: list[int] = []

@@ -14,7 +14,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
-from .axis import MedialAxis, medial_axis
+from .axis import RoughAxis, rough_axis
 from .ground import ClearedDiscs, Point, Room
 from .limit import Limit
 from .ring import Proof, rounded, sharp_corners
@@ -89,7 +89,7 @@ def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Pa
     corners, _ = sharp_corners(fine.rings, _SHARP)
     field = DistanceField.of(task.walls.rows)
     room = Room(field, task.leave, limit.radius + least)
-    axis = medial_axis(task.walls, room, corners, _SPACING * limit.radius, progress.part(0.2, 0.4))
+    axis = rough_axis(task.walls, room, corners, _SPACING * limit.radius, progress.part(0.2, 0.4))
     axis = _complete(axis, coarse, room)
     parts, found = [], trees(axis)
     for k, tree in enumerate(found):
@@ -103,7 +103,7 @@ def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Pa
 @dataclass(frozen=True, eq=False)
 class _PlannedArea:
     room: Room
-    axis: MedialAxis
+    axis: RoughAxis
     levels: tuple[Level, Level]
     turns: tuple[float, float]
     task: Task
@@ -122,7 +122,7 @@ def _tip(turns: Floats, limit: Limit, least: float) -> float:
     return max(min(least, _SLIVER * sine / max(1e-9, 1 - sine)), limit.least_turn)
 
 
-def _complete(axis: MedialAxis, level: Level, room: Room) -> MedialAxis:
+def _complete(axis: RoughAxis, level: Level, room: Room) -> RoughAxis:
     """Return the axis with a point in each part that has none, such as the middle of a circle."""
     points, reach = [axis.points], [axis.reach]
     for ring in level.rings:
@@ -137,7 +137,7 @@ def _complete(axis: MedialAxis, level: Level, room: Room) -> MedialAxis:
         reach.append(np.array([wide]))
     made = np.concatenate(points)
     lone = np.arange(len(axis.points), len(made))
-    return MedialAxis(made, np.concatenate(reach), np.concatenate([axis.edges, np.column_stack([lone, lone])]))
+    return RoughAxis(made, np.concatenate(reach), np.concatenate([axis.edges, np.column_stack([lone, lone])]))
 
 
 def _part(area: _PlannedArea, tree: Tree, limit: Limit, progress: Progress) -> Part:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...core.progress import Progress
-from .axis import MedialAxis
+from .axis import RoughAxis
 from .ground import ClearedDiscs, Disc, Point, Room
 from .limit import Limit
 
@@ -47,7 +47,7 @@ class AxisWalk:
 
     limit: Limit
     room: Room
-    axis: MedialAxis
+    axis: RoughAxis
     discs: ClearedDiscs = field(default_factory=ClearedDiscs)
     stops: list[WalkStop] = field(default_factory=list)
 
@@ -161,7 +161,7 @@ class Tree:
         return self.after.get(node, [])
 
 
-def trees(axis: MedialAxis) -> list[Tree]:
+def trees(axis: RoughAxis) -> list[Tree]:
     """Return a spanning tree of each connected part, made of its widest edges."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
@@ -185,7 +185,7 @@ def trees(axis: MedialAxis) -> list[Tree]:
     return found
 
 
-def _tree(axis: MedialAxis, root: int, order: list[int], before: np.ndarray) -> Tree:
+def _tree(axis: RoughAxis, root: int, order: list[int], before: np.ndarray) -> Tree:
     long = dict.fromkeys(order, 0.0)
     after: dict[int, list[int]] = {}
     for node in reversed(order[1:]):

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.ui.framework.samples import Sample
 from app.ui.framework.theme import DARK, LIGHT
-from app.ui.framework.view import View
+from app.ui.framework.view import views
 from app.ui.views.cut.camera import StandardView
 from app.ui.views.cut.colouring import CutColour
 from app.ui.views.cut.cut_legend import Side
@@ -262,8 +262,8 @@ def test_the_view_stays_when_the_same_stock_is_cut_anew(view, picture):
 
 
 def test_cut_curves_and_surfaces_stand_between_paths_and_nc():
-    names = [view.name for view in View]
-    assert names[names.index("PATHS") + 1 :] == ["CUT", "CURVES", "SURFACES", "NC"]
+    names = [view.value for view in views()]
+    assert names[names.index("view_paths") + 1 :] == ["view_cut", "view_curves", "view_surfaces", "view_nc"]
 
 
 def fails(scene):
