@@ -50,7 +50,7 @@ def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert adaptive == AdaptiveOperation(Cut(1))
-    assert carving == VcarveOperation(Cut(1))
+    assert carving == VcarveOperation(Cut(3))
     assert drill == DrillOperation(Cut(1), 1.0, 5.9, 6.1, 0.0)
     named = set(re.findall(r"(?m)^(\w+) = ", text))
     assert {"kind", *declared()} | set(TOOL_KEYS) - {"feeds"} <= named

@@ -135,6 +135,8 @@ def cells_area(axis: MedialAxis) -> float:
     arcs and vertices of what lies between them and the radius; pieces are halved until halves agree.
     """
     pieces, total = axis.pieces, 0.0
+    # of all cells together: against what waits alone, the last digits of tiny pieces would never agree
+    agree = 1e-12 * max(float(np.abs(_areas(axis, pieces)).sum()), 1e-300)
     for _ in range(_HALVINGS):
         if not len(pieces):
             break
@@ -143,7 +145,7 @@ def cells_area(axis: MedialAxis) -> float:
         first[:, 3], second[:, 2] = both, both
         whole = _areas(axis, pieces)
         halves = _areas(axis, first) + _areas(axis, second)
-        again = np.abs(whole - halves) > 1e-12 * max(float(np.abs(whole).sum()), 1e-300)
+        again = np.abs(whole - halves) > agree
         total += float(halves[~again].sum())
         pieces = np.concatenate([first[again], second[again]])
     return total + float(_areas(axis, pieces).sum())
