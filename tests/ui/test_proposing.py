@@ -200,3 +200,13 @@ def test_an_operation_takes_nothing_from_an_empty_selection(plate):
     plate.window_.panel.operation_form.use.click()
     assert plate.document.job == before
     assert plate.window_.status.message.toolTip() == NOTHING_SELECTED
+
+
+def test_circles_that_drills_make_are_not_marked_as_a_pocket(qtbot, plate):
+    job = proposed(qtbot, plate)
+    panel, canvas = plate.window_.panel, plate.window_.canvas
+    (pocket,) = [k for k, each in enumerate(job.operations) if each.COARSE]
+    panel.choose(Subject(SubjectKind.OPERATION, pocket))
+    qtbot.waitUntil(lambda: canvas.owned.boundingRect().left() == 25, timeout=WAIT_MS)
+    panel.choose(Subject(SubjectKind.OPERATION, 0))
+    qtbot.waitUntil(lambda: canvas.owned.boundingRect().left() == pytest.approx(9), timeout=WAIT_MS)

@@ -41,18 +41,36 @@ def _same_contours(one: Job, other: Job) -> bool:
     def layers(job: Job) -> object:
         return job.layer_names, job.keep_out_layers, [(each.cut.curves, each.cut.enabled) for each in job.operations]
 
-    return one.part is other.part and one.join_tolerance == other.join_tolerance and layers(one) == layers(other)
+    def drills(job: Job) -> object:
+        return [each for each in job.operations if each.DRILLS]
+
+    return (
+        drills(one) == drills(other)
+        and one.part is other.part
+        and one.join_tolerance == other.join_tolerance
+        and layers(one) == layers(other)
+    )
 
 
-def owned_curves(job: Job, curves: tuple[Selector, ...], known: Owned | None, progress: Progress) -> Owned:
-    """Return the curves that some selectors select; `known` is what was found before, its contours still hold."""
+def owned_curves(job: Job, index: int, known: Owned | None, progress: Progress) -> Owned:
+    """Return the curves of the operation at an index, without the circles that drills make, unless it drills.
+
+    Args:
+        job: its drawing and operations. index: of the operation.
+        known: what was found before, whose contours still hold.
+        progress: to be cancelled by.
+    """
     from ...toolpath.drawn import drawn  # chains contours: never on the window's thread
+    from ...toolpath.drill_holes import circle_of, made_by_drills
     from ...toolpath.selected import selected
 
     progress.step(0.0)
-    seen = known.drawn if known is not None else drawn(replace(job, copies=Copies()))
-    found = selected(seen, curves)
-    ids = {number for each in (*found.closed, *found.open) for number in each.entity_ids}
+    job, operation = replace(job, copies=Copies()), job.operations[index]
+    seen = known.drawn if known is not None else drawn(job)
+    found = selected(seen, operation.cut.curves)
+    made = frozenset() if operation.DRILLS else made_by_drills(job, seen)
+    closed = [each for each in found.closed if not made or circle_of(each) not in made]
+    ids = {number for each in (*closed, *found.open) for number in each.entity_ids}
     progress.step(0.9)
     return Owned(job, seen, curve_path(*(each.curve for each in job.part.entities if each.id in ids)))
 
@@ -64,7 +82,7 @@ class OwnCurves(QObject):
         super().__init__(panel)
         self._panel, self._canvas, self._document = panel, canvas, workspace.document
         self._known: Owned | None = None
-        self._asked: tuple[Job, tuple[Selector, ...]] | None = None
+        self._asked: tuple[Job, int] | None = None
         self.worker = Worker(self)
         workspace.activity.ended.connect(self.worker.finish)
         self.worker.done.connect(self._on_done)
@@ -84,11 +102,11 @@ class OwnCurves(QObject):
             self._show_none()
             return
         asked = self._asked
-        if asked is not None and asked[1] == own and _same_contours(asked[0], job):
+        if asked is not None and asked[1] == subject.key and _same_contours(asked[0], job):
             return
-        self._asked = job, own
+        self._asked = job, subject.key
         known = self._known if self._known is not None and _same_contours(self._known.job, job) else None
-        self.worker.start(lambda progress: owned_curves(job, own, known, progress), self._document.revision)
+        self.worker.start(lambda progress: owned_curves(job, subject.key, known, progress), self._document.revision)
 
     def _on_done(self, answer: Answer) -> None:
         assert isinstance(answer.value, Owned)

@@ -149,7 +149,7 @@ class ProposalControl(QObject):
             verb = "machines" if chosen.others == 1 else "machine"
             self._workspace.notice.ask(
                 f"{name} added. {counted(chosen.others, 'operation')} still {verb} all curves of the drawing.",
-                [("Switch off", self._switch_off_others), ("Compute", self._commands["compute"].trigger)],
+                [("Switch them off", self._switch_off_others), ("Compute", self._commands["compute"].trigger)],
             )
         self.said.emit(f"{name} added.")
 
@@ -182,19 +182,20 @@ class ProposalControl(QObject):
         # outlines free the parts, so they must stay last
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
         job = replace(proposal.job, order=Order.POCKET_FIRST) if nesting else proposal.job
+        changed = job != self._document.job
         self._document.change_job("Propose operations" if nesting else "Operations as in 1986", job)
         for each in proposal.operations:
             self._workspace.log.note(f"propose {operation_name(each.operation)} T{each.operation.cut.tool}", each.why)
         for finding in proposal.findings:
             self._workspace.log.note("propose", finding.text, error=True)
-        self._ask_on(proposal, nesting)
+        self._ask_on(proposal, nesting, changed)
 
-    def _ask_on(self, proposal: Proposal, nesting: bool) -> None:
-        """Say what there is now, and offer what comes next."""
+    def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool) -> None:
+        """Say what there is now, and offer what comes next; to undo only where something was changed."""
         names = ", ".join(operation_name(each.operation).lower() for each in proposal.operations)
         left = f" {counted(len(proposal.findings), 'gap')} to close: see the log." if proposal.findings else ""
         other = ("As in 1986", "propose_1986") if nesting else ("By the drawing", "propose")
-        answers = [("Compute", "compute"), other, ("Undo", "undo")]
+        answers = [("Compute", "compute"), other, *([("Undo", "undo")] if changed else [])]
         self._workspace.notice.ask(
             f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers]
         )
