@@ -131,7 +131,7 @@ def _concerned(operation: Operation, placed: Placed, kinds: tuple[type[Operation
 def _lacking(placed: Placed, kinds: tuple[type[Operation], ...]) -> str:
     """Return what a job lacks that a parameter has no effect on."""
     needs = placed.parameter.needs
-    mills = {kind for kind in OPERATION_KINDS.values() if not kind.DRILLS}
+    mills = {kind for kind in OPERATION_KINDS.values() if not (kind.DRILLS or kind.CARVES)}
     what = "operation that mills" if set(kinds) == mills else f"{' or '.join(kind.WORD for kind in kinds)} operation"
     added = "; --drill D adds one" if all(kind.DRILLS for kind in kinds) else ""
     with_ = f" with {needs.with_}{'; ' * bool(needs.option)}{needs.option}" if needs else ""

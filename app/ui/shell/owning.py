@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Owned:
+class OwnedCurves:
     """Curves of a drawing that an operation has of its own.
 
     Attributes:
@@ -52,7 +52,7 @@ def _same_contours(one: Job, other: Job) -> bool:
     )
 
 
-def owned_curves(job: Job, index: int, known: Owned | None, progress: Progress) -> Owned:
+def owned_curves(job: Job, index: int, known: OwnedCurves | None, progress: Progress) -> OwnedCurves:
     """Return the curves of the operation at an index, without the circles that drills make, unless it drills.
 
     Args:
@@ -72,7 +72,7 @@ def owned_curves(job: Job, index: int, known: Owned | None, progress: Progress) 
     closed = [each for each in found.closed if not made or circle_of(each) not in made]
     ids = {number for each in (*closed, *found.open) for number in each.entity_ids}
     progress.step(0.9)
-    return Owned(job, seen, curve_path(*(each.curve for each in job.part.entities if each.id in ids)))
+    return OwnedCurves(job, seen, curve_path(*(each.curve for each in job.part.entities if each.id in ids)))
 
 
 class OwnCurves(QObject):
@@ -81,7 +81,7 @@ class OwnCurves(QObject):
     def __init__(self, panel: SidePanel, canvas: Canvas, workspace: Workspace) -> None:
         super().__init__(panel)
         self._panel, self._canvas, self._document = panel, canvas, workspace.document
-        self._known: Owned | None = None
+        self._known: OwnedCurves | None = None
         self._asked: tuple[Job, int] | None = None
         self.worker = Worker(self)
         workspace.activity.ended.connect(self.worker.finish)
@@ -109,7 +109,7 @@ class OwnCurves(QObject):
         self.worker.start(lambda progress: owned_curves(job, subject.key, known, progress), self._document.revision)
 
     def _on_done(self, answer: Answer) -> None:
-        assert isinstance(answer.value, Owned)
+        assert isinstance(answer.value, OwnedCurves)
         self._known = answer.value
         self._canvas.set_owned(answer.value.path)
 
