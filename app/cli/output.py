@@ -70,7 +70,7 @@ def finding_lines(findings: Sequence[Finding]) -> list[str]:
         counting = sum(1 for finding in findings if finding.kind is kind and finding.counts)
         told = max(min(counting, COUNTED), min(count, REMARKS))
         if count > told:
-            lines.append(f"  - {count - told} more of the kind {kind.value}; --report R.json lists them all")
+            lines.append(f"  - {count - told} more of this kind ({kind.words}); --report R.json lists them all")
     return lines
 
 

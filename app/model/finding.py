@@ -10,42 +10,55 @@ from ..core.errors import printable
 
 
 class FindingKind(Enum):
-    """What was found. The value is the key in reports."""
+    """What was found. The value is the key in reports.
 
-    OPEN_CONTOUR = "open_contour"
-    SELF_INTERSECTION = "self_intersection"
-    OVERLAP = "overlap"
-    GAP_CLOSED = "gap_closed"
-    UNITS_ASSUMED = "units_assumed"
-    LEFT_OUT = "left_out"
-    TINY_ENTITY = "tiny_entity"
-    REGION_TOO_SMALL = "region_too_small"
-    NECK_TOO_NARROW = "neck_too_narrow"
-    GOUGE = "gouge"
-    LEFT_REACHABLE = "left_reachable"
-    LEFT_UNREACHABLE = "left_unreachable"
-    RAPID_IN_MATERIAL = "rapid_in_material"
-    TOLERANCE = "tolerance"
-    ENGAGEMENT = "engagement"
-    MACHINE = "machine"
-    TOOL_SHAPE = "tool_shape"
-    START_IN_STOCK = "start_in_stock"
-    PLUNGE = "plunge"
-    HOLDER_CONTACT = "holder_contact"
-    SHANK_CONTACT = "shank_contact"
-    BELOW_TABLE = "below_table"
-    ASSUMED = "assumed"
-    HIDDEN = "hidden"
-    BEYOND_STOCK = "beyond_stock"
-    AMBIGUOUS = "ambiguous"
-    SKIN = "skin"
-    ENTRY = "entry"
-    CLAMP = "clamp"
-    AREA = "area"
-    HOLE = "hole"
-    SIZE = "size"
-    FEED = "feed"
-    RIDGE = "ridge"
+    Attributes:
+        words: how people are told of it.
+    """
+
+    words: str
+
+    def __new__(cls, key: str, words: str) -> FindingKind:
+        """Keep the words beside the key."""
+        kind = object.__new__(cls)
+        kind._value_ = key
+        kind.words = words
+        return kind
+
+    OPEN_CONTOUR = "open_contour", "open contour"
+    SELF_INTERSECTION = "self_intersection", "crossing contours"
+    OVERLAP = "overlap", "overlap"
+    GAP_CLOSED = "gap_closed", "gap closed"
+    UNITS_ASSUMED = "units_assumed", "units assumed"
+    LEFT_OUT = "left_out", "left out"
+    TINY_ENTITY = "tiny_entity", "tiny entity"
+    REGION_TOO_SMALL = "region_too_small", "region too small"
+    NECK_TOO_NARROW = "neck_too_narrow", "neck too narrow"
+    GOUGE = "gouge", "gouge"
+    LEFT_REACHABLE = "left_reachable", "material left"
+    LEFT_UNREACHABLE = "left_unreachable", "corners out of reach"
+    RAPID_IN_MATERIAL = "rapid_in_material", "rapid in material"
+    TOLERANCE = "tolerance", "tolerance not met"
+    ENGAGEMENT = "engagement", "full slot"
+    MACHINE = "machine", "beyond the machine"
+    TOOL_SHAPE = "tool_shape", "a tool of another shape"
+    START_IN_STOCK = "start_in_stock", "start in the stock"
+    PLUNGE = "plunge", "plunge in metal"
+    HOLDER_CONTACT = "holder_contact", "holder in metal"
+    SHANK_CONTACT = "shank_contact", "shank in metal"
+    BELOW_TABLE = "below_table", "cut into the table"
+    ASSUMED = "assumed", "assumed"
+    HIDDEN = "hidden", "metal below metal"
+    BEYOND_STOCK = "beyond_stock", "part beyond the stock"
+    AMBIGUOUS = "ambiguous", "doubtful place in the picture"
+    SKIN = "skin", "skin along the walls"
+    ENTRY = "entry", "another entry"
+    CLAMP = "clamp", "clamp hit"
+    AREA = "area", "area lost or gained"
+    HOLE = "hole", "hole in a surface"
+    SIZE = "size", "doubtful size"
+    FEED = "feed", "plunge at full feed"
+    RIDGE = "ridge", "ridges between passes"
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ from ..core.errors import GeometryError, ParameterError
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.scene.toml import read_scene
 from ..gcode.posts.posts import load_post
+from ..geometry.buffer import buffered
 from ..model.finding import Finding
 from ..model.job import Job, OriginXY, OriginZ
 from ..model.part import Part
@@ -234,7 +235,7 @@ def _area(boundaries: Sequence[Boundary], tool: Tool, sources: Sources) -> shape
     parts = []
     for boundary in boundaries:
         area = region_area(regions_of(boundary, sources))
-        parts.append(shapely.buffer(area, -tool.radius, quad_segs=64) if boundary.centre is Centre.INSIDE else area)
+        parts.append(buffered(area, -tool.radius, 64) if boundary.centre is Centre.INSIDE else area)
     return shapely.union_all(parts)
 
 

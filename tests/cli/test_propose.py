@@ -105,3 +105,8 @@ def test_layers_and_curves_of_one_operation_are_refused(
     job = tmp_path / "j.toml"
     job.write_text("[[operation]]\nkind = 'pocket'\ntool = 1\nlayers = ['0']\ncurves = ['outer']\n")
     assert "layers goes into curves" in refused(capsys, plate, "-o", tmp_path / "o.ngc", "--job", job)
+
+
+@pytest.mark.parametrize("name", ["fig2.dxf", "nameplate.draw"])
+def test_a_sample_that_is_proposed_has_no_finding_that_counts(name: str, samples: Path, tmp_path: Path) -> None:
+    assert main(["make", str(samples / name), "-o", str(tmp_path / "o.ngc"), "--propose", "--quiet"]) == 0

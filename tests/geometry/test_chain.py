@@ -308,6 +308,7 @@ def test_spur_leaves_the_loop_closed() -> None:
     assert shape(made) == [(False, 1), (True, 4)]
     (branch,) = of_kind(made, FindingKind.SELF_INTERSECTION)
     assert branch.counts and "3 ends meet at (10.000, 10.000)" in branch.text
+    assert set(branch.entity_ids) == {1, 3, 4}
 
 
 def test_bar_between_two_loops_leaves_both_closed() -> None:

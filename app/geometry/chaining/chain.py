@@ -55,7 +55,7 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     pieces, nodes, gaps = brought_together(pieces, nodes)
     found, branches = paths(pieces, nodes)
     contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
-    odd = [place for place, ends in branches if ends % 2]
+    odd = [branch.place for branch in branches if branch.odd]
     findings += [
         *overlap_findings(overlaps, contours, join_tolerance),
         *repeat_findings(doubles),

@@ -14,6 +14,7 @@ from ...model.part import Contour
 from ..primitives import boxes, contour_rows
 from .overlap import Overlap
 from .pieces import Piece, length_of
+from .trace import Branch
 
 LIMIT = 20
 """So many places of one kind are named one by one; the rest is counted."""
@@ -156,15 +157,16 @@ def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
     ]
 
 
-def branch_findings(branches: Sequence[tuple[Point, int]]) -> list[Finding]:
+def branch_findings(branches: Sequence[Branch]) -> list[Finding]:
     """Return a finding for each point where an odd number of ends meet; where an even number does, outlines only
     touch.
     """
     found = []
-    for place, ends in branches:
-        if ends % 2:
-            text = f"{ends} ends meet at {at(place)}; one of them belongs to no outline: delete or complete it."
-            found.append(Finding(FindingKind.SELF_INTERSECTION, text, *place, True, (), float(ends)))
+    for branch in branches:
+        if branch.odd:
+            ends, ids = len(branch.entity_ids), tuple(dict.fromkeys(branch.entity_ids))
+            text = f"{ends} ends meet at {at(branch.place)}; one of them belongs to no outline: delete or complete it."
+            found.append(Finding(FindingKind.SELF_INTERSECTION, text, *branch.place, True, ids, float(ends)))
     return limited(found, "points where one end too many meets others")
 
 

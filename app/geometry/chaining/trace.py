@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +17,26 @@ Step = tuple[int, bool]
 """A piece and whether it is travelled forward."""
 
 
-def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[tuple[Point, int]]]:
-    """Return ((steps, closed) for every chain, by its first piece) and (place, how many ends) of every branch.
+@dataclass(frozen=True)
+class Branch:
+    """A point where more than two ends meet.
+
+    Attributes:
+        place: where, mm.
+        entity_ids: the curves whose ends meet there, one for each end.
+    """
+
+    place: Point
+    entity_ids: tuple[int, ...]
+
+    @property
+    def odd(self) -> bool:
+        """Whether one end is left over when outlines pass through."""
+        return len(self.entity_ids) % 2 == 1
+
+
+def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[Branch]]:
+    """Return ((steps, closed) for every chain, by its first piece) and every branch.
 
     End 2 k is the start of piece k and end 2 k + 1 its end.
     """
@@ -34,10 +53,12 @@ def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step],
             partner[a], partner[b] = b, a
     found = [([(k, True)], True) for k, piece in enumerate(pieces) if piece.is_circle]
     found += _walks(len(pieces), partner, {k for k, piece in enumerate(pieces) if piece.is_circle})
-    places = [
-        (pieces[ends[0] // 2].start if ends[0] % 2 == 0 else pieces[ends[0] // 2].end, len(ends)) for ends in crowded
-    ]
-    return sorted(found, key=lambda path: min(path[0])), places
+    return sorted(found, key=lambda path: min(path[0])), [_branch(pieces, ends) for ends in crowded]
+
+
+def _branch(pieces: Sequence[Piece], ends: Sequence[int]) -> Branch:
+    first = pieces[ends[0] // 2]
+    return Branch(first.start if ends[0] % 2 == 0 else first.end, tuple(pieces[end // 2].entity for end in ends))
 
 
 def _walks(count: int, partner: dict[int, int], done: set[int]) -> list[tuple[list[Step], bool]]:

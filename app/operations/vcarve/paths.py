@@ -11,6 +11,7 @@ import shapely
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
+from ...geometry.buffer import buffered
 from ...geometry.medial_axis.axis import medial_axes
 from ...geometry.offset.offset import Ring, offset_levels
 from ...geometry.primitives import CX, TURN, Primitives, R, Rows, sample
@@ -266,5 +267,5 @@ def _floors(rings: Sequence[Ring], tip: float) -> list[shapely.Polygon]:
     outer = [shapely.Polygon(sample(ring.rows, 1e-3)) for ring in rings if ring.area > 0]
     inner = [shapely.Polygon(sample(ring.rows, 1e-3)) for ring in rings if ring.area <= 0]
     filled = shapely.difference(shapely.union_all(outer), shapely.union_all(inner))
-    left = shapely.buffer(filled, -tip, quad_segs=64) if tip else filled
+    left = buffered(filled, -tip, 64) if tip else filled
     return [part for part in shapely.get_parts(left).tolist() if part.area > 1e-6]

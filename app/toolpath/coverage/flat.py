@@ -9,6 +9,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ...geometry.buffer import buffered
 from ...geometry.outlines import Outlines, polygons
 from ...geometry.primitives import TURN, R, Rows, points_at, sweeps
 from ...model.moves import MoveKind, Moves
@@ -77,4 +78,4 @@ def grown(shapes: Shape | NDArray[np.object_], distance: float, chord: float) ->
     """Return for each shape all points within `distance` mm of it; a negative distance gives the points that deep
     inside.
     """
-    return shapely.buffer(shapes, distance, quad_segs=quarter_chords(abs(distance), chord))
+    return buffered(shapes, distance, quarter_chords(abs(distance), chord))

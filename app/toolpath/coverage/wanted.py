@@ -16,6 +16,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ...geometry.buffer import buffered
 from ...geometry.primitives import contour_rows, sample
 from ...model.job import Job
 from ...model.moves import Area, DogBone, Program, Tab
@@ -232,13 +233,13 @@ def _farthest(works: Sequence[_Work], job: Job) -> list[_Work]:
 def _along_walls(work: _Work, made: _Shapes) -> Shape:
     """Return what the tool covers when its centre follows the walls, but not clamps."""
     radius, wall = made.job.tool(work.operation.cut.tool).radius, made.wall(work)
-    return united(shapely.buffer(_beside_bare(made.inner(work), work, wall), radius - FITS, quad_segs=64))
+    return united(buffered(_beside_bare(made.inner(work), work, wall), radius - FITS, 64))
 
 
 def _band(work: _Work, made: _Shapes) -> Shape:
     """Return what the tool would cover if it could follow all walls: what lies as near to one as it is wide."""
     wide = work.operation.cut.stock_to_leave + made.job.tool(work.operation.cut.tool).diameter
-    return united(shapely.buffer(_beside_bare(made.plain(work.area), work, 0.0), wide, quad_segs=64))
+    return united(buffered(_beside_bare(made.plain(work.area), work, 0.0), wide, 64))
 
 
 def _beside_bare(shapes: NDArray[np.object_], work: _Work, distance: float) -> NDArray[np.object_]:
@@ -260,7 +261,7 @@ def _on_lines(work: _Work, made: _Shapes) -> Shape:
     lines = shapely.intersection(
         shapely.union_all([_line(contour) for contour in work.area.lines]), shapely.union_all(made.inner(work))
     )
-    return shapely.buffer(lines, tool.radius - FITS, quad_segs=64)
+    return buffered(lines, tool.radius - FITS, 64)
 
 
 def _line(contour: Contour) -> Shape:

@@ -69,43 +69,6 @@ _RED = {
     FindingKind.LEFT_REACHABLE,
 }
 
-_NAMES = {
-    FindingKind.AREA: "area lost or gained",
-    FindingKind.GOUGE: "gouge",
-    FindingKind.RAPID_IN_MATERIAL: "rapid in material",
-    FindingKind.LEFT_REACHABLE: "material left",
-    FindingKind.CLAMP: "clamp hit",
-    FindingKind.TOLERANCE: "tolerance not met",
-    FindingKind.OPEN_CONTOUR: "open contour",
-    FindingKind.SELF_INTERSECTION: "crossing contours",
-    FindingKind.OVERLAP: "overlap",
-    FindingKind.REGION_TOO_SMALL: "region too small",
-    FindingKind.NECK_TOO_NARROW: "neck too narrow",
-    FindingKind.ENGAGEMENT: "full slot",
-    FindingKind.TINY_ENTITY: "tiny entity",
-    FindingKind.LEFT_OUT: "left out",
-    FindingKind.LEFT_UNREACHABLE: "corners out of reach",
-    FindingKind.GAP_CLOSED: "gap closed",
-    FindingKind.UNITS_ASSUMED: "units assumed",
-    FindingKind.MACHINE: "beyond the machine",
-    FindingKind.TOOL_SHAPE: "a tool of another shape",
-    FindingKind.START_IN_STOCK: "start in the stock",
-    FindingKind.HOLDER_CONTACT: "holder in metal",
-    FindingKind.SHANK_CONTACT: "shank in metal",
-    FindingKind.PLUNGE: "plunge in metal",
-    FindingKind.BELOW_TABLE: "cut into the table",
-    FindingKind.ASSUMED: "assumed",
-    FindingKind.HIDDEN: "metal below metal",
-    FindingKind.BEYOND_STOCK: "part beyond the stock",
-    FindingKind.AMBIGUOUS: "doubtful place in the picture",
-    FindingKind.SKIN: "skin along the walls",
-    FindingKind.ENTRY: "another entry",
-    FindingKind.HOLE: "hole in a surface",
-    FindingKind.SIZE: "doubtful size",
-    FindingKind.FEED: "plunge at full feed",
-    FindingKind.RIDGE: "ridges between passes",
-}
-
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -128,11 +91,6 @@ def finding_level(finding: Finding) -> Level:
     return Level.BAD if finding.kind in _RED else Level.REMARK
 
 
-def name_of(kind: FindingKind) -> str:
-    """Return the words for a kind of finding."""
-    return _NAMES[kind]
-
-
 def short(finding: Finding) -> str:
     """Return what was found and where, without the sentence: "gouge 0.120 mm at (41.2, 8.0)"."""
     amount = ""
@@ -141,7 +99,7 @@ def short(finding: Finding) -> str:
     elif finding.amount is not None and finding.kind in (FindingKind.GOUGE, FindingKind.OPEN_CONTOUR):
         amount = f" {finding.amount:.3f} mm"
     place = "" if finding.x is None or finding.y is None else f" at ({finding.x:.1f}, {finding.y:.1f})"
-    return f"{_NAMES[finding.kind]}{amount}{place}"
+    return f"{finding.kind.words}{amount}{place}"
 
 
 def _area(mm2: float) -> str:

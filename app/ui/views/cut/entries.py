@@ -10,7 +10,7 @@ import numpy as np
 
 from ....model.finding import Finding, FindingKind
 from ...framework.figures import counted
-from ...framework.verdict import Level, Verdict, name_of
+from ...framework.verdict import Level, Verdict
 from .overlay_words import number
 
 if TYPE_CHECKING:
@@ -183,7 +183,7 @@ def _of_spot(spot: Spot) -> Entry:
 
 
 def _of_finding(shown: ShownCut, finding: Finding) -> Entry:
-    title = _NAMES.get(finding.kind, name_of(finding.kind))
+    title = _NAMES.get(finding.kind, finding.kind.words)
     colour = EntryColour.ACCIDENT if finding.counts else EntryColour.REMARK
     depth = (
         f", {number(finding.amount)} deep"
