@@ -87,6 +87,24 @@ def test_rest_machining_goes_into_a_neck_as_wide_as_its_tool(angle: float, off: 
     assert made.clean, [finding.text for finding in made.findings if finding.counts]
 
 
+@pytest.mark.parametrize("side", [Side.INSIDE, Side.OUTSIDE])
+@pytest.mark.parametrize(("angle", "off", "deep"), [(0.0, 0.0, 6.0), (17.0, 0.0, 2.0), (30.0, 500.0, 1.0)])
+def test_a_bay_as_wide_as_its_tool_is_entered(side: Side, angle: float, off: float, deep: float) -> None:
+    """Of a square with a bay in one side, into the part or out of it, corners alone are left: those of the square where
+    it is cleared inside, the two of the bay either way.
+    """
+    half = WIDTH / 2
+    end = 20 + (deep if side is Side.INSIDE else -deep) + (half if side is Side.INSIDE else -half)
+    bay = [(0, 0), (20, 0), (20, 10 - half), (end, 10 - half), (end, 10 + half), (20, 10 + half), (20, 20), (0, 20)]
+    pocket = WIDTH if side is Side.INSIDE else None
+    options = MakeOptions(pocket_diameter=pocket, contour_diameter=WIDTH, machining=Machining.of(side=side))
+    made = make("words.draw", outline(angle, bay, off).encode(), options)
+    corners = 6 if side is Side.INSIDE else 2
+    assert made.coverage.reachable_left_mm2 == 0
+    assert made.coverage.unreachable_mm2 == pytest.approx(corners * (1 - math.pi / 4) * half**2, abs=0.02)
+    assert made.clean, [finding.text for finding in made.findings if finding.counts]
+
+
 @pytest.mark.parametrize(("angle", "off"), [(17.0, 0.0), (30.0, 500.0)])
 def test_a_line_as_far_from_a_clamp_as_its_tool_is_wide_is_cut(angle: float, off: float) -> None:
     half = WIDTH / 2

@@ -24,7 +24,7 @@ from ...core import tolerances
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ..distance import DistanceField
-from ..primitives import CX, TURN, Indices, Primitives, Rows, lengths, signed_area
+from ..primitives import CX, TURN, Indices, Primitives, Rows, lengths, points_at, signed_area
 from . import (
     clearance_kernels as offset_clearance_kernels,
 )
@@ -49,6 +49,9 @@ _FEW = 64
 _BANDS = 4
 _BAND = 10_000
 """Pieces that are cut in less than a fifth of a second."""
+
+_BAY = 50
+"""A corner of 2.3 degrees goes back by so many times what its ring goes in; what goes back farther is a bay."""
 
 _EXACT = 8e-7
 """How far from its level a path of lines and arcs may measure, mm; more, up to the path's own tolerance, if nothing
@@ -285,10 +288,28 @@ def _by_region(rings: Sequence[Ring]) -> dict[int, list[Ring]]:
 
 
 def _alike(wide: Sequence[Ring], exact: Sequence[Ring], apart: float) -> bool:
-    """Tell whether two sets of rings, so far apart, mm, are the same but for that shift."""
+    """Tell whether two sets of rings, so far apart, mm, are the same but for that shift: no ring, no width and no way
+    into a bay is lost.
+    """
     perimeter = sum(ring.length for ring in wide)
     lost = sum(ring.area for ring in wide) - sum(ring.area for ring in exact)
-    return len(wide) == len(exact) and lost <= 1.5 * perimeter * apart
+    return len(wide) == len(exact) and lost <= 1.5 * perimeter * apart and not _bay_is_lost(wide, exact, apart)
+
+
+def _bay_is_lost(wide: Sequence[Ring], exact: Sequence[Ring], apart: float) -> bool:
+    """Tell whether one set of rings goes where another of as many rings, so much farther in, mm, does not.
+
+    A ring that moves in by t gets shorter by 2 pi t, a hole's longer; corners take more, but a way into a bay and back
+    is gone whole, and only then it is looked for.
+    """
+    turns = sum(math.copysign(1.0, ring.area) for ring in wide)
+    shorter = sum(ring.length for ring in wide) - sum(ring.length for ring in exact) - math.tau * turns * apart
+    if shorter < 2 * _BAY * apart:
+        return False
+    rows = np.concatenate([ring.rows for ring in wide])
+    points = np.concatenate([rows[:, :2], points_at(rows, np.full(len(rows), 0.5))])
+    away = DistanceField.of(np.concatenate([ring.rows for ring in exact])).nearest(points)[0]
+    return bool(away.max() > _BAY * apart)
 
 
 def _on_a_ridge(ring: Ring) -> bool:
