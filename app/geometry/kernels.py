@@ -220,6 +220,37 @@ def nearest(rows, order, nodes, x, y, limit):
     return best, row
 
 
+@kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64, float64)")
+def nearest_between(rows, order, nodes, x, y, enough, limit):
+    """Return the distance of the row nearest to a point; `limit` when none is nearer, and the first that is found no
+    farther than `enough`: it need not be the nearest.
+    """
+    leaves = (len(nodes) + 1) // 2
+    best = limit
+    stack = np.empty(64, np.int64)
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if box_distance(nodes, k, x, y) >= best:
+            continue
+        if k < leaves - 1:
+            left, right = 2 * k + 1, 2 * k + 2
+            if box_distance(nodes, left, x, y) > box_distance(nodes, right, x, y):
+                left, right = right, left
+            stack[top], stack[top + 1] = right, left
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            d = point_distance(rows, order[place], x, y)
+            if d < best:
+                best = d
+                if best <= enough:
+                    return best
+    return best
+
+
 @kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
 def nearest_of_few(rows, x, y):
     """Return (distance, row) of the row nearest to a point, without a tree."""

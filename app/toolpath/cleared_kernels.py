@@ -16,6 +16,9 @@ import numpy as np
 from ..core.jit import kernel
 from ..geometry.kernels import INF, LEAF, box_distance, enlarged, nearest, point_distance
 
+_ROUNDING = 1e-9
+"""mm; more than a distance is off by."""
+
 _FOREST = "float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], int64[:, ::1]"
 
 
@@ -166,13 +169,15 @@ def keeps_off(rows, order, nodes, way, distance, slack, budget):
     ax, ay = way[0], way[1]
     dx, dy = way[2] - ax, way[3] - ay
     length = math.hypot(dx, dy)
-    at = 0.0
+    at, limit = 0.0, distance + length + _ROUNDING  # with as much to spare one step goes all the way
     for _ in range(budget):
         part = at / length if length > 0.0 else 0.0
-        spare = nearest(rows, order, nodes, ax + dx * part, ay + dy * part, INF)[0] - (distance - slack)
+        spare = nearest(rows, order, nodes, ax + dx * part, ay + dy * part, limit)[0] - (distance - slack)
         if spare < slack / 2.0:
             return False
         if at >= length:
             return True
+        step = min(spare, length - at)
+        limit = spare + (distance - slack) + step + _ROUNDING
         at = min(at + spare, length)
     return False

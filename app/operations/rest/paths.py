@@ -194,11 +194,7 @@ class Clearing:
             cells = Cells.of(
                 centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner
             )
-            found += (
-                runs(chunks, cutting, cells, reach.radius)
-                if done < _CHOSEN
-                else all_runs(chunks, cutting, cells, reach)
-            )
+            found += runs(chunks, cutting, cells, reach) if done < _CHOSEN else all_runs(chunks, cutting, cells, reach)
             ground = Ground.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
             left = left_of(ground, reach, left, rim_rows)
         return found
