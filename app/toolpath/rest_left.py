@@ -206,7 +206,8 @@ def _sieved(ground: Ground, reach: Reach, area: _Area, centres: Floats, half: fl
     """
     q = half * math.sqrt(2)
     centres = centres[~ground.holds(centres, q)]
-    walls = reach.sheet.distances.nearest(centres)[0]
+    # no farther than where it is decided whether a cutter's centre may be anywhere in a square
+    walls = reach.sheet.distances.nearest(centres, max(reach.closest, q) + 2 * q)[0]
     open_ = walls + q >= reach.closest
     if area.cutting is not None:
         open_[~open_] = area.cutting.nearest(centres[~open_], reach.radius + q)[1] >= 0
