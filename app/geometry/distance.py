@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.pool import pool
+from ..core.pool import in_bands
 from . import kernels
 from .primitives import Indices, Rows, boxes
-
-_WORTH_TWO_CORES = 20_000
-"""Points from which a second core is worth its start."""
-
-_BANDS = 4
 
 _WORTH_LINES = 8
 """Points on one line along X from which all of them are asked together."""
@@ -51,14 +45,7 @@ class DistanceField:
         def measure(part: slice) -> None:
             kernels.nearest_many(self.rows, self.order, self.nodes, points[part], limit, distances[part], found[part])
 
-        if len(points) < _WORTH_TWO_CORES:
-            measure(slice(None))
-        else:
-            list(
-                pool().map(
-                    measure, (slice(*band) for band in pairwise(np.linspace(0, len(points), _BANDS + 1).astype(int)))
-                )
-            )
+        in_bands(measure, len(points))
         return distances, found
 
     def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
