@@ -42,7 +42,7 @@ def _depth_between(rows, order, nodes, cutters, x, y, enough, limit):
     best, o, n = limit, 0, 0
     for k in range(len(cutters)):
         radius, o1, n1 = cutters[k, 0], int(cutters[k, 1]), int(cutters[k, 2])
-        best = nearest_between(rows, order[o:o1], nodes[n:n1], x, y, enough + radius, best + radius) - radius
+        best = nearest_between(rows, order[o:o1], nodes[n:n1], x, y, enough + radius, best + radius)[0] - radius
         if best <= enough:
             break
         o, n = o1, n1
@@ -188,7 +188,7 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
             low, high = least - rule[0] - q, least - rule[0]
             if rule[1] < 0.0:
                 low, high = -high, -low
-            near = nearest_between(bound, bound_order, bound_nodes, x, y, low - _ROUNDING, high + _ROUNDING)
+            near = nearest_between(bound, bound_order, bound_nodes, x, y, low - _ROUNDING, high + _ROUNDING)[0]
             depth = min(depth, rule[0] + rule[1] * near)
             if depth + q < least:
                 continue

@@ -170,7 +170,7 @@ class Clearing:
         if not len(chunks.rows) or not len(core) + len(rim):
             return chunks, []
         step = max(self.within / 4, reach.radius / _FINEST)
-        deepest = float(reach.sheet.distances.nearest(np.concatenate([core, rim]))[0].max())
+        deepest = reach.sheet.distances.farthest(np.concatenate([core, rim]))
         count = 1 + int(max(0.0, deepest + step - reach.closest) / step)
         reach.ask_memory(CHUNK_BYTES * count * float(len(chunks.rows)))
         distances = [reach.closest + k * step for k in range(count)]

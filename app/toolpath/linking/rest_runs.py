@@ -129,7 +129,7 @@ class Cells:
         Args:
             cutting: (n, 8) all rows that there are to choose from, n > 0.
         """
-        nearest = DistanceField.of(cutting).nearest(centres)[0]
+        nearest = DistanceField.of(cutting).nearest(centres, enough=within - 2 * _AS_NEAR)[0]
         return Cells(centres, np.maximum(within, nearest + _AS_NEAR))
 
 
