@@ -163,9 +163,10 @@ def _turn_gain(ends, order, i, j, mirrored):
     return gain - _more_within(ends, order, i, j, mirrored) if gain > _LEAST else 0.0
 
 
-@kernel("float64(float64[:, ::1], int64[::1], int64, int64, int64, int64, boolean)", counts=False)
-def _swap_gain(ends, order, kind, i, j, k, mirrored):
-    """Return by how much the tour is shortened when places i … j and j + 1 … k change places.
+@kernel("float64(float64[:, ::1], int64[::1], int64, int64, int64, int64, boolean, float64)", counts=False)
+def _swap_gain(ends, order, kind, i, j, k, mirrored, least):
+    """Return by how much the tour is shortened when places i … j and j + 1 … k change places; no more than `least`
+    where it is surely not by more: most changes are ruled out by the first of the three new ways.
 
     kind: 0 both are gone through as before, 1 the first one the other way, 2 the second one the other way.
     """
@@ -182,12 +183,13 @@ def _swap_gain(ends, order, kind, i, j, k, mirrored):
         gain -= _more_within(ends, order, j + 1, k, mirrored)
         if mirrored:
             in_b, out_b = 2, 0
-    return (
-        gain
-        - _gap(ends, order[i - 1], 2, b0, in_b)
-        - _gap(ends, b1, out_b, a0, in_a)
-        - _gap(ends, a1, out_a, _at(order, k + 1), 0)
-    )
+    gain -= _gap(ends, order[i - 1], 2, b0, in_b)
+    if gain <= least:
+        return gain
+    gain -= _gap(ends, b1, out_b, a0, in_a)
+    if gain <= least:
+        return gain
+    return gain - _gap(ends, a1, out_a, _at(order, k + 1), 0)
 
 
 @kernel(f"boolean({_TOUR}, int64, int64)", counts=False)
@@ -303,7 +305,9 @@ def _better(tour, best, change, kind, i, j, k):
     if not 1 <= i <= j or (kind < 3 and j >= k) or max(j, k) >= len(order):
         return best
     gain = (
-        _turn_gain(tour[0], order, i, j, mirrored) if kind == 3 else _swap_gain(tour[0], order, kind, i, j, k, mirrored)
+        _turn_gain(tour[0], order, i, j, mirrored)
+        if kind == 3
+        else _swap_gain(tour[0], order, kind, i, j, k, mirrored, best)
     )
     if gain <= best or (kind < 3 and not _may_swap(tour, i, j, k)):
         return best
@@ -426,7 +430,7 @@ def kick(tour, until):
         if not _may_swap(tour, i, j, k):
             continue
         state[_TURNS] = 0
-        gain = _swap_gain(tour[0], order, 0, i, j, k, state[_MIRRORED] != 0)
+        gain = _swap_gain(tour[0], order, 0, i, j, k, state[_MIRRORED] != 0, -math.inf)
         _apply(tour, 0, i, j, k)
         gain += _settle(tour, 1 << 62, change)
         while state[_WAITING] > 0:  # the log is full
