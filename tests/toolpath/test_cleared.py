@@ -59,6 +59,15 @@ def test_places_asked_one_after_the_other_are_as_clear_as_each_alone(seed: int) 
     assert list(cleared.clear_places(TOOL, places, -2.0)) == alone
 
 
+def test_the_first_clear_place_behind_an_edge_is_the_one_that_is_a_radius_away() -> None:
+    cleared = Cleared()
+    for y in range(11):
+        cleared.add(TOOL, line((0, y), (40, y)), at(-2.0))
+    places = [(20.0, -6.0 + 0.05 * k) for k in range(240)]  # cut from y = -3 on
+    first = next(cleared.clear_places(TOOL, places, -2.0))
+    assert places[first][1] == pytest.approx(0.0, abs=0.051)
+
+
 def test_a_floor_that_was_asked_for_is_deeper_when_more_is_cut() -> None:
     cleared = Cleared()
     for z in (-1.0, -2.0, -2.0, -3.0):
