@@ -7,6 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
 from functools import cache
+from itertools import pairwise
 from typing import Any, TypeVar
 
 Result = TypeVar("Result")
@@ -21,6 +22,13 @@ class _Pool(ThreadPoolExecutor):
         return super().submit(lambda: context.run(fn, *args, **kwargs))
 
 
+_BANDS = 4
+"""Bands that many things are shared out in: more than cores, as one may take longer than the others."""
+
+WORTH_TWO_CORES = 4_000
+"""Things from which on a second core is worth its start."""
+
+
 @cache
 def pool() -> ThreadPoolExecutor:
     """Return the one executor for pieces of a computation that release the GIL (compiled kernels, cv2, shapely).
@@ -29,3 +37,16 @@ def pool() -> ThreadPoolExecutor:
     may wait for ever; only jobs submit to it, and jobs do not run in it.
     """
     return _Pool(max(2, os.cpu_count() or 2), thread_name_prefix="hitofude")
+
+
+def in_bands(work: Callable[[slice], Result], count: int, worth: int = WORTH_TWO_CORES) -> list[Result]:
+    """Have so many things worked on in bands, on all cores; return what became of each band, in their order.
+
+    Args:
+        work: does the things of a slice; it releases the GIL, or nothing is won.
+        worth: how many of them are worth a second core.
+    """
+    if count < max(worth, _BANDS):
+        return [work(slice(0, count))]
+    edges = (count * k // _BANDS for k in range(_BANDS + 1))
+    return list(pool().map(work, (slice(*ends) for ends in pairwise(edges))))

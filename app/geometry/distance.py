@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.pool import pool
+from ..core.pool import in_bands
 from . import kernels
 from .primitives import Indices, Rows, boxes
-
-_WORTH_TWO_CORES = 20_000
-"""Points from which a second core is worth its start."""
-
-_BANDS = 4
 
 _WORTH_LINES = 8
 """Points on one line along X from which all of them are asked together."""
@@ -43,23 +37,32 @@ class DistanceField:
         order, nodes = kernels.build_tree(around)
         return DistanceField(rows, around, order, nodes)
 
-    def nearest(self, points: NDArray[np.float64], limit: float = np.inf) -> tuple[NDArray[np.float64], Indices]:
-        """Return (distances (m,) mm, rows (m,)) for points (m, 2); rows farther than `limit` give (limit, -1)."""
+    def nearest(
+        self, points: NDArray[np.float64], limit: float = np.inf, enough: float = -1.0
+    ) -> tuple[NDArray[np.float64], Indices]:
+        """Return (distances (m,) mm, rows (m,)) for points (m, 2).
+
+        Args:
+            limit: rows farther than this give (limit, -1), mm.
+            enough: the first row found that is no farther is given, whether it is the nearest or not, mm.
+        """
         points = np.ascontiguousarray(points, dtype=np.float64)
         distances, found = np.empty(len(points)), np.empty(len(points), np.int64)
 
         def measure(part: slice) -> None:
-            kernels.nearest_many(self.rows, self.order, self.nodes, points[part], limit, distances[part], found[part])
-
-        if len(points) < _WORTH_TWO_CORES:
-            measure(slice(None))
-        else:
-            list(
-                pool().map(
-                    measure, (slice(*band) for band in pairwise(np.linspace(0, len(points), _BANDS + 1).astype(int)))
-                )
+            kernels.nearest_many(
+                self.rows, self.order, self.nodes, points[part], enough, limit, distances[part], found[part]
             )
+
+        in_bands(measure, len(points))
         return distances, found
+
+    def farthest(self, points: NDArray[np.float64]) -> float:
+        """Return the distance of that of points (m, 2) which is farthest from all rows, mm; 0 of none."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        return max(
+            in_bands(lambda part: float(kernels.farthest(self.rows, self.order, self.nodes, points[part])), len(points))
+        )
 
     def inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return for points (m, 2) whether the closed rows enclose them by the even-odd rule."""

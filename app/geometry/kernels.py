@@ -220,6 +220,37 @@ def nearest(rows, order, nodes, x, y, limit):
     return best, row
 
 
+@kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64, float64)")
+def nearest_between(rows, order, nodes, x, y, enough, limit):
+    """Return what `nearest` does, but the first row that is found no farther than `enough`: it need not be the
+    nearest.
+    """
+    leaves = (len(nodes) + 1) // 2
+    best, row = limit, -1
+    stack = np.empty(64, np.int64)
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if box_distance(nodes, k, x, y) >= best:
+            continue
+        if k < leaves - 1:
+            left, right = 2 * k + 1, 2 * k + 2
+            if box_distance(nodes, left, x, y) > box_distance(nodes, right, x, y):
+                left, right = right, left
+            stack[top], stack[top + 1] = right, left
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            d = point_distance(rows, order[place], x, y)
+            if d < best:
+                best, row = d, order[place]
+                if best <= enough:
+                    return best, row
+    return best, row
+
+
 @kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
 def nearest_of_few(rows, x, y):
     """Return (distance, row) of the row nearest to a point, without a tree."""
@@ -231,11 +262,25 @@ def nearest_of_few(rows, x, y):
     return best, row
 
 
-@kernel("void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64[::1], int64[::1])")
-def nearest_many(rows, order, nodes, points, limit, distances, found):
-    """Write the distance and the row nearest to each point (m, 2)."""
+@kernel(
+    "void(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64[::1], int64[::1])"
+)
+def nearest_many(rows, order, nodes, points, enough, limit, distances, found):
+    """Write the distance and the row nearest to each point (m, 2), see `nearest_between`."""
     for k in range(len(points)):
-        distances[k], found[k] = nearest(rows, order, nodes, points[k, 0], points[k, 1], limit)
+        x, y = points[k, 0], points[k, 1]
+        distances[k], found[k] = nearest_between(rows, order, nodes, x, y, enough, limit)
+
+
+@kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1])")
+def farthest(rows, order, nodes, points):
+    """Return the distance of the point (m, 2) that is farthest from all rows, 0 of none; others are asked no more than
+    whether they are nearer.
+    """
+    most = 0.0
+    for k in range(len(points)):
+        most = max(most, nearest_between(rows, order, nodes, points[k, 0], points[k, 1], most, INF)[0])
+    return most
 
 
 @kernel("boolean(float64[:, ::1], int64[::1], float64[:, ::1], float64[::1], float64, float64)")

@@ -74,8 +74,8 @@ class _Ground:
     def covers(self, a: Point, b: Point, radius: float, z: float) -> bool:
         """Tell whether a disc stays on ground cut down to z on its straight way from a to b."""
         slack = max(_SLACK * radius, tolerances.LEVEL)
-        way = np.array([*a, *b], np.float64)
-        return bool(self._count and kernels.covers(*self._arrays(), way, radius, z + _SAME_HEIGHT, slack, _BUDGET))
+        way, z = np.array([*a, *b], np.float64), z + _SAME_HEIGHT
+        return bool(self._count and kernels.covers(*self._arrays(), way, radius, z, slack, _BUDGET, np.empty(2)))
 
     def covered_after(self, places: NDArray[np.float64], k: int, radius: float, z: float) -> int:
         """Return the first place (m, 2) from number k on at which a disc lies on ground cut down to z; -1 where there
@@ -140,6 +140,8 @@ class Cleared:
     """Heights down to which discs were cleared by helices, by centre and radius, mm."""
     _flat: _Ground = field(default_factory=_Ground)
     _own: dict[int, _Ground] = field(default_factory=dict)
+    _floors: dict[tuple[int, Point, float], float] = field(default_factory=dict)
+    """Floors that were asked for since something was added: a way to a place asks for them again and again."""
 
     def add(self, tool: Tool, rows: Rows, z: NDArray[np.float64]) -> None:
         """Take a path as cut.
@@ -153,6 +155,7 @@ class Cleared:
             rows, z = rows[deep], z[deep]
         if not len(rows):
             return
+        self._floors.clear()
         if flat_radius(tool) > 0:
             self._flat.add(rows, z, flat_radius(tool))
         if not tool.kind.square:
@@ -164,6 +167,12 @@ class Cleared:
         Args:
             more: mm, >= 0, that is asked about beyond the cutter's radius.
         """
+        key = tool.number, place, tool.radius + more
+        if key not in self._floors:
+            self._floors[key] = self._floor(tool, place, more)
+        return self._floors[key]
+
+    def _floor(self, tool: Tool, place: Point, more: float) -> float:
         radius = tool.radius + more
         flat = _deepest(self._flat, lambda z: self._flat.covers(place, place, radius, z))
         own = self._own.get(tool.number)

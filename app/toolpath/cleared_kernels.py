@@ -16,6 +16,9 @@ import numpy as np
 from ..core.jit import kernel
 from ..geometry.kernels import INF, LEAF, box_distance, enlarged, nearest, point_distance
 
+_ROUNDING = 1e-9
+"""mm; more than a distance is off by."""
+
 _FOREST = "float64[:, ::1], float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], int64[:, ::1]"
 
 
@@ -78,8 +81,8 @@ def beyond(rows, reach, order, nodes, best, trees, x, y, z, enough, limit):
     return least, row
 
 
-@kernel(f"boolean({_FOREST}, float64[::1], float64, float64, float64, int64)")
-def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget):
+@kernel(f"boolean({_FOREST}, float64[::1], float64, float64, float64, int64, float64[::1])")
+def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget, witness):
     """Return whether a disc that goes straight from (way[0], way[1]) to (way[2], way[3]) stays on ground cut down to z,
     within `slack`.
 
@@ -89,6 +92,7 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
     Args:
         radius: of the disc, mm, > 0.
         budget: squares that are looked at before it is taken not to be.
+        witness: (2,) where a place is written that is not cut and on the disc's way, if one is found.
     """
     ax, ay = way[0], way[1]
     length = math.hypot(way[2] - ax, way[3] - ay)
@@ -112,22 +116,14 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
         budget -= 1
         if budget < 0:
             return False
-        gap = beyond(
-            rows,
-            reach,
-            order,
-            nodes,
-            best,
-            trees,
-            ax + ux * u - uy * v,
-            ay + uy * u + ux * v,
-            z,
-            slack - q,
-            slack + 1e-9,
-        )[0]
+        x, y = ax + ux * u - uy * v, ay + uy * u + ux * v
+        gap = beyond(rows, reach, order, nodes, best, trees, x, y, z, slack - q, slack + 1e-9)[0]
         if gap + q <= slack:
             continue
-        if (gap > slack and off < radius) or q <= slack / 2.0:
+        if gap > slack and off < radius:
+            witness[0], witness[1] = x, y
+            return False
+        if q <= slack / 2.0:
             return False
         half /= 2.0
         if last + 4 > len(squares):
@@ -144,12 +140,16 @@ def covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget
 def covered_after(rows, reach, order, nodes, best, trees, places, begin, radius, z, slack, budget):
     """Return the first of some places (m, 2) from number `begin` on at which a disc stays on cut ground, as `covers`;
     -1: at none.
+
+    A place that was found not to be cut is under the disc at many of the next places too: these are not looked at.
     """
-    way = np.empty(4)
+    way, witness = np.empty(4), np.full(2, INF)
     for k in range(begin, len(places)):
+        if math.hypot(places[k, 0] - witness[0], places[k, 1] - witness[1]) < radius - _ROUNDING:
+            continue
         way[0] = way[2] = places[k, 0]
         way[1] = way[3] = places[k, 1]
-        if covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget):
+        if covers(rows, reach, order, nodes, best, trees, way, radius, z, slack, budget, witness):
             return k
     return -1
 
@@ -166,13 +166,15 @@ def keeps_off(rows, order, nodes, way, distance, slack, budget):
     ax, ay = way[0], way[1]
     dx, dy = way[2] - ax, way[3] - ay
     length = math.hypot(dx, dy)
-    at = 0.0
+    at, limit = 0.0, distance + length + _ROUNDING  # with as much to spare one step goes all the way
     for _ in range(budget):
         part = at / length if length > 0.0 else 0.0
-        spare = nearest(rows, order, nodes, ax + dx * part, ay + dy * part, INF)[0] - (distance - slack)
+        spare = nearest(rows, order, nodes, ax + dx * part, ay + dy * part, limit)[0] - (distance - slack)
         if spare < slack / 2.0:
             return False
         if at >= length:
             return True
+        step = min(spare, length - at)
+        limit = spare + (distance - slack) + step + _ROUNDING
         at = min(at + spare, length)
     return False

@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..core.pool import in_bands
 from ..geometry.distance import DistanceField
 from ..geometry.offset.offset import Level, Ring, offset_levels
 from ..geometry.outlines import Outlines, polygons
@@ -24,6 +25,9 @@ from .linking.bridge import level_bridges
 from .linking.tree import Tree
 
 _CHORD = 1e-3
+
+_WORTH_TWO_CORES = 32
+"""Largest discs from which a second core is worth its start."""
 
 _NARROWER = 1e-3
 """mm; a neck that a tool does not pass is told as at least so much narrower than the tool needs."""
@@ -120,7 +124,11 @@ def largest_discs(regions: Sequence[Region]) -> Floats:
     number, shapes = polygons(outlines, group, _CHORD)
     wide = shapely.area(shapes) > 0
     number, shapes = number[wide], shapes[wide]
-    radii = shapely.maximum_inscribed_circle(shapes, tolerance=_CHORD)
+    radii = np.concatenate(
+        in_bands(
+            lambda band: shapely.maximum_inscribed_circle(shapes[band], tolerance=_CHORD), len(shapes), _WORTH_TWO_CORES
+        )
+    )
     found[number, :2] = shapely.get_coordinates(radii)[::2]
     found[number, 2] = 2 * shapely.length(radii)
     return found

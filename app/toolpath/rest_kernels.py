@@ -13,7 +13,10 @@ import math
 import numpy as np
 
 from ..core.jit import kernel
-from ..geometry.kernels import LEAF, box_distance, nearest, point_distance
+from ..geometry.kernels import LEAF, box_distance, nearest, nearest_between, point_distance
+
+_ROUNDING = 1e-9
+"""mm; more than a distance is off by."""
 
 
 @kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64)")
@@ -29,6 +32,19 @@ def depth_left(rows, order, nodes, cutters, x, y, limit):
     for k in range(len(cutters)):
         radius, o1, n1 = cutters[k, 0], int(cutters[k, 1]), int(cutters[k, 2])
         best = nearest(rows, order[o:o1], nodes[n:n1], x, y, best + radius)[0] - radius
+        o, n = o1, n1
+    return best
+
+
+@kernel("float64(float64[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1], float64, float64, float64, float64)")
+def _depth_between(rows, order, nodes, cutters, x, y, enough, limit):
+    """Return `depth_left`, but some depth no more than `enough`, mm, where there is one: not the least of all."""
+    best, o, n = limit, 0, 0
+    for k in range(len(cutters)):
+        radius, o1, n1 = cutters[k, 0], int(cutters[k, 1]), int(cutters[k, 2])
+        best = nearest_between(rows, order[o:o1], nodes[n:n1], x, y, enough + radius, best + radius)[0] - radius
+        if best <= enough:
+            break
         o, n = o1, n1
     return best
 
@@ -165,10 +181,14 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
                 elif found:
                     continue
             q = half * math.sqrt(2.0)
-            depth = depth_left(rows, order, nodes, cutters, x, y, 2 * half0 + least)
+            depth = _depth_between(rows, order, nodes, cutters, x, y, least - q - _ROUNDING, least + _ROUNDING)
             if depth + q < least:
                 continue
-            near = nearest(bound, bound_order, bound_nodes, x, y, math.inf)[0]
+            # of the distance, too, no more is asked than what decides: is it less than least - q, or least at least?
+            low, high = least - rule[0] - q, least - rule[0]
+            if rule[1] < 0.0:
+                low, high = -high, -low
+            near = nearest_between(bound, bound_order, bound_nodes, x, y, low - _ROUNDING, high + _ROUNDING)[0]
             depth = min(depth, rule[0] + rule[1] * near)
             if depth + q < least:
                 continue
@@ -186,14 +206,18 @@ def left_cells(rows, order, nodes, cutters, bound, bound_order, bound_nodes, rul
     return count
 
 
-@kernel("int64(float64[:, ::1], int64, float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], int64[::1])")
-def _seen(chunks, i, cells, need, starts, grid, found):
-    """Write the cells that a cutter along row i clears; return how many.
+_CELLS = "float64[:, ::1], float64[::1], int64[:, ::1], float64[::1]"
+
+
+@kernel(f"int64(float64[:, ::1], int64, {_CELLS}, int32[::1], boolean)")
+def _seen(chunks, i, cells, need, starts, grid, found, kept):
+    """Return how many cells a cutter along row i clears.
 
     Args:
         need: how near the row must come to each cell, mm.
         starts, grid: cells are sorted by buckets: first of each bucket (rows, columns + 1), and (x0, y0, bucket's side,
             largest need).
+        found, kept: where they are written to, if they are.
     """
     most, side = grid[3], grid[2]
     low_x = min(chunks[i, 0], chunks[i, 2])
@@ -218,98 +242,100 @@ def _seen(chunks, i, cells, need, starts, grid, found):
     for row in range(i0, i1 + 1):
         for c in range(starts[row, j0], starts[row, j1 + 1]):
             if point_distance(chunks, i, cells[c, 0], cells[c, 1]) <= need[c]:
-                found[count] = c
+                if kept:
+                    found[count] = c
                 count += 1
     return count
 
 
-@kernel("void(float64[:, ::1], float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], boolean[::1])")
-def sees_any(chunks, cells, need, starts, grid, out):
-    """Write for each row (n, 8) whether it clears any cell."""
-    found = np.empty(len(cells), np.int64)
+@kernel(f"void(float64[:, ::1], {_CELLS}, int64[::1])")
+def count_seen(chunks, cells, need, starts, grid, out):
+    """Write how many cells each row (n, 8) clears; args as `_seen`."""
+    none = np.empty(0, np.int32)
     for i in range(len(chunks)):
-        out[i] = _seen(chunks, i, cells, need, starts, grid, found) > 0
+        out[i] = _seen(chunks, i, cells, need, starts, grid, none, False)
+
+
+@kernel(f"void(float64[:, ::1], {_CELLS}, int64[::1], int32[::1])")
+def list_seen(chunks, cells, need, starts, grid, first, out):
+    """Write the cells that each row (n, 8) clears, those of row i from out[first[i]] on; args as `_seen`."""
+    for i in range(len(chunks)):
+        _seen(chunks, i, cells, need, starts, grid, out[first[i] :], True)
 
 
 @kernel(
-    "Tuple((float64, int64, int64))(float64[:, ::1], float64[::1], int64[::1], float64[:, ::1], float64[::1], int64[:, "
-    "::1],"
-    " float64[::1], boolean[::1], int64[::1], int64[::1])"
+    "Tuple((float64, int64, int64))(float64[::1], int64[::1], float64, int64[::1], int32[::1], boolean[::1], "
+    "int64[::1])"
 )
-def _worth(chunks, size, span, cells, need, starts, grid, cleared, seen_by, found):
+def _worth(size, span, start, first, seen, cleared, seen_by):
     """Return (cells that a span clears anew per mm, first, stop), without the ends that clear nothing by themselves.
 
     Args:
         span: first and last row + 1.
         seen_by: zero for each cell, and is so afterwards.
     """
-    first, stop = span[0], span[1]
+    begin, stop = span[0], span[1]
     gain = 0
-    for i in range(first, stop):
-        for k in range(_seen(chunks, i, cells, need, starts, grid, found)):
-            c = found[k]
-            if not cleared[c]:
-                gain += seen_by[c] == 0
-                seen_by[c] += 1
+    for k in range(first[begin], first[stop]):
+        c = seen[k]
+        if not cleared[c]:
+            gain += seen_by[c] == 0
+            seen_by[c] += 1
     for side in range(2):
-        while stop - first > 1:
-            i = first if side == 0 else stop - 1
-            count, needed = _seen(chunks, i, cells, need, starts, grid, found), False
-            for k in range(count):
-                if not cleared[found[k]] and seen_by[found[k]] == 1:
+        while stop - begin > 1:
+            i, needed = begin if side == 0 else stop - 1, False
+            for k in range(first[i], first[i + 1]):
+                if not cleared[seen[k]] and seen_by[seen[k]] == 1:
                     needed = True
                     break
             if needed:
                 break
-            for k in range(count):
-                if not cleared[found[k]]:
-                    seen_by[found[k]] -= 1
+            for k in range(first[i], first[i + 1]):
+                if not cleared[seen[k]]:
+                    seen_by[seen[k]] -= 1
             if side == 0:
-                first += 1
+                begin += 1
             else:
                 stop -= 1
     length = 0.0
-    for i in range(first, stop):
+    for i in range(begin, stop):
         length += size[i]
-        for k in range(_seen(chunks, i, cells, need, starts, grid, found)):
-            seen_by[found[k]] = 0
-    return gain / (length + grid[4]), first, stop
+    for k in range(first[begin], first[stop]):
+        seen_by[seen[k]] = 0
+    return gain / (length + start), begin, stop
 
 
-@kernel(
-    "int64(float64[:, ::1], float64[::1], int64[:, ::1], float64[:, ::1], float64[::1], int64[:, ::1], float64[::1], "
-    "int64[:, ::1])"
-)
-def choose(chunks, size, spans, cells, need, starts, grid, out):
+@kernel("int64(float64[::1], int64[:, ::1], float64, int64[::1], int32[::1], int64, int64[:, ::1])")
+def choose(size, spans, start, first, seen, cells, out):
     """Write (first row, last + 1) of spans that together clear all cells, those first that clear most per mm; return
     how many.
 
     Args:
-        chunks, size: short rows and their lengths, mm.
+        size: lengths of short rows, mm.
         spans: (n, 2) first and last + 1 row of each.
-        grid: as `_seen`, and the length that a span costs besides its own, mm.
+        start: the length that a span costs besides its own, mm.
+        first, seen: the cells that each row clears, as `list_seen` writes them; (rows + 1,) and all of them.
+        cells: how many there are.
         out: (n, 2).
     """
-    cleared, seen_by = np.zeros(len(cells), np.bool_), np.zeros(len(cells), np.int64)
-    found = np.empty(len(cells), np.int64)
+    cleared, seen_by = np.zeros(cells, np.bool_), np.zeros(cells, np.int64)
     heap = [(-1.0, 0)]
     heap.pop()
     for s in range(len(spans)):
-        worth = _worth(chunks, size, spans[s], cells, need, starts, grid, cleared, seen_by, found)[0]
+        worth = _worth(size, spans[s], start, first, seen, cleared, seen_by)[0]
         if worth > 0.0:
             heapq.heappush(heap, (-worth, s))
     count = 0
     while len(heap) > 0:
         best = heapq.heappop(heap)[1]
-        worth, first, stop = _worth(chunks, size, spans[best], cells, need, starts, grid, cleared, seen_by, found)
+        worth, begin, stop = _worth(size, spans[best], start, first, seen, cleared, seen_by)
         if worth <= 0.0:
             continue
         if len(heap) > 0 and worth < -heap[0][0] * 0.999:
             heapq.heappush(heap, (-worth, best))
             continue
-        out[count, 0], out[count, 1] = first, stop
+        out[count, 0], out[count, 1] = begin, stop
         count += 1
-        for i in range(first, stop):
-            for k in range(_seen(chunks, i, cells, need, starts, grid, found)):
-                cleared[found[k]] = True
+        for k in range(first[begin], first[stop]):
+            cleared[seen[k]] = True
     return count

@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.memory import ask, fitting, portion
-from ..core.pool import pool
+from ..core.pool import in_bands
 from ..core.progress import Progress
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import Indices, Rows, pack, points_at, within_half_turn
@@ -34,8 +33,6 @@ _WORTH_ASKING = 1e8
 
 _AT_A_TIME, _SQUARE_BYTES = 1 << 20, 150
 """Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
-
-_BANDS, _WORTH_TWO_CORES = 4, 20_000
 
 CELL_BYTES, CHUNK_BYTES = 100, 250
 """What a cell in which metal is left takes until it is cleared, and a short row of a ring."""
@@ -82,19 +79,21 @@ class Ground:
         """Return for points (m, 2) whether all within `around` of them, mm, is cut by one stretch of a path."""
         points, out = np.ascontiguousarray(points), np.empty(len(points), np.bool_)
 
-        def look(ends: tuple[int, int]) -> None:
-            band = slice(*ends)
+        def look(band: slice) -> None:
             rest_kernels.hold(*self.tree, points[band], around, out[band])
 
-        bands = np.linspace(0, len(points), (_BANDS if len(points) >= _WORTH_TWO_CORES else 1) + 1).astype(int)
-        list(pool().map(look, pairwise(bands.tolist())))
+        in_bands(look, len(points))
         return out
 
     def in_air(self, rows: Rows, radius: float, tolerance: float = _SAME) -> NDArray[np.bool_]:
         """Return for short rows (n, 8) whether a cutter of this radius, mm, cuts nothing along them."""
         places = np.hstack([rows[:, :2], points_at(rows, np.full(len(rows), 0.5)), rows[:, 2:4]])
-        out = np.empty(len(rows), np.bool_)
-        rest_kernels.in_air(*self.tree, np.ascontiguousarray(places), np.array([radius, tolerance]), out)
+        places, out = np.ascontiguousarray(places), np.empty(len(rows), np.bool_)
+
+        def look(band: slice) -> None:
+            rest_kernels.in_air(*self.tree, places[band], np.array([radius, tolerance]), out[band])
+
+        in_bands(look, len(rows))
         return out
 
 
@@ -207,7 +206,8 @@ def _sieved(ground: Ground, reach: Reach, area: _Area, centres: Floats, half: fl
     """
     q = half * math.sqrt(2)
     centres = centres[~ground.holds(centres, q)]
-    walls = reach.sheet.distances.nearest(centres)[0]
+    # no farther than where it is decided whether a cutter's centre may be anywhere in a square
+    walls = reach.sheet.distances.nearest(centres, max(reach.closest, q) + 2 * q)[0]
     open_ = walls + q >= reach.closest
     if area.cutting is not None:
         open_[~open_] = area.cutting.nearest(centres[~open_], reach.radius + q)[1] >= 0
@@ -278,16 +278,21 @@ def _rim(reach: Reach, cutting: Rows) -> _Rule:
 
 def _cells(ground: Ground, reach: Reach, squares: tuple[Floats, float], rule: _Rule) -> Floats:
     """Return the cells of squares (centres (n, 2), half side) in which metal is left."""
-    centres, half = squares
-    out = np.empty((len(centres) * round(half / reach.cell) ** 2, 2))
-    count = rest_kernels.left_cells(
-        *ground.tree,
-        rule.bound.rows,
-        rule.bound.order,
-        rule.bound.nodes,
-        np.array([rule.base, rule.sign]),
-        np.ascontiguousarray(centres),
-        np.array([half, reach.cell, LEAST]),
-        out,
-    )
-    return out[:count]
+    (centres, half), each = squares, round(squares[1] / reach.cell) ** 2
+    centres, out = np.ascontiguousarray(centres), np.empty((len(centres) * each, 2))
+
+    def look(band: slice) -> Floats:
+        room = out[band.start * each : band.stop * each]
+        count = rest_kernels.left_cells(
+            *ground.tree,
+            rule.bound.rows,
+            rule.bound.order,
+            rule.bound.nodes,
+            np.array([rule.base, rule.sign]),
+            centres[band],
+            np.array([half, reach.cell, LEAST]),
+            room,
+        )
+        return room[:count]
+
+    return np.concatenate(in_bands(look, len(centres)))

@@ -56,6 +56,25 @@ def test_a_limit_cuts_the_search_short() -> None:
     assert distance.tolist() == pytest.approx([2.0, 1.0]) and row[0] == -1
 
 
+def test_where_some_distance_is_enough_only_farther_ones_are_the_least() -> None:
+    field = DistanceField.of(np.concatenate([contour_rows(c) for c in random_part(7)[0]]))
+    points = np.random.default_rng(7).uniform(-35, 45, (5000, 2))
+    exact, rows = field.nearest(points)
+    for enough in (0.5, 3.0):
+        found, some = field.nearest(points, enough=enough)
+        far = exact > enough
+        assert np.array_equal(found[far], exact[far]) and np.array_equal(some[far], rows[far])
+        assert np.all((exact[~far] <= found[~far]) & (found[~far] <= enough))
+
+
+def test_the_farthest_point_is_as_far_as_the_farthest_of_all_distances() -> None:
+    field = DistanceField.of(np.concatenate([contour_rows(c) for c in random_part(7)[0]]))
+    for count in (1, 300, 5000):
+        points = np.random.default_rng(count).uniform(-35, 45, (count, 2))
+        assert field.farthest(points) == field.nearest(points)[0].max()
+    assert field.farthest(np.zeros((0, 2))) == 0.0
+
+
 def test_area_and_length_in_closed_form() -> None:
     assert signed_area(contour_rows(circle(12))) == pytest.approx(np.pi * 144)
     assert float(lengths(contour_rows(circle(12))).sum()) == pytest.approx(24 * np.pi)

@@ -142,3 +142,16 @@ def test_chords_are_as_near_as_the_caller_wants(chord: float) -> None:
         pieces = Splitter(motions, arcs_stay=False, chord=chord).pieces(0, 1)
         assert 0.05 * chord < from_chords(pieces, along_it(np.linspace(0, 1, 3001))).max() <= chord
         assert len(pieces) < len(Splitter(motions, arcs_stay=False).pieces(0, 1))
+
+
+def test_many_pieces_made_in_bands_are_those_of_each_motion_alone() -> None:
+    turns = [arc((4 + k, 0, 0), (4 + k, 0, -6), (k, 0, 0), turns=3, ccw=bool(k % 2)) for k in range(4)]
+    level = [arc((k, 1, -2), (k, -2.5, -2), (k, 0, -2), ccw=bool(k % 2)) for k in range(3)]
+    motions = joined([*turns, polyline([(0, 0, 0), (9, 9, 0)]), *level, CURVES["G18"], CURVES["widening"]])
+    splitter = Splitter(motions)
+    whole, alone = splitter.pieces(0, len(motions)), [splitter.pieces(k, k + 1) for k in range(len(motions))]
+    assert len(whole) > 20_000
+    for name in ("start", "end", "motion"):
+        assert np.array_equal(getattr(whole, name), np.concatenate([getattr(each, name) for each in alone]))
+    assert np.array_equal(whole.arcs, np.concatenate([each.arcs for each in alone]))
+    assert np.array_equal(whole.arc[whole.arc >= 0], np.arange(len(whole.arcs)))

@@ -46,6 +46,36 @@ def test_a_way_is_clear_where_discs_of_the_path_cover_it(seed: int) -> None:
             assert way.buffer(3.002).difference(cut).area > 0
 
 
+@settings(max_examples=examples(20), deadline=None)
+@given(st.integers(0, 10**6))
+def test_places_asked_one_after_the_other_are_as_clear_as_each_alone(seed: int) -> None:
+    """What one place shows not to be cut rules out others, but none that is clear."""
+    rng = np.random.default_rng(seed)
+    cleared = Cleared()
+    for a in rng.uniform(0, 20, (int(rng.integers(1, 40)), 2)):
+        cleared.add(TOOL, line(tuple(a), tuple(a + rng.uniform(-8, 8, 2))), at(-2.0))
+    places = [tuple(place) for place in rng.uniform(0, 20, (60, 2)).tolist()]
+    alone = [k for k, place in enumerate(places) if cleared.is_clear(TOOL, place, place, -2.0)]
+    assert list(cleared.clear_places(TOOL, places, -2.0)) == alone
+
+
+def test_the_first_clear_place_behind_an_edge_is_the_one_that_is_a_radius_away() -> None:
+    cleared = Cleared()
+    for y in range(11):
+        cleared.add(TOOL, line((0, y), (40, y)), at(-2.0))
+    places = [(20.0, -6.0 + 0.05 * k) for k in range(240)]  # cut from y = -3 on
+    first = next(cleared.clear_places(TOOL, places, -2.0))
+    assert places[first][1] == pytest.approx(0.0, abs=0.051)
+
+
+def test_a_floor_that_was_asked_for_is_deeper_when_more_is_cut() -> None:
+    cleared = Cleared()
+    for z in (-1.0, -2.0, -2.0, -3.0):
+        assert cleared.floor(TOOL, (10, 0)) > z or z == -2.0
+        cleared.add(TOOL, line((0, 0), (20, 0)), at(z))
+        assert cleared.floor(TOOL, (10, 0)) == pytest.approx(z)
+
+
 def test_depths_of_many_passes_are_kept_apart() -> None:
     cleared = Cleared()
     for k in range(1, 400):

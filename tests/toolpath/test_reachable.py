@@ -40,6 +40,15 @@ def test_a_corner_is_out_of_reach_and_what_lies_beside_it_is_not() -> None:
     assert not reached(np.array([[-1.0, 10.0]]), [cutter], fields, 1.0)
 
 
+def test_points_asked_together_are_reached_where_one_of_them_is() -> None:
+    """Far from one another, in any order: in corners of two slots, one of which is wide enough."""
+    for width, fits in ((5.9, False), (6.1, True)):
+        regions = (*slot(5.5), Region(2, polygon_contour([(100, 90), (130, 90), (130, 90 + width), (100, 90 + width)])))
+        points = np.array([[15.0, 2.75], [115.0, 90.0], [2.0, 2.0]])
+        for some in (points, points[::-1]):
+            assert reached(some, [Cutter(regions, 3.0, 3.0)], Fields(), 1.0) is fits
+
+
 def two_rooms(width: float) -> list[Point]:
     """Two rooms with a passage between them."""
     low, high = 10 - width / 2, 10 + width / 2

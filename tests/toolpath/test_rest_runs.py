@@ -69,7 +69,7 @@ def test_all_cells_are_near_a_run_and_runs_are_short() -> None:
     chunks = Chunks.of(offset_levels(primitives, [radius + k * radius / 4 for k in range(12)]), radius / 4)
     x, y = np.meshgrid(np.arange(2.0, 28.0, 0.125), np.arange(2.0, 3.3, 0.125))
     cells = Cells.of(np.stack([x.ravel(), y.ravel()], 1), chunks.rows, 0.9)
-    found = runs(chunks, np.ones(len(chunks.rows), np.bool_), cells, radius)
+    found = runs(chunks, np.ones(len(chunks.rows), np.bool_), cells, Reach(sheet_of(30), radius, radius, 1 / 16))
     path = np.concatenate([chunks.path(run.chunk, run.count) for run in found])
     assert np.all(DistanceField.of(path).nearest(cells.centres)[0] <= cells.need)
     assert lengths(path).sum() < 1.2 * 26  # one run along a strip that is less than a cutter wide

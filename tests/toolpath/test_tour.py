@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import Cancelled, ParameterError
-from app.core.progress import Progress
+from app.core.progress import NO_PROGRESS, Progress
 from app.formats.readers import read_drawing
 from app.geometry.distance import DistanceField
 from app.geometry.offset.offset import offset_levels
@@ -27,7 +27,7 @@ from app.operations.contour.paths import contour_strokes
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.linking.link import Manner, link
-from app.toolpath.ordering.tour import in_short_order
+from app.toolpath.ordering.tour import _Tour, in_short_order
 from tests.examples import examples
 
 Before = list[tuple[int, int]]
@@ -61,6 +61,30 @@ def greedy(strokes: list[Stroke], start: tuple[float, float], before: Before) ->
         at = (strokes[k].rows[-1, 2], strokes[k].rows[-1, 3])
         left.remove(k)
     return total
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_greedy_order_goes_to_the_nearest_of_all_and_of_several_to_the_first(seed: int) -> None:
+    """Looked for in buckets, against all places asked one by one."""
+    rng = np.random.default_rng(seed)
+    strokes = [
+        *random_strokes(seed, 600, bool(seed % 2)),
+        *[line(3, 3, 3, 3)] * 20,
+        *[line(k, 500, k, 500) for k in range(9)],
+    ]
+    before = random_rules(seed, len(strokes), 40 * seed)
+    tour = _Tour(strokes, tuple(rng.uniform(-300, 300, 2).tolist()), before, False)
+    tour.begin_greedily(NO_PROGRESS)
+    waits = np.bincount(np.array([b for _, b in set(before)], np.int64), minlength=len(strokes))
+    ends, order = tour._ends, [0]
+    while len(order) <= len(strokes):
+        away = np.sqrt(((ends[1:, :2] - ends[order[-1], 2:]) ** 2).sum(axis=1))
+        chosen = int(np.argmin(np.where(waits == 0, away, np.inf)))
+        order.append(chosen + 1)
+        waits[chosen] = -1
+        for a, b in set(before):
+            waits[b] -= a == chosen
+    assert tour.order.tolist() == order
 
 
 def shortest(strokes: list[Stroke], start: tuple[float, float], before: Before, reversible: bool) -> float:

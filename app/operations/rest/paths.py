@@ -170,7 +170,7 @@ class Clearing:
         if not len(chunks.rows) or not len(core) + len(rim):
             return chunks, []
         step = max(self.within / 4, reach.radius / _FINEST)
-        deepest = float(reach.sheet.distances.nearest(np.concatenate([core, rim]))[0].max())
+        deepest = reach.sheet.distances.farthest(np.concatenate([core, rim]))
         count = 1 + int(max(0.0, deepest + step - reach.closest) / step)
         reach.ask_memory(CHUNK_BYTES * count * float(len(chunks.rows)))
         distances = [reach.closest + k * step for k in range(count)]
@@ -194,11 +194,7 @@ class Clearing:
             cells = Cells.of(
                 centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner
             )
-            found += (
-                runs(chunks, cutting, cells, reach.radius)
-                if done < _CHOSEN
-                else all_runs(chunks, cutting, cells, reach)
-            )
+            found += runs(chunks, cutting, cells, reach) if done < _CHOSEN else all_runs(chunks, cutting, cells, reach)
             ground = Ground.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
             left = left_of(ground, reach, left, rim_rows)
         return found

@@ -12,10 +12,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.pool import pool
 from ...geometry.arcs.nurbs import flattened_all
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import ArcPaths, along_xyz, arc_paths
@@ -29,6 +31,9 @@ fewer chords.
 """
 
 QUARTER = math.pi / 2
+
+_BANDS, _WORTH_TWO_CORES = 4, 20_000
+"""Bands that motions are split in, and pieces from which that is worth it."""
 
 Ints = NDArray[np.int32]
 
@@ -102,6 +107,9 @@ class Splitter:
         self._arc = np.full(len(motions), -1)
         self._arc[self._arcs.rows] = np.arange(len(self._arcs))
         self._splines = dict(zip(motions.splines, flattened_all(list(motions.splines.values()), chord), strict=True))
+        self._table = _table(self._arcs, self._level)
+        self._levelled = np.zeros(len(motions), np.bool_)
+        self._levelled[self._arcs.rows] = self._level
         self._whole = np.ones(len(motions), np.int64)
         self._whole[self._arcs.rows] = _arc_counts(self._arcs, self._level, _chords(self._arcs, chord, helix_chord))
         for row, points in self._splines.items():
@@ -135,7 +143,7 @@ class Splitter:
 
     def pieces(self, first: int, last: int) -> Pieces:
         """Return the pieces of the motions first … last - 1."""
-        motions, counts = self._motions, self.counts[first:last]
+        motions = self._motions
         rows = np.arange(first, last, dtype=np.int32)
         if not np.any(motions.kind[first:last] >= MotionKind.ARC_CW):
             return Pieces(
@@ -145,22 +153,38 @@ class Splitter:
                 np.full(len(rows), -1, np.int32),
                 np.zeros((0, 7)),
             )
-        rows, step = np.repeat(rows, counts), _counted(counts)
-        step = np.where((step == 1) & (self.counts[rows] < self._whole[rows]), self._whole[rows] - 1, step)
-        start, end, arc, k = motions.start[rows], motions.end[rows], np.full(len(rows), -1, np.int32), self._arc[rows]
-        round_ = np.flatnonzero(k >= 0)
-        level, chords = round_[self._level[k[round_]]], round_[~self._level[k[round_]]]
-        arc[level] = np.arange(len(level))
-        start[level], end[level], table = _level_arcs(self._arcs, k[level], step[level], self._whole[rows[level]])
-        inner, ahead = chords[step[chords] > 0], chords[step[chords] + 1 < self._whole[rows[chords]]]
-        start[inner] = _places(self._arcs, k[inner], step[inner] / self._whole[rows[inner]])
-        end[ahead] = start[ahead + 1]
-        ahead = ahead[step[ahead + 1] != step[ahead] + 1]
-        end[ahead] = _places(self._arcs, k[ahead], (step[ahead] + 1) / self._whole[rows[ahead]])
+        return self._split(first, last)
+
+    def _split(self, first: int, last: int) -> Pieces:
+        from .piece_kernels import split  # compiled: loaded where it is used
+
+        counts = self.counts[first:last]
+        levels = np.where(self._levelled[first:last], counts, 0)
+        total, rows = int(counts.sum()), int(levels.sum())
+        found = Pieces(
+            np.empty((total, 3)),
+            np.empty((total, 3)),
+            np.empty(total, np.int32),
+            np.empty(total, np.int32),
+            np.empty((rows, 7)),
+        )
+        ends, asked = np.cumsum(counts), slice(first, last)
+        before = [ends - counts, np.cumsum(levels) - levels]
+        given = (self._motions.start[asked], self._motions.end[asked])
+        tables = (*map(np.array, given), self._arc[asked], self._table, counts, self._whole[asked], *before)
+        made = (found.start, found.end, found.motion, found.arc, found.arcs)
+        if total < _WORTH_TWO_CORES:
+            split(*tables, 0, last - first, *made)
+        else:
+            edges = np.append(np.searchsorted(ends, np.linspace(0, total, _BANDS + 1)[:-1]), last - first)
+            list(pool().map(lambda band: split(*tables, *band, *made), pairwise(edges.tolist())))
+        found.motion[:] += first
         for row in [row for row in self._splines if first <= row < last]:
-            part = slice(*np.searchsorted(rows, [row, row + 1]))
-            start[part], end[part] = self._splines[row][step[part]], self._splines[row][step[part] + 1]
-        return Pieces(start, end, rows, arc, table)
+            own = slice(*np.searchsorted(found.motion, [row, row + 1]).tolist())
+            step = np.arange(self.counts[row])
+            step = np.where((step == 1) & (self.counts[row] < self._whole[row]), self._whole[row] - 1, step)
+            found.start[own], found.end[own] = self._splines[row][step], self._splines[row][step + 1]
+        return found
 
 
 def helix_chord(pitch: float) -> float:
@@ -171,11 +195,6 @@ def helix_chord(pitch: float) -> float:
         pitch: side of a cell, mm.
     """
     return max(CHORD, min(HELIX_CHORD, pitch / 1000))
-
-
-def _counted(sizes: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return 0 … size - 1 for each size, one after the other."""
-    return np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
 
 
 def _is_level(motions: Motions, arcs: ArcPaths, chord: float) -> NDArray[np.bool_]:
@@ -211,39 +230,11 @@ def _arc_counts(arcs: ArcPaths, level: NDArray[np.bool_], chord: Floats) -> NDAr
     return np.where(level, _level_counts(arcs), _chord_counts(arcs, chord))
 
 
-def _places(arcs: ArcPaths, k: NDArray[np.int64], fractions: Floats) -> Floats:
-    """Return (n, 3) places of the arcs k (n,) at fractions (n,)."""
-    angle = arcs.angle[k] + arcs.sweep[k] * fractions
-    radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * fractions
-    return along_xyz(
-        np.column_stack(
-            [
-                arcs.centre[k, 0] + radius * np.cos(angle),
-                arcs.centre[k, 1] + radius * np.sin(angle),
-                arcs.height[k] + arcs.rise[k] * fractions,
-            ]
-        ),
-        arcs.axes[k],
+def _table(arcs: ArcPaths, level: NDArray[np.bool_]) -> tuple[NDArray[np.generic], ...]:
+    """Return arcs, and which of them are swept as level ones, as the kernel takes them."""
+    numbers = (arcs.centre, arcs.angle, arcs.sweep, arcs.start_radius, arcs.end_radius, arcs.height, arcs.rise)
+    return (
+        np.ascontiguousarray(arcs.axes, np.int64),
+        *(np.ascontiguousarray(each, np.float64) for each in numbers),
+        np.ascontiguousarray(level),
     )
-
-
-def _level_arcs(
-    arcs: ArcPaths, k: NDArray[np.int64], at: NDArray[np.int64], count: NDArray[np.int64]
-) -> tuple[Floats, Floats, Floats]:
-    """Return starts, ends and rows of the n level arcs that some arcs fall into.
-
-    Args:
-        k: (n,) the arc that each belongs to. at: which of its parts each is. count: how many these are.
-    """
-    angles = [arcs.angle[k] + arcs.sweep[k] * (each / count) for each in (at, at + 1)]
-    radius = arcs.start_radius[k] + (arcs.end_radius[k] - arcs.start_radius[k]) * ((at + 0.5) / count)
-    cx, cy, height = arcs.centre[k, 0], arcs.centre[k, 1], arcs.height[k]
-    ends = [np.column_stack([cx + radius * np.cos(a), cy + radius * np.sin(a), height]) for a in angles]
-    low, high = np.minimum(*angles), np.maximum(*angles)
-    box = [fold(ends[0][:, axis], ends[1][:, axis]) for fold in (np.minimum, np.maximum) for axis in (0, 1)]
-    for quarter, side, edge in ((0, 2, cx + radius), (1, 3, cy + radius), (2, 0, cx - radius), (3, 1, cy - radius)):
-        passed = (quarter * QUARTER - low) % (2 * math.pi) <= high - low
-        box[side] = np.where(passed, edge, box[side])
-    rows = np.column_stack([cx, cy, radius, *box])
-    ccw = (arcs.sweep[k] > 0)[:, None]
-    return np.where(ccw, ends[0], ends[1]), np.where(ccw, ends[1], ends[0]), rows

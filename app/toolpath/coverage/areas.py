@@ -7,14 +7,19 @@ do with most others. Parts of one area have no inside in common; they may touch.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ...core.pool import in_bands
+
 Shapes = NDArray[np.object_]
+
+_WORTH_TWO_CORES = 32
+"""Overlays from which a second core is worth its start."""
 
 
 def united(shapes: Iterable[Shape] | Shapes | Shape) -> Shape:
@@ -34,7 +39,7 @@ def common(one: Shape, other: Shape) -> Shape:
     if not len(a) or not len(b):
         return shapely.Polygon()
     second, first = shapely.STRtree(a).query(b)[[0, 1]]
-    return gathered(shapely.intersection(a[first], b[second]))
+    return gathered(each_with_each(shapely.intersection, a[first], b[second]))
 
 
 def without(one: Shape, other: Shape) -> Shape:
@@ -46,8 +51,15 @@ def without(one: Shape, other: Shape) -> Shape:
     order = np.argsort(first, kind="stable")
     met, at = np.unique(first[order], return_index=True)
     left = a.copy()
-    left[met] = shapely.difference(a[met], [gathered(b[rows]) for rows in np.split(second[order], at[1:])])
+    taken = np.empty(len(met), dtype=object)
+    taken[:] = [gathered(b[rows]) for rows in np.split(second[order], at[1:])]
+    left[met] = each_with_each(shapely.difference, a[met], taken)
     return gathered(left)
+
+
+def each_with_each(overlay: Callable[[Shapes, Shapes], Shapes], one: Shapes, other: Shapes) -> Shapes:
+    """Return the overlay of each shape (n,) with the one (n,) beside it, on all cores."""
+    return np.concatenate(in_bands(lambda band: overlay(one[band], other[band]), len(one), _WORTH_TWO_CORES))
 
 
 def _parts(shapes: Iterable[Shape] | Shapes | Shape) -> Shapes:

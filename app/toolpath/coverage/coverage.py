@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -19,6 +20,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
+from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.near import near
 from ...geometry.primitives import CX, TURN, R, Rows
@@ -174,13 +176,13 @@ def measure(
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
             metal = _solid(without(metal, skin))
             skins += _places(skin, True, share.part(0.6, 0.75))
-        for place in _places(metal, True, share.part(0.75, 0.9)):
+        places = _places(metal, True, share.part(0.75, 0.9))
+        for place, within in zip(places, pool().map(partial(_is_reached, each, fields), places), strict=True):
             share.step(0.9, _TEXT)
-            within = reached(_inner(place), each.cutters, fields, place.disc_mm) or not each.cutters
             (left if within else corners).append(place if within else replace(place, reachable=False))
         corners += _places(_solid(each.beyond), False, share.part(0.9, 1.0))
-    for places in (left, corners, skins):
-        places.sort(key=lambda place: -place.disc_mm)
+    for some in (left, corners, skins):
+        some.sort(key=lambda place: -place.disc_mm)
     return Coverage(
         reachable_left_mm2=sum(place.area_mm2 for place in left),
         unreachable_mm2=sum(place.area_mm2 for place in corners),
@@ -193,6 +195,11 @@ def measure(
         wanted=found,
         on_pixels=program.given_up_mm is not None,
     )
+
+
+def _is_reached(wanted: Wanted, fields: Fields, place: Place) -> bool:
+    """Return whether a piece of metal is within reach of some cutter."""
+    return not wanted.cutters or reached(_inner(place), wanted.cutters, fields, place.disc_mm)
 
 
 def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
@@ -374,16 +381,19 @@ def _solid(shape: Shape) -> Shape:
 def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[Place, ...]:
     """Return the pieces of a shape, the largest disc first."""
     places = []
-    pieces = shapely.get_parts(shape)
-    for k, piece in enumerate(pieces):
+    pieces = [piece for piece in shapely.get_parts(shape) if piece.geom_type == "Polygon" and piece.area >= STRIP**2]
+    for k, (piece, circle) in enumerate(zip(pieces, pool().map(_largest_circle, pieces), strict=True)):
         progress.step(k / len(pieces), _TEXT)
-        if piece.geom_type != "Polygon" or piece.area < STRIP**2:
-            continue
-        centre, rim = (np.array(point) for point in shapely.maximum_inscribed_circle(piece, tolerance=CHORD).coords)
+        centre, rim = (np.array(point) for point in circle.coords)
         disc = 2 * float(np.hypot(*(rim - centre)))
         outline, *holes = (shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(piece))
         places.append(Place(float(centre[0]), float(centre[1]), piece.area, disc, reachable, outline, tuple(holes)))
     return tuple(sorted(places, key=lambda place: -place.disc_mm))
+
+
+def _largest_circle(piece: Shape) -> Shape:
+    """Return the line from the middle of the largest circle in a piece to its rim."""
+    return shapely.maximum_inscribed_circle(piece, tolerance=CHORD)
 
 
 def _inner(place: Place) -> NDArray[np.float64]:

@@ -14,7 +14,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
-from .areas import Shapes
+from .areas import Shapes, each_with_each
 
 _FEW_POINTS = 1000
 """Of a ring; one of more points is cut in halves before boxes are cut out of it, until few boxes are left."""
@@ -47,7 +47,7 @@ def cut_out(shapes: Shapes, boxes: Shapes) -> tuple[Indices, Shapes]:
     at, first = np.unique(np.searchsorted(of, np.sort(key[within])), return_index=True)
     order = within[np.argsort(key[within], kind="stable")]
     holes[at] = [shapely.union_all(pieces[some]) for some in np.split(order, first[1:])] if len(at) else []
-    left = np.asarray(shapely.difference(pieces[kept], holes), dtype=object)
+    left = each_with_each(shapely.difference, pieces[kept], holes)
     some = ~shapely.is_empty(left)
     return box[kept][some], left[some]
 
@@ -56,7 +56,7 @@ def _pieces(filled: Shapes, boxes: Shapes, ring: Indices, box: Indices) -> Shape
     """Return what of rings (k,), filled, lies in a box (k,) of its own each."""
     pieces = np.empty(len(ring), dtype=object)
     long = shapely.get_num_coordinates(filled)[ring] > _FEW_POINTS
-    pieces[~long] = shapely.intersection(filled[ring[~long]], boxes[box[~long]])
+    pieces[~long] = each_with_each(shapely.intersection, filled[ring[~long]], boxes[box[~long]])
     asked = np.flatnonzero(long)
     asked = asked[np.argsort(ring[asked], kind="stable")]
     for some in np.split(asked, np.flatnonzero(np.diff(ring[asked])) + 1):

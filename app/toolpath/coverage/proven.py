@@ -42,6 +42,9 @@ _SAME = 1e-4
 
 _BANDS, _WORTH_TWO_CORES = 4, 500
 
+_ROUNDING = 1e-9
+"""mm; more than a distance is off by."""
+
 _AT_A_TIME, _SQUARE_BYTES = 1 << 20, 250
 """Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
 
@@ -79,7 +82,10 @@ def uncertain(
             continue
         progress.step(0.0, "Measuring what is left")
         q = half * math.sqrt(2)
-        beside = [each.field.nearest(centres, each.radius + _SLACK + 2 * q) for each in swaths]
+        # what lies deep enough in one stretch need not be known to lie deeper in another
+        beside = [
+            each.field.nearest(centres, each.radius + _SLACK + 2 * q, each.radius - q - _ROUNDING) for each in swaths
+        ]
         uncut = np.min([far - each.radius for (far, _), each in zip(beside, swaths, strict=True)], axis=0)
         doubtful = uncut > -q
         centres, within, uncut = centres[doubtful], within[doubtful], uncut[doubtful]

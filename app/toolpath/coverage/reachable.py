@@ -21,7 +21,7 @@ from ...model.part import Region
 from . import reachable_kernels as kernels
 
 _MOST = 200_000
-"""Squares for one place; one that needs more counts as within reach."""
+"""Squares for one point; points that need more count as within reach."""
 
 _SLIVER = 0.25
 """Share of a cutter's radius below which a piece of metal is a sliver."""
@@ -49,15 +49,21 @@ class Cutter:
     wall: float
     radius: float
 
-    def reaches(self, x: float, y: float, fields: Fields, spare: float = -_NOMINAL) -> bool:
-        """Tell whether its centre may be somewhere within its radius of a place; True also where that stays in doubt.
+    def reaches(self, points: NDArray[np.float64], fields: Fields, spare: float = -_NOMINAL) -> bool:
+        """Tell whether its centre may be somewhere within its radius of some point; True also where that stays in
+        doubt.
 
         Args:
+            points: (n, 2); they are asked together, as the same squares decide of points near one another.
             spare: how much farther from the walls than asked it has to stay, mm.
         """
-        field, wall = fields.of(self.regions), self.wall + spare
+        field, wall, most = fields.of(self.regions), self.wall + spare, _MOST * len(points)
+        points = np.ascontiguousarray(points, np.float64)
         return bool(
-            kernels.within_reach(field.rows, field.order, field.nodes, x, y, self.radius, wall, tolerances.FIT, _MOST)
+            len(points)
+            and kernels.within_reach(
+                field.rows, field.order, field.nodes, points, self.radius, wall, tolerances.FIT, most
+            )
         )
 
 
@@ -86,7 +92,7 @@ def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fiel
     # a cutter of an area that the piece does not lie in has no say in what a sliver is
     cutters = [each for each in cutters if _holds(fields.of(each.regions), points)]
     spare = -_NOMINAL if any(size > _SLIVER * cutter.radius for cutter in cutters) else tolerances.LEVEL
-    return any(cutter.reaches(x, y, fields, spare) for x, y in points.tolist() for cutter in cutters)
+    return any(cutter.reaches(points, fields, spare) for cutter in cutters)
 
 
 def _holds(field: DistanceField, points: NDArray[np.float64]) -> bool:

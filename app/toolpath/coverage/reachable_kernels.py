@@ -16,26 +16,40 @@ _ROUNDING = 1e-9
 """mm; more than a distance is off by."""
 
 
-@kernel(f"boolean({_TREE}, float64, float64, float64, float64, float64, int64)")
-def within_reach(rows, order, nodes, x, y, radius, wall, finest, most):
-    """Return whether some place within a radius of (x, y) lies inside of closed rows and at least `wall` from them;
-    True also where that stays in doubt.
+@kernel("float64(float64[:, ::1], float64, float64)", counts=False)
+def _from_nearest(points, x, y):
+    """Return how far a place is from the nearest of some points."""
+    square = math.inf
+    for k in range(len(points)):
+        dx, dy = points[k, 0] - x, points[k, 1] - y
+        square = min(square, dx * dx + dy * dy)
+    return math.sqrt(square)
+
+
+@kernel(f"boolean({_TREE}, float64[:, ::1], float64, float64, float64, int64)")
+def within_reach(rows, order, nodes, points, radius, wall, finest, most):
+    """Return whether some place within a radius of one of some points (n, 2), n > 0, lies inside of closed rows and at
+    least `wall` from them; True also where that stays in doubt.
 
     Squares are divided, where distances in their middles do not decide. A square that no row comes into is inside as
     its middle is, and so are its quarters, and none of these is farther from a row than it and the way to it.
 
     Args:
         finest: half a diagonal of a square, mm, below which it is in doubt for good.
-        most: squares after which the place is in doubt.
+        most: squares after which it is in doubt.
     """
     waiting, stack = np.empty((_WAITING, 5)), np.empty(DEPTH, np.int64)
-    waiting[0, 0], waiting[0, 1], waiting[0, 2], waiting[0, 3], waiting[0, 4] = x, y, radius, np.inf, 0.0
+    x0, y0, x1, y1 = points[0, 0], points[0, 1], points[0, 0], points[0, 1]
+    for k in range(1, len(points)):
+        x0, y0, x1, y1 = min(x0, points[k, 0]), min(y0, points[k, 1]), max(x1, points[k, 0]), max(y1, points[k, 1])
+    waiting[0, 0], waiting[0, 1], waiting[0, 2] = (x0 + x1) / 2.0, (y0 + y1) / 2.0, max(x1 - x0, y1 - y0) / 2.0 + radius
+    waiting[0, 3], waiting[0, 4] = np.inf, 0.0
     top, looked = 1, 0
     while top > 0:
         top -= 1
         looked += 1
         px, py, half, known, within = waiting[top]
-        off, away = half * math.sqrt(2.0), math.hypot(px - x, py - y)
+        off, away = half * math.sqrt(2.0), _from_nearest(points, px, py)
         if away > radius + off:
             continue
         limit = min(max(wall, off) + _ROUNDING, known + _ROUNDING)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import shapely
@@ -20,7 +21,7 @@ from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import Area, Program
 from ...model.operation import Side
-from .areas import Shapes, gathered, united
+from .areas import Shapes, each_with_each, gathered, united
 from .cut_out import cut_out
 from .flat import grown, region_shapes
 from .proven import uncertain
@@ -115,9 +116,12 @@ def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[Cutter]) -> tuple[S
     far = max(each.wall for each in cutters) + max(each.radius for each in cutters) + _SPARE
     x0, y0, x1, y1 = shapely.bounds(lumps).T
     lump, pieces = cut_out(shapes, np.asarray(shapely.box(x0 - far, y0 - far, x1 + far, y1 + far), dtype=object))
-    floors = shapely.intersection(pieces, lumps[lump])
-    reached = [
-        shapely.intersection(grown(grown(pieces, FITS - each.wall, CHORD), each.radius - FITS, CHORD), floors)
-        for each in cutters
-    ]
+    floors = each_with_each(shapely.intersection, pieces, lumps[lump])
+    reached = [each_with_each(partial(_reached, each), pieces, floors) for each in cutters]
     return gathered(floors), united([gathered(each) for each in reached])
+
+
+def _reached(cutter: Cutter, pieces: Shapes, floors: Shapes) -> Shapes:
+    """Return what a cutter reaches of floors (n,) that stays in pieces (n,) of an area."""
+    opened = grown(grown(pieces, FITS - cutter.wall, CHORD), cutter.radius - FITS, CHORD)
+    return np.asarray(shapely.intersection(opened, floors), dtype=object)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.pool import in_bands
 from ...geometry.distance import DistanceField
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import CX, CY, TURN, X0, Y0, Indices, Rows, lengths, points_at, sweeps
@@ -18,6 +19,9 @@ Floats = NDArray[np.float64]
 
 _SNAP = 1e-6
 """mm; a break this near to the end of a row is the end of the row."""
+
+_WORTH_TWO_CORES = 100
+"""Rows from which a second core is worth its start: along a wall there are thousands of steps to one."""
 
 _STEP = 1e-3
 """mm; the shortest step of the proof that a move keeps clear: between such places clearance cannot fall by more than
@@ -255,5 +259,12 @@ def keep_clear(field: DistanceField, rows: Rows, need: Floats) -> NDArray[np.boo
     """
     good = np.empty(len(rows), np.bool_)
     rows, need = np.ascontiguousarray(rows), np.ascontiguousarray(need, np.float64)
-    path_kernels.keep_clear(field.rows, field.order, field.nodes, rows, lengths(rows), need, _STEP, _MISS, good)
+    size = lengths(rows)
+
+    def look(band: slice) -> None:
+        path_kernels.keep_clear(
+            field.rows, field.order, field.nodes, rows[band], size[band], need[band], _STEP, _MISS, good[band]
+        )
+
+    in_bands(look, len(rows), _WORTH_TWO_CORES)
     return good

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core import tolerances
+from ...core.pool import in_bands
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import Indices, Rows, sweeps
 from ...geometry.triangulation import neighbours
@@ -50,17 +51,14 @@ class Corridor:
 
     def clear(self, ways: Floats) -> NDArray[np.bool_]:
         """Return whether straight ways (n, 4) keep off the walls."""
-        out = np.empty(len(ways), np.bool_)
-        chain_kernels.clear_ways(
-            self.walls.rows,
-            self.walls.order,
-            self.walls.nodes,
-            np.ascontiguousarray(ways),
-            self.closest,
-            SLACK,
-            _STEPS,
-            out,
-        )
+        walls, ways, out = self.walls, np.ascontiguousarray(ways), np.empty(len(ways), np.bool_)
+
+        def look(band: slice) -> None:
+            chain_kernels.clear_ways(
+                walls.rows, walls.order, walls.nodes, ways[band], self.closest, SLACK, _STEPS, out[band]
+            )
+
+        in_bands(look, len(ways))
         return out
 
     def clear_rows(self, path: Rows) -> NDArray[np.bool_]:

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.pool import in_bands
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level
 from ...geometry.primitives import X1, Y1, Indices, Rows, lengths, points_at, reversed_rows
@@ -28,6 +29,9 @@ do.
 """
 
 _MOST_BUCKETS = 1_000_000
+
+_SEEN_BYTES = 4
+"""What it takes to remember that a row clears a cell."""
 
 Floats = NDArray[np.float64]
 
@@ -125,28 +129,29 @@ class Cells:
         Args:
             cutting: (n, 8) all rows that there are to choose from, n > 0.
         """
-        nearest = DistanceField.of(cutting).nearest(centres)[0]
+        nearest = DistanceField.of(cutting).nearest(centres, enough=within - 2 * _AS_NEAR)[0]
         return Cells(centres, np.maximum(within, nearest + _AS_NEAR))
 
 
-def runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, radius: float) -> list[Run]:
+def runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Reach) -> list[Run]:
     """Return runs that clear all cells, each time the one that clears most for its length.
 
     Args:
         cutting: (n,) which rows cut anything.
-        radius: of the cutter, mm.
     """
-    kept = np.flatnonzero(cutting)
-    buckets = _Buckets.of(cells, radius)
-    seen = np.empty(len(kept), np.bool_)
-    rest_kernels.sees_any(np.ascontiguousarray(chunks.rows[kept]), *buckets.arrays, seen)
-    order, group = _in_order(chunks, kept[seen])
+    kept, buckets = np.flatnonzero(cutting), _Buckets.of(cells, reach.radius)
+    counts = np.zeros(len(cutting), np.int64)
+    counts[kept] = buckets.counts(chunks.rows[kept])
+    order, group = _in_order(chunks, kept[counts[kept] > 0])
     if not len(order):
         return []
-    rows, size = np.ascontiguousarray(chunks.rows[order]), chunks.size[order]
-    spans = _spans(group, size, _LONGEST * radius)
+    size = chunks.size[order]
+    spans = _spans(group, size, _LONGEST * reach.radius)
     chosen = np.empty((len(spans), 2), np.int64)
-    count = rest_kernels.choose(rows, size, spans, *buckets.arrays, chosen)
+    first = np.concatenate([[0], np.cumsum(counts[order])])
+    reach.ask_memory(_SEEN_BYTES * float(first[-1]))
+    seen = buckets.seen(chunks.rows[order], first)
+    count = rest_kernels.choose(size, spans, _TO_GET_THERE * reach.radius, first, seen, len(cells.centres), chosen)
     return _joined(chosen[:count], order, group)
 
 
@@ -154,9 +159,7 @@ def all_runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Re
     """Return all pieces of rings that cut anything within the cutter's radius of some cell."""
     kept = np.flatnonzero(cutting)
     buckets = _Buckets.of(Cells(cells.centres, np.full(len(cells.centres), reach.radius + reach.corner)), reach.radius)
-    seen = np.empty(len(kept), np.bool_)
-    rest_kernels.sees_any(np.ascontiguousarray(chunks.rows[kept]), *buckets.arrays, seen)
-    order, group = _in_order(chunks, kept[seen])
+    order, group = _in_order(chunks, kept[buckets.counts(chunks.rows[kept]) > 0])
     edges = (
         np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]])) if len(order) else np.zeros(1, np.int64)
     )
@@ -230,5 +233,25 @@ class _Buckets:
         starts = np.empty((high, wide + 1), np.int64)
         starts[:, :wide] = before[:-1].reshape(high, wide)
         starts[:, wide] = before[wide::wide]
-        grid = np.array([x0, y0, side, float(cells.need.max()), _TO_GET_THERE * radius])
+        grid = np.array([x0, y0, side, float(cells.need.max())])
         return _Buckets((np.ascontiguousarray(centres[order]), np.ascontiguousarray(cells.need[order]), starts, grid))
+
+    def counts(self, rows: Rows) -> Indices:
+        """Return how many cells each row (n, 8) clears."""
+        rows, counts = np.ascontiguousarray(rows), np.empty(len(rows), np.int64)
+
+        def look(band: slice) -> None:
+            rest_kernels.count_seen(rows[band], *self.arrays, counts[band])
+
+        in_bands(look, len(rows))
+        return counts
+
+    def seen(self, rows: Rows, first: Indices) -> NDArray[np.int32]:
+        """Return the cells that rows (n, 8) clear, those of each behind the ones before: row k's from first[k] on."""
+        rows, seen = np.ascontiguousarray(rows), np.empty(int(first[-1]), np.int32)
+
+        def look(band: slice) -> None:
+            rest_kernels.list_seen(rows[band], *self.arrays, first[band], seen)
+
+        in_bands(look, len(rows))
+        return seen

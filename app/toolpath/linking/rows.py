@@ -63,6 +63,8 @@ def span(rows: Rows, start: float, end: float) -> Rows:
     if last == first:
         return part_of(rows[first % len(rows)], start - first, end - first)
     whole = rows[np.arange(first, last + 1) % len(rows)]
+    if start == first and end == last + 1:
+        return whole
     head, tail = part_of(whole[0], start - first, 1.0), part_of(whole[-1], 0.0, end - last)
     return np.concatenate([head, whole[1:-1], tail])
 

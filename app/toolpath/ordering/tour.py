@@ -11,6 +11,7 @@ References:
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -36,6 +37,9 @@ _LOG = 512
 
 _PORTION = 1_000_000
 """Work between two looks at whether to stop; about 30 ms."""
+
+_GREEDILY, _IN_BUCKET = 4_000, 2.0
+"""Strokes that are put in greedy order before those in it are taken out of the buckets, and how many begin in one."""
 
 _BASE, _EACH, _MOST = 2_000_000, 12_000, 45_000_000
 """Work that a tour is worth: so much, so much more a stroke, and at most (about 1.5 s)."""
@@ -123,10 +127,12 @@ class _Tour:
         from . import tour_kernels
 
         waiting = np.bincount(self._pairs[:, 1], minlength=self._count).astype(np.int64)
-        portion = max(1, _PORTION // self._count)
-        for first in range(1, self._count, portion):
+        waiting[0] = -1
+        for first in range(1, self._count, _GREEDILY):
             progress.step(first / self._count, "Order of strokes")
-            tour_kernels.greedy(self._ends, self._rules, waiting, self.order, first, min(first + portion, self._count))
+            buckets = _buckets(self._ends[:, :2], np.flatnonzero(waiting >= 0))
+            last = min(first + _GREEDILY, self._count)
+            tour_kernels.greedy(self._ends, self._rules, buckets, waiting, self.order, first, last)
         if self.order.min() < 0:
             raise ParameterError("Strokes that must be cut before one another go round in a circle.")
 
@@ -180,6 +186,23 @@ class _Tour:
         found = -np.sort(-found, axis=1)
         near: Indices = np.ascontiguousarray(found[:, : int((found >= 0).sum(axis=1).max())])
         return near
+
+
+def _buckets(begins: NDArray[np.float64], strokes: Indices) -> tuple[Indices, Indices, NDArray[np.float64]]:
+    """Return strokes by the square that they begin in, as `tour_kernels.greedy` wants them.
+
+    Args:
+        begins: (n + 1, 2) where all strokes begin. strokes: numbers of those that are wanted, one or more.
+    """
+    places = begins[strokes]
+    low, (wide, high) = places.min(axis=0), np.ptp(places, axis=0).tolist()
+    side = max(math.sqrt(wide * high * _IN_BUCKET / len(strokes)), max(wide, high) * _IN_BUCKET / len(strokes), 1e-6)
+    column, row = ((places - low) / side).astype(np.int64).T
+    columns, rows = int(column.max()) + 1, int(row.max()) + 1
+    order = np.argsort(row * columns + column, kind="stable")
+    edges = np.concatenate([[0], np.cumsum(np.bincount(row * columns + column, minlength=rows * columns))])
+    starts = edges[np.arange(rows)[:, None] * columns + np.arange(columns + 1)]
+    return np.ascontiguousarray(starts, np.int64), np.ascontiguousarray(strokes[order]), np.array([*low, side])
 
 
 def _lists(pairs: NDArray[np.int64], count: int) -> tuple[Indices, Indices]:

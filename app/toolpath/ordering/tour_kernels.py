@@ -34,6 +34,7 @@ _KICK = 50
 _WAITING, _TURNS, _WORK, _MIRRORED = 2, 3, 4, 5
 
 _RULES = "Tuple((int64[::1], int64[::1], int64[::1], int64[::1]))"
+_BUCKETS = "Tuple((int64[:, ::1], int64[::1], float64[::1]))"
 _TOUR = (
     f"Tuple((float64[:, ::1], int64[::1], int64[::1], boolean[::1], int64[:, ::1], {_RULES}, int64[::1], int64[:, "
     "::1], int64[::1]))"
@@ -71,22 +72,68 @@ def travel(ends, order):
     return total
 
 
-@kernel(f"void(float64[:, ::1], {_RULES}, int64[::1], int64[::1], int64, int64)")
-def greedy(ends, rules, waiting, order, first, last):
+@kernel(f"Tuple((float64, int64))({_BUCKETS}, float64[:, ::1], int64[::1], int64, int64, int64, int64, float64, int64)")
+def _nearest_in(buckets, ends, waiting, a, row, first, last, best, chosen):
+    """Return how far the end of stroke a is from the nearest stroke that may be cut and begins in some buckets of a
+    row, and which it is; what was found before where that is nearer, or as near and a lower number.
+    """
+    starts, strokes = buckets[0], buckets[1]
+    for k in range(starts[row, max(first, 0)], starts[row, min(last, starts.shape[1] - 2) + 1]):
+        b = strokes[k]
+        if waiting[b] == 0:
+            d = _gap(ends, a, 2, b, 0)
+            if d < best or (d == best and b < chosen):
+                best, chosen = d, b
+    return best, chosen
+
+
+@kernel(f"int64({_BUCKETS}, float64[:, ::1], int64[::1], int64)")
+def _nearest_waiting(buckets, ends, waiting, a):
+    """Return the stroke that begins nearest to the end of stroke a of those that may be cut, of several the one of the
+    lowest number; -1 where there is none.
+
+    Rings of buckets round the end are looked through, until the next ring is farther than what was found.
+    """
+    starts, grid = buckets[0], buckets[2]
+    rows, columns, side = starts.shape[0], starts.shape[1] - 1, grid[2]
+    x, y = ends[a, 2] - grid[0], ends[a, 3] - grid[1]
+    # outside of the grid an end is as if in the bucket beside it, and then no bucket is nearer than that
+    column, row = min(max(math.floor(x / side), 0), columns - 1), min(max(math.floor(y / side), 0), rows - 1)
+    best, chosen = math.inf, -1
+    for ring in range(max(rows, columns)):
+        # how far the nearest bucket is that was not looked at: on the sides where there are any
+        room = x - (column - ring + 1) * side if column >= ring else math.inf
+        room = min(room, (column + ring) * side - x) if column + ring < columns else room
+        room = min(room, y - (row - ring + 1) * side) if row >= ring else room
+        room = min(room, (row + ring) * side - y) if row + ring < rows else room
+        if chosen >= 0 and room > best + _LEAST:
+            break
+        for r in range(max(row - ring, 0), min(row + ring, rows - 1) + 1):
+            if r in (row - ring, row + ring):
+                best, chosen = _nearest_in(buckets, ends, waiting, a, r, column - ring, column + ring, best, chosen)
+                continue
+            if column - ring >= 0:
+                left = column - ring
+                best, chosen = _nearest_in(buckets, ends, waiting, a, r, left, left, best, chosen)
+            if column + ring < columns:
+                right = column + ring
+                best, chosen = _nearest_in(buckets, ends, waiting, a, r, right, right, best, chosen)
+    return chosen
+
+
+@kernel(f"void(float64[:, ::1], {_RULES}, {_BUCKETS}, int64[::1], int64[::1], int64, int64)")
+def greedy(ends, rules, buckets, waiting, order, first, last):
     """Write places first … last - 1 of an order that always goes on to the stroke that begins nearest; -1 where none
     may be cut.
 
     Args:
+        buckets: strokes by the square that they begin in: first of each square (rows, columns + 1), the strokes square
+            by square, and (x0, y0, a square's side). Those that are in the order already are taken out now and then.
         waiting: (n + 1,) how many strokes each one still waits for; -1 = it is in the order already.
     """
     after_first, after = rules[0], rules[1]
     for p in range(first, last):
-        best, chosen = math.inf, -1
-        for b in range(1, len(order)):
-            if waiting[b] == 0:
-                d = _gap(ends, order[p - 1], 2, b, 0)
-                if d < best:
-                    best, chosen = d, b
+        chosen = _nearest_waiting(buckets, ends, waiting, order[p - 1])
         order[p] = chosen
         if chosen < 0:
             return
@@ -116,9 +163,10 @@ def _turn_gain(ends, order, i, j, mirrored):
     return gain - _more_within(ends, order, i, j, mirrored) if gain > _LEAST else 0.0
 
 
-@kernel("float64(float64[:, ::1], int64[::1], int64, int64, int64, int64, boolean)", counts=False)
-def _swap_gain(ends, order, kind, i, j, k, mirrored):
-    """Return by how much the tour is shortened when places i … j and j + 1 … k change places.
+@kernel("float64(float64[:, ::1], int64[::1], int64, int64, int64, int64, boolean, float64)", counts=False)
+def _swap_gain(ends, order, kind, i, j, k, mirrored, least):
+    """Return by how much the tour is shortened when places i … j and j + 1 … k change places; no more than `least`
+    where it is surely not by more: most changes are ruled out by the first of the three new ways.
 
     kind: 0 both are gone through as before, 1 the first one the other way, 2 the second one the other way.
     """
@@ -135,12 +183,13 @@ def _swap_gain(ends, order, kind, i, j, k, mirrored):
         gain -= _more_within(ends, order, j + 1, k, mirrored)
         if mirrored:
             in_b, out_b = 2, 0
-    return (
-        gain
-        - _gap(ends, order[i - 1], 2, b0, in_b)
-        - _gap(ends, b1, out_b, a0, in_a)
-        - _gap(ends, a1, out_a, _at(order, k + 1), 0)
-    )
+    gain -= _gap(ends, order[i - 1], 2, b0, in_b)
+    if gain <= least:
+        return gain
+    gain -= _gap(ends, b1, out_b, a0, in_a)
+    if gain <= least:
+        return gain
+    return gain - _gap(ends, a1, out_a, _at(order, k + 1), 0)
 
 
 @kernel(f"boolean({_TOUR}, int64, int64)", counts=False)
@@ -256,7 +305,9 @@ def _better(tour, best, change, kind, i, j, k):
     if not 1 <= i <= j or (kind < 3 and j >= k) or max(j, k) >= len(order):
         return best
     gain = (
-        _turn_gain(tour[0], order, i, j, mirrored) if kind == 3 else _swap_gain(tour[0], order, kind, i, j, k, mirrored)
+        _turn_gain(tour[0], order, i, j, mirrored)
+        if kind == 3
+        else _swap_gain(tour[0], order, kind, i, j, k, mirrored, best)
     )
     if gain <= best or (kind < 3 and not _may_swap(tour, i, j, k)):
         return best
@@ -379,7 +430,7 @@ def kick(tour, until):
         if not _may_swap(tour, i, j, k):
             continue
         state[_TURNS] = 0
-        gain = _swap_gain(tour[0], order, 0, i, j, k, state[_MIRRORED] != 0)
+        gain = _swap_gain(tour[0], order, 0, i, j, k, state[_MIRRORED] != 0, -math.inf)
         _apply(tour, 0, i, j, k)
         gain += _settle(tour, 1 << 62, change)
         while state[_WAITING] > 0:  # the log is full
