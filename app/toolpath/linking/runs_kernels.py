@@ -148,13 +148,18 @@ def squares_beyond(
     found, count = np.empty((256, 4)), 0
     depths = 2
     if len(squares) > 0:
-        depths += int(math.ceil(math.log2(max(squares[0, 2] / limits[1], 1.0))))
+        depths += math.ceil(math.log2(max(squares[0, 2] / limits[1], 1.0)))
     stack = np.empty((4 * depths + 4, 4))  # x, y, half side, how often the first square was quartered
     listed = np.empty(depths * (len(rows) + len(gaps) + len(path)), np.int64)
     away = np.empty(len(listed))
     ends = np.zeros((depths + 1, 4), np.int64)  # of the lists of walls, gaps and path of each depth
     for first in range(len(squares)):
-        stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = squares[first, 0], squares[first, 1], squares[first, 2], 0.0
+        stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = (
+            squares[first, 0],
+            squares[first, 1],
+            squares[first, 2],
+            0.0,
+        )
         top = 1
         while top > 0:
             top -= 1
