@@ -251,6 +251,27 @@ def nearest_between(rows, order, nodes, x, y, enough, limit):
     return best, row
 
 
+@kernel("int64(int64[::1], int64)", counts=False)
+def _head(group, k):
+    """Return the lowest of what k is joined with, and make the way there shorter."""
+    while group[k] != k:
+        group[k] = group[group[k]]
+        k = group[k]
+    return k
+
+
+@kernel("void(int64[:, ::1], int64[::1])")
+def merge(pairs, group):
+    """Write for each thing the lowest of those that it is joined with by pairs (m, 2)."""
+    for k in range(len(group)):
+        group[k] = k
+    for i in range(len(pairs)):
+        a, b = _head(group, pairs[i, 0]), _head(group, pairs[i, 1])
+        group[max(a, b)] = min(a, b)
+    for k in range(len(group)):
+        group[k] = _head(group, k)
+
+
 @kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
 def nearest_of_few(rows, x, y):
     """Return (distance, row) of the row nearest to a point, without a tree."""

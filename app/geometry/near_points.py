@@ -1,7 +1,7 @@
 """Which points lie near which, and what hangs together through that.
 
-Trees and graphs of scipy where there are many points. Importing those takes longer than a whole small job, so a few
-points are compared with one another.
+Trees where there are many points. Importing scipy's takes longer than a whole small job, so a few points are compared
+with one another, and pairs of many are shapely's to find.
 """
 
 from __future__ import annotations
@@ -26,9 +26,17 @@ def pairs_within(points: Floats, reach: float) -> Indices:
     if len(points) ** 2 <= FEW:
         near = np.triu(_distances(points, points) <= reach, 1)
         return np.argwhere(near).astype(np.int64)
-    from scipy.spatial import cKDTree
+    import shapely
 
-    pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
+    plane = np.zeros((len(points), 2))  # near there is near enough to be compared
+    plane[:, : min(points.shape[1], 2)] = points[:, :2]
+    places = shapely.points(plane)
+    pairs = shapely.STRtree(places).query(places, "dwithin", reach * (1 + 1e-12)).T
+    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    square = np.zeros(len(pairs))
+    for axis in range(points.shape[1]):
+        square += (points[pairs[:, 0], axis] - points[pairs[:, 1], axis]) ** 2
+    pairs = pairs[np.sqrt(square) <= reach]
     ordered: Indices = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].astype(np.int64)
     return ordered
 
@@ -76,14 +84,12 @@ def groups(count: int, pairs: Indices) -> Indices:
         count: how many.
         pairs: (m, 2) of things that belong together.
     """
-    if len(pairs) > FEW // 20:
-        from scipy.sparse import coo_array
-        from scipy.sparse.csgraph import connected_components
+    if len(pairs) <= FEW // 20:
+        return _by_first(_merged(count, pairs))
+    from . import kernels
 
-        joined = coo_array((np.ones(len(pairs), np.bool_), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-        number: Indices = connected_components(joined, directed=False)[1].astype(np.int64)
-    else:
-        number = _merged(count, pairs)
+    number = np.empty(count, np.int64)
+    kernels.merge(np.ascontiguousarray(pairs, np.int64), number)
     return _by_first(number)
 
 

@@ -21,7 +21,7 @@ from ..model.job import Job
 from ..model.operation import Operation
 from ..model.part import Region
 from ..model.tool import Tool
-from .linking.bridge import level_bridges
+from .linking.bridge import RingEdges, level_bridges
 from .linking.tree import Tree
 
 _CHORD = 1e-3
@@ -172,10 +172,9 @@ def _nearest_pairs(level: Level) -> list[tuple[Floats, Floats, int]]:
         return []
     tree = Tree(len(level.rings))
     pairs = []
-    for bridge, (a, b) in level_bridges(level.rings, parts, range(len(level.rings)), level.distance / 2):
-        if not tree.joined(bridge):
-            tree.add(bridge)
-            pairs.append((a, b, level.rings[bridge.a.ring].region))
+    for bridge, (a, b) in level_bridges(RingEdges(level.rings), parts, tree.group, level.distance / 2):
+        tree.add(bridge)
+        pairs.append((a, b, level.rings[bridge.a.ring].region))
     return pairs
 
 

@@ -21,6 +21,7 @@ from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.coverage.flat import region_shapes
 from app.toolpath.coverage.uncut import uncut
+from app.toolpath.linking.bridge import RingField
 from app.toolpath.linking.link import Manner, link
 from app.toolpath.linking.runs import NOTHING, Filling, between, fill, gaps_of
 from tests import plain_distance
@@ -105,7 +106,7 @@ def test_a_round_pocket_needs_no_runs_but_in_its_middle() -> None:
 def test_parallel_rings_as_far_apart_as_the_tool_is_wide_leave_nothing_between() -> None:
     primitives = pack(nest([square(40)]))
     levels, halves = rings(primitives, 1.0, 2.0, 1.0)
-    gaps = gaps_of(halves[2], levels[3], 1.0)
+    gaps = gaps_of(halves[2], RingField.of(levels[3].rings, 0), 1.0)
     assert len(gaps) == 4
     assert all(float(lengths(gap.rows).sum()) == pytest.approx(2.0, abs=0.01) for gap in gaps)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from ...geometry import kernels
 from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring
 from ...geometry.outlines import Outlines
-from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, fraction_on, lengths, points_at
+from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, fraction_on, points_at
 from ...geometry.triangulation import neighbours
 from .rows import Place
 
@@ -253,39 +253,85 @@ def nearest_on(ring: Ring, number: int, point: NDArray[np.float64]) -> tuple[flo
     return float(distance), Place(number, int(row), fraction_at(ring.rows[row], point))
 
 
+class RingEdges:
+    """Between which points along rings the shortest ways from ring to ring are looked for: the edges of a Delaunay
+    triangulation, of which the shortest tree through all rings is part.
+
+    Those of the same rings, which are asked for again and again while paths are compared, are kept.
+    """
+
+    def __init__(self, rings: Sequence[Ring]) -> None:
+        self.rings = rings
+        self._known: dict[tuple[float, tuple[int, ...]], _Edges] = {}
+
+    def between(self, some: Sequence[int], spacing: float) -> _Edges:
+        """Return the edges between points of some rings, given by their numbers, spaced by mm."""
+        key = (spacing, tuple(some))
+        if key not in self._known:
+            self._known[key] = _Edges.of([self.rings[k] for k in some], spacing)
+        return self._known[key]
+
+
+@dataclass(frozen=True, eq=False)
+class _Edges:
+    """Ways between rings, the shortest first.
+
+    Attributes:
+        ends: (n, 2) numbers of the points that each joins. size: (n,) their lengths, mm.
+        ring, row, part, points: (m,) and (m, 2) of the points: which of the rings, its row, how far along that, where.
+    """
+
+    ends: Indices
+    size: NDArray[np.float64]
+    ring: Indices
+    row: Indices
+    part: NDArray[np.float64]
+    points: NDArray[np.float64]
+
+    @staticmethod
+    def of(rings: Sequence[Ring], spacing: float) -> _Edges:
+        """Return those between points along some rings, spaced by mm, but none within a ring or to another region."""
+        outlines = Outlines.joined([ring.rows for ring in rings])
+        counts = np.maximum(1, np.ceil(outlines.sizes / spacing)).astype(np.int64)
+        row = np.repeat(np.arange(len(outlines.rows)), counts)
+        part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[row]
+        points, ring = points_at(outlines.rows[row], part), outlines.owner[row]
+        edges, region = neighbours(points), np.array([each.region for each in rings])[ring]
+        one, other = edges.T
+        edges = edges[(ring[one] != ring[other]) & (region[one] == region[other])]
+        size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
+        order = np.argsort(size, kind="stable")
+        return _Edges(edges[order], size[order], ring, row - outlines.first[ring], part, points)
+
+
 def level_bridges(
-    rings: Sequence[Ring], some: Sequence[int], groups: Sequence[int], spacing: float, most: int | None = None
+    edges: RingEdges, some: Sequence[int], group: Callable[[int], int], spacing: float, most: int | None = None
 ) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
     """Yield candidates between some rings with their ends (2, 2), shortest first; clearance is not checked.
 
-    The shortest tree through all rings is part of the Delaunay triangulation of points along them.
-
     Args:
-        rings: all rings.
+        edges: of all rings.
         some: numbers of those to join.
-        groups: of all rings; what is already joined has the same number.
+        group: tells the group of a ring; what is already joined, and by then still more, has the same one.
         spacing: between points, mm.
         most: candidates between any two rings, the shortest; None = all.
     """
-    rows = np.concatenate([rings[k].rows for k in some])
-    owner = np.repeat(np.array(some), [len(rings[k].rows) for k in some])
-    number = np.concatenate([np.arange(len(rings[k].rows)) for k in some])
-    counts = np.maximum(1, np.ceil(lengths(rows) / spacing)).astype(np.int64)
-    row = np.repeat(np.arange(len(rows)), counts)
-    part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[row]
-    points = points_at(rows[row], part)
-    edges = neighbours(points)
-    ring = owner[row]
-    group, region = np.array(groups)[ring], np.array([r.region for r in rings])[ring]
-    apart = (group[edges[:, 0]] != group[edges[:, 1]]) & (region[edges[:, 0]] == region[edges[:, 1]])
-    edges = edges[apart]
-    size = np.hypot(*(points[edges[:, 0]] - points[edges[:, 1]]).T)
-    order = np.argsort(size, kind="stable")
+    found = edges.between(some, spacing)
+    number = np.array(some, np.int64)
+    groups = np.array([group(k) for k in some])[found.ring]
+    order = np.flatnonzero(groups[found.ends[:, 0]] != groups[found.ends[:, 1]])
+    one, other = number[found.ring[found.ends[order]]].T
     if most is not None:
-        order = order[_rank(ring[edges[order]].min(axis=1) * len(rings) + ring[edges[order]].max(axis=1)) < most]
-    for k in order:
-        a, b = (Place(int(ring[i]), int(number[row[i]]), float(part[i])) for i in edges[k])
-        yield Bridge(a, b, float(size[k])), points[edges[k]]
+        kept = _rank(np.minimum(one, other) * len(edges.rings) + np.maximum(one, other)) < most
+        order, one, other = order[kept], one[kept], other[kept]
+    for k, a, b in zip(order.tolist(), one.tolist(), other.tolist(), strict=True):
+        if group(a) == group(b):
+            continue
+        ends = found.ends[k]
+        start, end = (
+            Place(ring, int(found.row[i]), float(found.part[i])) for ring, i in zip((a, b), ends, strict=True)
+        )
+        yield Bridge(start, end, float(found.size[k])), found.points[ends]
 
 
 def _rank(keys: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -18,7 +18,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import Level, Ring
 from ...model.operation import Direction
 from ..build import Stroke
-from .bridge import Bridge, RingField, inward_bridges, is_clear, level_bridges, outward
+from .bridge import Bridge, RingEdges, RingField, inward_bridges, is_clear, level_bridges, outward
 from .runs import NOTHING, Filling
 from .tree import Tree
 from .walk import Walk, Walked
@@ -59,10 +59,11 @@ def link(
     depth += [k + 0.5 for k, level in enumerate(filling.halves) for _ in level.rings]
     bridges = inward_bridges(levels, filling.halves, field)
     areas = sum(ring.area > 0 for ring in levels[0].rings)
-    tree = _grown(_Apart(rings, Tree(len(rings)), areas), bridges, levels, field)
+    known = RingEdges(rings)
+    tree = _grown(_Apart(known, Tree(len(rings)), areas), bridges, levels, field)
     lines = _lines_out(tree.roots(depth), _Numbered(rings, depth), levels, field)
     bridges = [*(bridge for line in lines.values() for bridge in line), *bridges]
-    tree = _grown(_Apart(rings, Tree(len(rings)), areas), bridges, levels, field)
+    tree = _grown(_Apart(known, Tree(len(rings)), areas), bridges, levels, field)
     return _strokes(Walked(rings, depth, tree, filling.trips, (field, levels[0].distance), step), manner, lines)
 
 
@@ -105,7 +106,7 @@ def link_by_proof(
     rings = [ring for level in levels for ring in level.rings]
     tree = Tree(len(rings))
     if levels:
-        apart = _Apart(rings, tree, sum(ring.area > 0 for ring in levels[0].rings))
+        apart = _Apart(RingEdges(rings), tree, sum(ring.area > 0 for ring in levels[0].rings))
         _join(range(len(rings)), apart, (field, levels[0].distance), (spacing, _TRIED))
     depth = [float(k) for k, level in enumerate(levels) for _ in level.rings]
     return _strokes(
@@ -136,23 +137,18 @@ class _Apart:
     """Rings that should be in as many groups as there are connected areas.
 
     Attributes:
-        rings: all of them. tree: over them.
+        edges: of all of them. tree: over them.
         areas: rings of the outermost level that turn left.
     """
 
-    rings: Sequence[Ring]
+    edges: RingEdges
     tree: Tree
     areas: int
 
     @property
-    def groups(self) -> list[int]:
-        """Group of each ring."""
-        return [self.tree.group(k) for k in range(len(self.rings))]
-
-    @property
     def too_many(self) -> int:
         """Groups more than there are areas."""
-        return len(set(self.groups)) - self.areas
+        return len({self.tree.group(k) for k in range(len(self.edges.rings))}) - self.areas
 
 
 def _join_across(levels: Sequence[Level], apart: _Apart, field: DistanceField) -> None:
@@ -165,7 +161,7 @@ def _join_across(levels: Sequence[Level], apart: _Apart, field: DistanceField) -
         for k in range(len(depth))
         if all(there.ring >= len(depth) or depth[there.ring] <= depth[k] for _, there, _ in apart.tree.neighbours[k])
     ]
-    for some in (tops, range(len(levels[0].rings)), range(len(apart.rings))):
+    for some in (tops, range(len(levels[0].rings)), range(len(apart.edges.rings))):
         _join(some, apart, (field, levels[0].distance), (levels[0].distance / 4, None))
 
 
@@ -182,9 +178,8 @@ def _join(
     too_many = apart.too_many
     if too_many <= 0 or len(some) < 2:
         return
-    groups = apart.groups
-    for bridge, (a, b) in level_bridges(apart.rings, some, groups, *spacing):
-        if not apart.tree.joined(bridge) and is_clear(clear[0], a, b, clear[1]):
+    for bridge, (a, b) in level_bridges(apart.edges, some, apart.tree.group, *spacing):
+        if is_clear(clear[0], a, b, clear[1]):
             apart.tree.add(bridge)
             too_many -= 1
             if too_many == 0:

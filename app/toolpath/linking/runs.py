@@ -17,16 +17,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ...core.pool import pool
 from ...geometry.distance import DistanceField
 from ...geometry.near_points import groups, pairs_within
 from ...geometry.offset.offset import Level, Ring
-from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, sample
+from ...geometry.outlines import Outlines
+from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
 from ..coverage import uncut_kernels
 from . import runs_kernels
 from .bridge import RingField, is_clear
@@ -94,9 +96,6 @@ class _Gap:
     closed: bool
     ring: Ring
 
-    def points(self, chord: float) -> Floats:
-        return np.concatenate([sample(self.rows, chord), self.rows[-1:, 2:4]])
-
 
 def between(distances: Sequence[float], stepover: float, radius: float) -> tuple[float, ...]:
     """Return for each level's distance that of the level inside it along which runs go; none where rings cover all, mm.
@@ -119,26 +118,30 @@ def fill(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField,
         field: distances from the walls; the outermost level's is kept.
         radius: of the tool, mm.
     """
-    rings: list[Level] = []
-    trips: list[Trip] = []
-    first, clear = 0, (field, levels[0].distance if levels else 0.0)
-    for level, half, inner in zip(levels, halves[: len(levels)], [*levels[1:], None], strict=True):
-        count = len(level.rings)
-        sides = [RingField.of(level.rings, first)] if count else []
-        if inner is not None and inner.rings:
-            sides.append(RingField.of(inner.rings, first + count))
-        closed, found = _Space(sides, clear, radius).filled(half, inner)
-        rings.append(Level(half.distance, tuple(closed)))
-        trips += found
-        first += count
-    return Filling(tuple(rings), tuple(trips))
+    halves = halves[: len(levels)]
+    clear = (field, levels[0].distance if levels else 0.0)
+    numbers = accumulate((len(level.rings) for level in levels), initial=0)
+    sides = [
+        RingField.of(level.rings, first) if level.rings else None for level, first in zip(levels, numbers, strict=False)
+    ]
+    spaces = [
+        _Space((outer, inner), (level, half), clear, radius)
+        for outer, inner, level, half in zip(sides, [*sides[1:], None], [*levels[1:], None], halves, strict=True)
+    ]
+    gaps = [space.gaps() for space in spaces]
+    filled = [
+        space.filled(some, corners)
+        for space, some, corners in zip(spaces, gaps, pool().map(_Space.corners, spaces, gaps), strict=True)
+    ]
+    rings = tuple(Level(half.distance, tuple(closed)) for half, (closed, _) in zip(halves, filled, strict=True))
+    return Filling(rings, tuple(trip for _, trips in filled for trip in trips))
 
 
-def gaps_of(half: Level, inner: Level | None, radius: float) -> list[_Gap]:
+def gaps_of(half: Level, inner: RingField | None, radius: float) -> list[_Gap]:
     """Return the parts of rings between two levels that the inner one's rings do not cover."""
-    if inner is None or not inner.rings:
+    if inner is None:
         return [_Gap(ring.rows, True, ring) for ring in half.rings]
-    path = DistanceField.of(np.concatenate([ring.rows for ring in inner.rings]))
+    path = inner.field
     gaps: list[_Gap] = []
     for ring in half.rings:
         found, count = runs_kernels.uncovered(
@@ -166,42 +169,76 @@ def _connected(ring: Ring, parts: Floats) -> list[_Gap]:
     ]
 
 
+@dataclass(frozen=True, eq=False)
+class _Gaps:
+    """The gaps of a level in groups: those that may belong to one uncut place.
+
+    Attributes:
+        each: all of them. outlines: their rows. group: (n,) number of the group of each, numbered as they come.
+    """
+
+    each: list[_Gap]
+    outlines: Outlines
+    group: Indices
+
+    @property
+    def groups(self) -> list[list[_Gap]]:
+        """By their numbers."""
+        found: list[list[_Gap]] = [[] for _ in range(int(self.group.max(initial=-1)) + 1)]
+        for k, gap in zip(self.group.tolist(), self.each, strict=True):
+            found[k].append(gap)
+        return found
+
+
 class _Space:
     """Between a level and the one inside it: the rings that trips start from, and what they keep clear of."""
 
-    def __init__(self, sides: Sequence[RingField], clear: tuple[DistanceField, float], radius: float) -> None:
-        self._sides, self._walls, self._radius = sides, clear, radius
+    def __init__(
+        self,
+        sides: tuple[RingField | None, RingField | None],
+        levels: tuple[Level | None, Level],
+        clear: tuple[DistanceField, float],
+        radius: float,
+    ) -> None:
+        self._inner, self._sides = sides[1], [side for side in sides if side is not None]
+        self._next, self._half = levels
+        self._walls, self._radius = clear, radius
 
-    def filled(self, half: Level, inner: Level | None) -> tuple[list[Ring], list[Trip]]:
-        """Return (closed runs, trips) for all gaps of a level between two."""
-        rings: list[Ring] = []
-        trips: list[Trip] = []
-        reach = 2 * (inner.distance - half.distance if inner else self._radius)
-        groups = self._groups(gaps_of(half, inner, self._radius), reach)
-        points = [
-            np.concatenate([uncut, *(gap.points(_CHORD * self._radius) for gap in group)])
-            for group, uncut in zip(groups, self._uncut(groups, half, inner), strict=True)
-        ]
-        corners = [shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(each))) for each in points]
-        for group, spur in zip(groups, self._spurs(corners), strict=True):
-            if spur is not None:
-                trips.append(spur)
-                continue
-            runs = [gap.rows for gap in group if not gap.closed]
-            rings += [gap.ring for gap in group if gap.closed]
-            alone = [self._run(run) for run in runs]
-            both = self._round(runs) if len(runs) == 2 else None
-            trips += [both] if both and both.length < sum(trip.length for trip in alone) else alone
-        return rings, trips
+    def gaps(self) -> _Gaps:
+        """Return all gaps between the two levels; those of one group come near one another."""
+        gaps = gaps_of(self._half, self._inner, self._radius)
+        outlines = Outlines.joined([gap.rows for gap in gaps])
+        if len(gaps) < 2:
+            return _Gaps(gaps, outlines, np.zeros(len(gaps), np.int64))
+        reach = 2 * (self._next.distance - self._half.distance if self._next else self._radius)
+        step = self._radius / 4
+        owner, points = _along(outlines, step)
+        pairs = np.unique(owner[pairs_within(points, reach + step)], axis=0)
+        return _Gaps(gaps, outlines, groups(len(gaps), pairs))
 
-    def _uncut(self, groups: Sequence[Sequence[_Gap]], half: Level, inner: Level | None) -> list[Floats]:
-        """Return for each group of gaps the corners (n, 2) of squares that hold all that is uncut beyond them."""
-        if not groups or inner is None or not inner.rings:
-            return [np.zeros((0, 2)) for _ in groups]
-        gaps = [gap.rows for group in groups for gap in group]
-        owner = np.repeat(np.arange(len(groups)), [sum(len(gap.rows) for gap in group) for group in groups])
-        beside, walls = DistanceField.of(np.concatenate(gaps)), self._walls[0]
-        path = DistanceField.of(np.concatenate([ring.rows for ring in inner.rings]))
+    def corners(self, gaps: _Gaps) -> list[Floats]:
+        """Return for each group of gaps the corners (m, 2) of what holds it and all that is uncut beyond it."""
+        if not gaps.each:
+            return []
+        outlines = gaps.outlines
+        row, points = samples(outlines.rows, _CHORD * self._radius)
+        group, uncut = self._uncut(gaps)
+        last = outlines.rows[outlines.first[1:] - 1, 2:4]
+        owner = np.concatenate([group, gaps.group[outlines.owner[row]], gaps.group])
+        order = np.argsort(owner, kind="stable")
+        hulls = shapely.convex_hull(
+            shapely.linestrings(np.concatenate([uncut, points, last])[order], indices=owner[order])
+        )
+        found, of = shapely.get_coordinates(hulls, return_index=True)
+        return np.split(found, np.searchsorted(of, np.arange(1, len(hulls))))
+
+    def _uncut(self, gaps: _Gaps) -> tuple[Indices, Floats]:
+        """Return (number of the group (n,), points (n, 2)) of the corners of squares that hold all that is uncut beyond
+        gaps.
+        """
+        if self._next is None or self._inner is None:
+            return np.zeros(0, np.int64), np.zeros((0, 2))
+        beside, walls, path = DistanceField.of(gaps.outlines.rows), self._walls[0], self._inner.field
         radii = np.full(len(path.rows), self._radius)
         found, count = runs_kernels.squares_beyond(
             walls.rows,
@@ -215,20 +252,14 @@ class _Space:
             path.nodes,
             radii,
             uncut_kernels.widest(radii, path.order, len(path.nodes)),
-            np.array([half.distance, self._radius / _FINEST]),
-            self._squares(
-                np.concatenate([_along(gap, self._radius / 4) for gap in gaps]), inner.distance - half.distance
-            ),
+            np.array([self._half.distance, self._radius / _FINEST]),
+            self._squares(_along(gaps.outlines, self._radius / 4)[1], self._next.distance - self._half.distance),
         )
         corners = found[:count, None, :2] + found[:count, 2, None, None] * np.array(
             [[-1, -1], [-1, 1], [1, -1], [1, 1]]
         )
-        of = owner[found[:count, 3].astype(np.int64)]
-        order = np.argsort(of, kind="stable")
-        return [
-            each.reshape(-1, 2)
-            for each in np.split(corners[order], np.searchsorted(of[order], np.arange(1, len(groups))))
-        ]
+        group = gaps.group[gaps.outlines.owner[found[:count, 3].astype(np.int64)]]
+        return np.repeat(group, 4), corners.reshape(-1, 2)
 
     def _squares(self, points: Floats, reach: float) -> Floats:
         """Return squares (n, 3) of half a radius that hold all within `reach`, at most a radius, of ways along points
@@ -242,18 +273,20 @@ class _Space:
         cells = _different((_different(np.floor(points / size).astype(np.int64))[:, None] + around).reshape(-1, 2))
         return np.column_stack([(cells + 0.5) * size, np.full(len(cells), size / 2)])
 
-    def _groups(self, gaps: list[_Gap], reach: float) -> list[list[_Gap]]:
-        """Return the gaps in groups: those that may belong to one uncut place come within `reach` mm of one another."""
-        if len(gaps) < 2:
-            return [gaps] if gaps else []
-        step = self._radius / 4
-        points = [_along(gap.rows, step) for gap in gaps]
-        owner = np.repeat(np.arange(len(gaps)), [len(each) for each in points])
-        number = groups(len(gaps), np.unique(owner[pairs_within(np.concatenate(points), reach + step)], axis=0))
-        found: dict[int, list[_Gap]] = {}
-        for k, gap in zip(number.tolist(), gaps, strict=True):
-            found.setdefault(k, []).append(gap)
-        return list(found.values())
+    def filled(self, gaps: _Gaps, corners: Sequence[Floats]) -> tuple[list[Ring], list[Trip]]:
+        """Return (closed runs, trips) for all gaps, given the `corners` of their groups."""
+        rings: list[Ring] = []
+        trips: list[Trip] = []
+        for group, spur in zip(gaps.groups, self._spurs(corners), strict=True):
+            if spur is not None:
+                trips.append(spur)
+                continue
+            runs = [gap.rows for gap in group if not gap.closed]
+            rings += [gap.ring for gap in group if gap.closed]
+            alone = [self._run(run) for run in runs]
+            both = self._round(runs) if len(runs) == 2 else None
+            trips += [both] if both and both.length < sum(trip.length for trip in alone) else alone
+        return rings, trips
 
     def _spurs(self, places: Sequence[Floats]) -> list[Trip | None]:
         """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of
@@ -355,12 +388,14 @@ def _different(cells: Indices) -> Indices:
     return different
 
 
-def _along(rows: Rows, step: float) -> Floats:
-    """Return points (n, 2) along rows, at most `step` mm apart, both ends included."""
+def _along(outlines: Outlines, step: float) -> tuple[Indices, Floats]:
+    """Return (number of the path (n,), points (n, 2)) along paths, at most `step` mm apart, both ends included."""
+    rows = outlines.rows
     counts = np.maximum(1, np.ceil(lengths(rows) / step)).astype(np.int64)
     row = np.repeat(np.arange(len(rows)), counts)
     part = (np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[row]
-    return np.concatenate([points_at(rows[row], part), rows[-1:, 2:4]])
+    owner = np.concatenate([outlines.owner[row], np.arange(len(outlines))])
+    return owner, np.concatenate([points_at(rows[row], part), rows[outlines.first[1:] - 1, 2:4]])
 
 
 def _far_apart(points: Floats) -> Floats:

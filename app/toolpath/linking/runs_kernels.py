@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ...geometry.kernels import enlarged, nearest, query_box
+from ...geometry.kernels import LEAF, box_distance, enlarged, nearest, point_distance, query_box
 from ...geometry.offset.offset_kernels import blocked_parts
 from ..coverage.uncut_kernels import beyond
 
@@ -76,6 +76,55 @@ def uncovered(rows, paths, order, nodes, around, reach):
 _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
 
 
+@kernel(f"int64({_TREE}, float64, float64, float64, int64[::1], int64)")
+def _collected(rows, order, nodes, x, y, limit, listed, stop):
+    """Write into `listed`, from `stop` on, the rows nearer to a point than `limit`; return where they end."""
+    leaves = (len(nodes) + 1) // 2
+    stack = np.empty(64, np.int64)
+    stack[0], top = 0, 1
+    while top > 0:
+        top -= 1
+        k = stack[top]
+        if box_distance(nodes, k, x, y) >= limit:
+            continue
+        if k < leaves - 1:
+            stack[top], stack[top + 1] = 2 * k + 2, 2 * k + 1
+            top += 2
+            continue
+        first = (k - leaves + 1) * LEAF
+        for place in range(first, min(first + LEAF, len(order))):
+            if point_distance(rows, order[place], x, y) < limit:
+                listed[stop] = order[place]
+                stop += 1
+    return stop
+
+
+@kernel(
+    "Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[::1], int64, int64, float64, float64, float64)",
+    counts=False,
+)
+def _nearest_listed(rows, listed, away, first, stop, x, y, limit):
+    """Return (distance, row) of the listed row nearest to a point, (limit, -1) when none is nearer; write how far each
+    is.
+    """
+    best, row = limit, -1
+    for k in range(first, stop):
+        away[k] = point_distance(rows, listed[k], x, y)
+        if away[k] < best:
+            best, row = away[k], listed[k]
+    return best, row
+
+
+@kernel("int64(int64[::1], float64[::1], int64, int64, float64, int64)", counts=False)
+def _kept(listed, away, first, stop, limit, to):
+    """Write those of a list that are nearer than `limit` to where `to` is; return where they end."""
+    for k in range(first, stop):
+        if away[k] < limit:
+            listed[to] = listed[k]
+            to += 1
+    return to
+
+
 @kernel(
     f"Tuple((float64[:, ::1], int64))({_TREE}, {_TREE}, {_TREE}, float64[::1], float64[::1], float64[::1], float64[:, "
     "::1])"
@@ -86,42 +135,81 @@ def squares_beyond(
     """Return (squares (n, 4): x, y, half side, nearest gap; how many) that hold all that a path leaves beyond the gaps
     of a level.
 
-    A point beyond a gap is no farther from it than it is inside of the level.
+    A point beyond a gap is no farther from it than it is inside of the level. The trees are asked for the first squares
+    alone. What is nearest to a point of a square is no farther from the centre than twice half the diagonal more than
+    what is nearest to that; so each square hands on to its quarters a list of the few rows that matter to them.
 
     Args:
-        rows...: the walls. gaps...: parts of the level. path...: what is cut. radii, wide: of its cutters, by row and
-            by node.
+        rows...: the walls. gaps...: parts of the level. path...: what is cut. radii, wide: of its cutter, by row and by
+            node; one radius.
         limits: distance of the level from the walls, half side of the smallest squares.
-        squares: (m, 3) to begin with.
+        squares: (m, 3) to begin with, of one size.
     """
     found, count = np.empty((256, 4)), 0
-    top = len(squares)
-    stack = enlarged(squares, top, top + 256)
-    while top > 0:
-        top -= 1
-        x, y, half = stack[top, 0], stack[top, 1], stack[top, 2]
-        far = half * math.sqrt(2.0)
-        # first: it decides most squares, and is soon found
-        cut = beyond(path, radii, path_order, path_nodes, wide, x, y, (-far, far))
-        if cut <= -far:
-            continue
-        inside = nearest(rows, order, nodes, x, y, math.inf)[0] - limits[0]
-        if inside + far < 0.0:
-            continue
-        gap = nearest(gaps, gap_order, gap_nodes, x, y, max(inside, 0.0) + 2 * far)[1]
-        if gap < 0:
-            continue
-        if half <= limits[1] or (half <= 4 * limits[1] and cut >= far and inside >= far):
-            if count == len(found):
-                found = enlarged(found, count, 2 * count)
-            found[count, 0], found[count, 1], found[count, 2], found[count, 3] = x, y, half, gap
-            count += 1
-            continue
-        if top + 4 > len(stack):
-            stack = enlarged(stack, top, 2 * len(stack))
-        for k in range(4):
-            stack[top, 0], stack[top, 1], stack[top, 2] = x + half * (k % 2 - 0.5), y + half * (k // 2 - 0.5), half / 2
-            top += 1
+    depths = 2
+    if len(squares) > 0:
+        depths += math.ceil(math.log2(max(squares[0, 2] / limits[1], 1.0)))
+    stack = np.empty((4 * depths + 4, 4))  # x, y, half side, how often the first square was quartered
+    listed = np.empty(depths * (len(rows) + len(gaps) + len(path)), np.int64)
+    away = np.empty(len(listed))
+    ends = np.zeros((depths + 1, 4), np.int64)  # of the lists of walls, gaps and path of each depth
+    for first in range(len(squares)):
+        stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = (
+            squares[first, 0],
+            squares[first, 1],
+            squares[first, 2],
+            0.0,
+        )
+        top = 1
+        while top > 0:
+            top -= 1
+            x, y, half, depth = stack[top, 0], stack[top, 1], stack[top, 2], int(stack[top, 3])
+            far = half * math.sqrt(2.0)
+            a, b, c, d = ends[depth, 0], ends[depth, 1], ends[depth, 2], ends[depth, 3]
+            # first: it decides most squares, and is soon found
+            if depth == 0:
+                cut = beyond(path, radii, path_order, path_nodes, wide, x, y, (-far, far))
+            else:
+                away_from, at = _nearest_listed(path, listed, away, c, d, x, y, radii[0] + far)
+                cut = far if at < 0 else away_from - radii[0]  # to the last bit: it is compared with that
+            if cut <= -far:
+                continue
+            if depth == 0:
+                wall = nearest(rows, order, nodes, x, y, math.inf)[0]
+            else:
+                wall = _nearest_listed(rows, listed, away, a, b, x, y, math.inf)[0]
+            inside = wall - limits[0]
+            if inside + far < 0.0:
+                continue
+            limit = max(inside, 0.0) + 2 * far
+            if depth == 0:
+                near, gap = nearest(gaps, gap_order, gap_nodes, x, y, limit)
+            else:
+                near, gap = _nearest_listed(gaps, listed, away, b, c, x, y, limit)
+            if gap < 0:
+                continue
+            if half <= limits[1] or (half <= 4 * limits[1] and cut >= far and inside >= far):
+                if count == len(found):
+                    found = enlarged(found, count, 2 * count)
+                found[count, 0], found[count, 1], found[count, 2], found[count, 3] = x, y, half, gap
+                count += 1
+                continue
+            wall, near, reach = wall + 2 * far + SHORTEST, near + 2 * far + SHORTEST, radii[0] + far + SHORTEST
+            if depth == 0:
+                e = _collected(rows, order, nodes, x, y, wall, listed, 0)
+                f = _collected(gaps, gap_order, gap_nodes, x, y, near, listed, e)
+                g = _collected(path, path_order, path_nodes, x, y, reach, listed, f)
+                ends[1, 0] = 0
+            else:
+                e = _kept(listed, away, a, b, wall, d)
+                f = _kept(listed, away, b, c, near, e)
+                g = _kept(listed, away, c, d, reach, f)
+                ends[depth + 1, 0] = d
+            ends[depth + 1, 1], ends[depth + 1, 2], ends[depth + 1, 3] = e, f, g
+            for k in range(4):
+                stack[top, 0], stack[top, 1] = x + half * (k % 2 - 0.5), y + half * (k // 2 - 0.5)
+                stack[top, 2], stack[top, 3] = half / 2, depth + 1.0
+                top += 1
     return found, count
 
 
