@@ -69,6 +69,7 @@ TEXT_PAGE = "Text"
 WORDS = {
     "compute": "compute",
     "cancel": "cancel",
+    "f": "fit",
     "fit": "fit",
     "export": "export",
     "new": "new",

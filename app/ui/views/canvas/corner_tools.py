@@ -45,9 +45,9 @@ class BreakTool(AskingTool):
         """The place of the break may be a point of the drawing."""
         return True
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
         """Return the break between both points; at the first one nothing is to be seen."""
-        return super().draft(cursor, under) if self.answers else None
+        return super().draft(answer, under) if self.answers else None
 
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `break CURVE P [P]`."""
