@@ -54,7 +54,8 @@ class AskingTool(DrawingTool):
         asks: the questions. form: the line, with `{0}` for the first answer, and `{word}` for a number or a toggle.
         toggles: words that switch something on and off. numbers: words and first values of numbers that stay as they
             were set; whole ones are counts, which Up and Down change, too.
-        no_lengths: those numbers that are counts or angles.
+        no_lengths: those numbers that are counts or angles. box_names: what their boxes are called where the word does
+            not say it.
         once: the tool ends with its first line. keeps: so many answers stay for the next line.
         answers: given so far. setting: the number that is being asked for, or "".
     """
@@ -69,6 +70,7 @@ class AskingTool(DrawingTool):
     toggles: ClassVar[tuple[str, ...]] = ()
     numbers: ClassVar[Mapping[str, float]] = {}
     no_lengths: ClassVar[frozenset[str]] = frozenset()
+    box_names: ClassVar[Mapping[str, str]] = {}
     once: ClassVar[bool] = False
     keeps: ClassVar[int] = 0
 
@@ -140,7 +142,7 @@ class AskingTool(DrawingTool):
         if self.wants in (Want.SELECTION, Want.WORDS):
             return {}
         return {
-            word: Box(word.capitalize(), self._quantity(word))
+            word: Box(self.box_names.get(word, word.capitalize()), self._quantity(word))
             for word in ([self.setting] if self.setting else self.numbers)
         }
 

@@ -97,6 +97,7 @@ class ChamferTool(FilletTool):
         Ask("second line, or the size", Want.CURVE, sets="size"),
     )
     numbers: ClassVar[Mapping[str, float]] = {"size": 2.0, "second": 0.0}
+    box_names: ClassVar[Mapping[str, str]] = {"second": "Second size"}
 
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `chamfer d [and d] CURVE P CURVE P`."""

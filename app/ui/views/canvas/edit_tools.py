@@ -42,6 +42,7 @@ class CopyTool(AskingTool):
     asks = (CHOOSE, Ask("base point"), Ask("where the copy goes; Enter ends"))
     numbers: ClassVar[Mapping[str, float]] = {"times": 1}
     no_lengths = frozenset({"times"})
+    box_names: ClassVar[Mapping[str, str]] = {"times": "Copies"}
     keeps = 2
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -144,6 +145,7 @@ class ArrayPolarTool(AskingTool):
     asks = (CHOOSE, Ask("centre, or how many places; Up and Down change it", sets="places"))
     numbers: ClassVar[Mapping[str, float]] = {"places": 6, "over": 360.0}
     no_lengths = frozenset({"places", "over"})
+    box_names: ClassVar[Mapping[str, str]] = {"places": "How many", "over": "Over angle"}
     once = True
 
     def line_of(self, answers: Sequence[Answer]) -> str:

@@ -259,7 +259,7 @@ class ToolRunner:
         value = self.read(text, tool.takes_length)
         self.typed.release()
         if isinstance(value, tuple):
-            self.click(value)
+            self.click(tidy(value))
             return
         before = self._answers(tool)
         line = tool.typed(value)

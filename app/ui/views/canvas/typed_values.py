@@ -75,7 +75,7 @@ class TypedValues:
     def answer(self, tool: DrawingTool, pointer: Point) -> Point | float:
         """Return what a question is answered with: the pointer's place, mm, as far as no value is held."""
         if self.point is not None:
-            return self.point
+            return tidy(self.point)
         boxes = tool.boxes
         if not self.held or boxes is None:
             return pointer

@@ -163,7 +163,7 @@ SPAN = PointBoxes((Box("Length"), ANGLE), _span_values, _span_point)
 SIZE = PointBoxes((Box("Width"), Box("Height")), _size_values, _size_point)
 """Across and up, on the pointer's side of the point before."""
 
-STEP = PointBoxes((Box("Across"), Box("Up")), _step_values, _step_point, zero=True)
+STEP = PointBoxes((Box("Step across"), Box("Step up")), _step_values, _step_point, zero=True)
 """Across and up with their signs."""
 
 RADIUS = PointBoxes((Box("Radius"), Box("Diameter")), _radius_values, _radius_point, either=True)

@@ -28,8 +28,8 @@ _SHADOW = ((3.0, 10), (2.0, 16), (1.0, 22))
 _OPEN = "\u2013"
 """What stands in a box that nothing sets yet."""
 
-HINT = "Tab: next · Enter: take"
-HINT_OF_ONE = "Enter: take"
+HINT = "Tab goes on · Enter takes"
+HINT_OF_ONE = "Enter takes"
 
 
 @dataclass(frozen=True, slots=True)
