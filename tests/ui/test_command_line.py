@@ -271,7 +271,9 @@ def test_what_the_mouse_did_wrong_is_told_without_a_column(qtbot, wiring) -> Non
     assert said and "olumn" not in said[-1]
 
 
-def test_an_unknown_word_is_answered_with_those_that_are_like_it(wiring) -> None:
+def test_an_unknown_word_is_answered_with_those_that_are_like_it(qtbot, wiring) -> None:
     for text, answer in (("lime 0,0 1,1", "'lime' is no command; try line"), ("qqqq 1", "F1 lists them all")):
+        said = len(wiring.document.log)
         wiring.window_.command_line.entered.emit(text)
+        qtbot.waitUntil(lambda said=said: len(wiring.document.log) > said)  # the first line may go to another thread
         assert answer in wiring.document.log[-1].reply
