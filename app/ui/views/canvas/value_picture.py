@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache, lru_cache
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen, QPixmap
 
 from ...framework.theme import Theme, text_font
 from ...framework.words import tr
@@ -18,6 +20,9 @@ _GAP = 16.0
 _CLEAR = 10.0
 """So far the sheet stays from the end of the rubber band, px."""
 
+_EDGE = 4.0
+"""Between the sheet and the edge of the canvas, px."""
+
 _MARGIN, _ROW, _FIELD, _SPACE = 8.0, 26.0, 22.0, 8.0
 _LEAST_FIELD, _MOST_FIELD = 74.0, 220.0
 _TEXT_PX, _SMALL_PX = 13, 11
@@ -28,8 +33,11 @@ _SHADOW = ((3.0, 10), (2.0, 16), (1.0, 22))
 _OPEN = "\u2013"
 """What stands in a box that nothing sets yet."""
 
-HINT = "Tab goes on · Enter takes"
-HINT_OF_ONE = "Enter takes"
+_SHADE = 4.0
+"""Room for the shadow round the sheet, px."""
+
+HINT = "Tab: next value · Enter: done"
+HINT_OF_ONE = "Enter: done"
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,8 +95,8 @@ class SheetPlace:
     def _at(self, right: bool, below: bool, width: float, height: float) -> QRectF:
         x = self.mouse.x() + (_GAP if right else -_GAP - width)
         y = self.mouse.y() + (_GAP if below else -_GAP - height)
-        x = max(min(x, self.area.right() - width), self.area.left())
-        y = max(min(y, self.area.bottom() - height), self.area.top())
+        x = max(min(x, self.area.right() - _EDGE - width), self.area.left() + _EDGE)
+        y = max(min(y, self.area.bottom() - _EDGE - height), self.area.top() + _EDGE)
         return QRectF(x, y, width, height)
 
     def _is_free(self, sheet: QRectF) -> bool:
@@ -102,15 +110,50 @@ def paint_values(painter: QPainter, sheet: ValueSheet, place: SheetPlace, theme:
         _Painting(painter, sheet, theme).paint(place)
 
 
+class _Type:
+    """The three fonts of the sheet, measured once: they are asked for at every move of the mouse."""
+
+    def __init__(self) -> None:
+        self.plain, self.small = text_font(_TEXT_PX), text_font(_SMALL_PX)
+        self.strong = text_font(_TEXT_PX, semibold=True)
+        self.of_plain, self.of_small = QFontMetricsF(self.plain), QFontMetricsF(self.small)
+        self.of_strong = QFontMetricsF(self.strong)
+
+
+@cache
+def _type() -> _Type:
+    return _Type()
+
+
+@lru_cache(16)
+def _ground(size: tuple[int, int], ratio: float, paper: str, hairline: str) -> QPixmap:
+    """Return an empty sheet with its soft shadow, px; smooth round corners take far longer to paint than to copy."""
+    width, height = size
+    margin = int(_SHADE)
+    made = QPixmap(round((width + 2 * margin) * ratio), round((height + 2 * margin) * ratio))
+    made.setDevicePixelRatio(ratio)
+    made.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(made)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(Qt.PenStyle.NoPen)
+    sheet = QRectF(margin, margin, width, height)
+    for reach, dark in _SHADOW:
+        painter.setBrush(QColor(0, 0, 0, dark))
+        painter.drawRoundedRect(sheet.adjusted(1 - reach, 2 - reach, reach - 1, reach), 6 + reach, 6 + reach)
+    painter.setPen(QPen(QColor(hairline), 1))
+    painter.setBrush(QColor(paper))
+    painter.drawRoundedRect(sheet.adjusted(0.5, 0.5, -0.5, -0.5), 6, 6)
+    painter.end()
+    return made
+
+
 class _Painting:
     """One painting of a sheet."""
 
     def __init__(self, painter: QPainter, sheet: ValueSheet, theme: Theme) -> None:
         self._painter, self._sheet, self._theme = painter, sheet, theme
-        self._font, self._small = text_font(_TEXT_PX), text_font(_SMALL_PX)
-        self._strong = text_font(_TEXT_PX, semibold=True)
-        plain, small = QFontMetricsF(self._font), QFontMetricsF(self._small)
-        strong = QFontMetricsF(self._strong)
+        self._type = _type()
+        plain, small, strong = self._type.of_plain, self._type.of_small, self._type.of_strong
         rows = sheet.rows
         self._name = max((small.horizontalAdvance(tr(row.name)) for row in rows), default=0.0)
         self._unit = max((small.horizontalAdvance(row.unit) for row in rows), default=0.0)
@@ -125,19 +168,22 @@ class _Painting:
         self._width = max([boxes, *(rect.width() for _, rect in self._lines)]) + 2 * _MARGIN
         self._height = len(rows) * _ROW + sum(rect.height() + 2 for _, rect in self._lines) + _MARGIN
         self._height += 2 if rows and self._lines else 0
+        self._width, self._height = math.ceil(self._width), math.ceil(self._height)
 
     def paint(self, place: SheetPlace) -> None:
         """Paint it where it belongs."""
         painter, theme = self._painter, self._theme
-        sheet = place.sheet(self._width, self._height)
+        sheet = QRectF(place.sheet(self._width, self._height).toRect())
         painter.save()
-        self._paint_ground(sheet)
+        ratio = painter.device().devicePixelRatioF()
+        ground = _ground(sheet.toRect().size().toTuple(), ratio, theme.paper.name(), theme.hairline.name())
+        painter.drawPixmap(sheet.topLeft() - QPointF(_SHADE, _SHADE), ground)
         y = sheet.top() + _MARGIN / 2
         for row in self._sheet.rows:
             self._paint_row(row, QRectF(sheet.left() + _MARGIN, y, sheet.width() - 2 * _MARGIN, _ROW))
             y += _ROW
         y += 2 if self._sheet.rows else 0
-        painter.setFont(self._small)
+        painter.setFont(self._type.small)
         for words, rect in self._lines:
             painter.setPen(theme.error if words.wrong else theme.warning if words.doubtful else theme.muted)
             painter.drawText(
@@ -148,26 +194,17 @@ class _Painting:
             y += rect.height() + 2
         painter.restore()
 
-    def _paint_ground(self, sheet: QRectF) -> None:
-        painter, theme = self._painter, self._theme
-        painter.setPen(Qt.PenStyle.NoPen)
-        for reach, dark in _SHADOW:
-            painter.setBrush(QColor(0, 0, 0, dark))
-            painter.drawRoundedRect(sheet.adjusted(-reach + 1, -reach + 2, reach - 1, reach), 6 + reach, 6 + reach)
-        painter.setPen(QPen(theme.hairline, 1))
-        painter.setBrush(theme.paper)
-        painter.drawRoundedRect(sheet, 6, 6)
-
     def _paint_row(self, row: RowShown, area: QRectF) -> None:
         painter, theme = self._painter, self._theme
-        painter.setFont(self._small)
+        painter.setFont(self._type.small)
         painter.setPen(theme.muted)
         middle = int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft)
         painter.drawText(area, middle, tr(row.name))
-        # The fields end in one line, and the units begin in one.
-        right = area.right() - self._unit
-        painter.drawText(QRectF(right, area.top(), self._unit, area.height()), middle, row.unit)
-        field = QRectF(right - _SPACE / 2 - self._field, area.center().y() - _FIELD / 2, self._field, _FIELD)
+        # Fields stand in one column, units in one, however wide the words below make the sheet.
+        left = area.left() + self._name + _SPACE
+        field = QRectF(left, area.center().y() - _FIELD / 2, self._field, _FIELD)
+        unit = QRectF(field.right() + _SPACE / 2, area.top(), self._unit, area.height())
+        painter.drawText(unit, middle, row.unit)
         typed = row.caret is not None
         if typed:
             painter.setPen(QPen(theme.error if self._wrong else theme.accent, 1.5))
@@ -186,7 +223,8 @@ class _Painting:
     def _paint_text(self, row: RowShown, field: QRectF) -> None:
         painter, theme = self._painter, self._theme
         typed = row.caret is not None
-        font = self._strong if row.held or (typed and row.caret) else self._font
+        bold = row.held or bool(row.caret)
+        font, metrics = (self._type.strong, self._type.of_strong) if bold else (self._type.plain, self._type.of_plain)
         painter.setFont(font)
         painter.setPen(
             theme.accent_text if row.held and not typed else theme.ink if not typed or row.caret else theme.muted
@@ -197,6 +235,6 @@ class _Painting:
         painter.restore()
         if row.caret is not None:
             behind = row.text[row.caret :] if row.caret else ""
-            x = field.right() + 2 - QFontMetricsF(font).horizontalAdvance(behind)
+            x = field.right() + 3 - metrics.horizontalAdvance(behind)
             painter.setPen(QPen(theme.ink, 1))
             painter.drawLine(QPointF(x, field.center().y() - 7), QPointF(x, field.center().y() + 7))
