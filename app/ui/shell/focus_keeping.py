@@ -24,7 +24,7 @@ class _Lost:
 
     place: QWidget
     kind: type[QWidget]
-    parent: type[QObject]
+    parent: type[object]
     at: int
     name: str
 
@@ -105,6 +105,6 @@ def _ancestors(widget: QWidget) -> Iterator[QWidget]:
         above = above.parentWidget()
 
 
-def _alike(place: QWidget, kind: type[QWidget], parent: type[QObject]) -> list[QWidget]:
+def _alike(place: QWidget, kind: type[QWidget], parent: type[object]) -> list[QWidget]:
     """Return the widgets of a class whose parents are of another, in the order in which they were made."""
     return [each for each in place.findChildren(kind) if type(each) is kind and type(each.parent()) is parent]

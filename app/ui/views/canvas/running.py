@@ -24,7 +24,9 @@ from .tools import TOOL_WORDS, TOOLS
 from .trials import Trial, Trials
 from .typed_values import TypedValues
 
-_SELECT_PROMPT = "Select: click, or drag a window; from right to left it takes what it crosses"
+_SELECT_PROMPT = (
+    "Select: click; twice takes all that joins it; drag a window, from right to left it takes what it crosses"
+)
 
 
 class ToolRunner:
