@@ -12,6 +12,7 @@ from app.core.errors import Cancelled, ParameterError
 from app.core.progress import Progress
 from app.gcode.posts.post import Coolant
 from app.gcode.posts.posts import load_post
+from app.gcode.writer.header import tool_words
 from app.gcode.writer.write import NcText, blend_mm, write_program, writing_tolerance
 from app.model.job import Job
 from app.model.operation import ContourOperation, Cut, PocketOperation
@@ -250,3 +251,16 @@ def test_cancel() -> None:
     task: Job = job()
     with pytest.raises(Cancelled):
         write_program(two_tools().program(), task, LINUXCNC, Progress(listener=stop))
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("", "T2 flat 1 mm"),
+        ("Flat 1 mm", "T2 flat 1 mm"),
+        ("flat 1 MM", "T2 flat 1 mm"),
+        ("Long one", "T2 flat 1 mm Long one"),
+    ],
+)
+def test_a_tool_is_not_named_twice(name: str, words: str) -> None:
+    assert tool_words(Tool(2, 1.0, name=name), Units.MM) == words

@@ -315,8 +315,8 @@ def test_a_panned_picture_equals_one_painted_anew(plate: Hand, step: tuple[int, 
     assert shifted == plate.canvas.grab().toImage()
 
 
-def test_f_glides_to_the_whole_part(plate: Hand) -> None:
-    plate.key(Qt.Key.Key_F)
+def test_home_glides_to_the_whole_part(plate: Hand) -> None:
+    plate.key(Qt.Key.Key_Home)
     plate.qtbot.waitUntil(lambda: plate.canvas.view.scale > 7, timeout=2000)
     plate.qtbot.wait(250)
     box = plate.canvas.view.world_box(plate.canvas.area)

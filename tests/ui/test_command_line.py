@@ -215,13 +215,13 @@ def test_the_words_of_the_tool_in_hand_come_and_go(wiring):
 def test_a_typed_answer_leaves_the_keys_with_the_canvas_and_a_whole_line_leaves_them_here(qtbot, wiring) -> None:
     window = wiring.window_
     line, canvas = window.command_line.edit, window.canvas
-    canvas.set_tool(CanvasTool.CIRCLE)
     canvas.setFocus()
-    for text in ("1,2", "5"):
+    for text in ("circle", "1,2", "5"):
+        typed_into = line if text[0].isalpha() else canvas
         qtbot.keyClick(canvas, text[0])
-        assert window.focusWidget() is line and line.text() == text[0]
-        qtbot.keyClicks(line, text[1:])
-        qtbot.keyClick(line, Qt.Key.Key_Return)
+        assert window.focusWidget() is typed_into
+        qtbot.keyClicks(typed_into, text[1:])
+        qtbot.keyClick(typed_into, Qt.Key.Key_Return)
         assert window.focusWidget() is canvas
     assert wiring.document.log[-1].command == "circle 1,2 5"
     canvas.cancel()
@@ -229,6 +229,30 @@ def test_a_typed_answer_leaves_the_keys_with_the_canvas_and_a_whole_line_leaves_
     qtbot.keyClicks(line, "line 0,0 5,5")
     qtbot.keyClick(line, Qt.Key.Key_Return)
     assert window.focusWidget() is line
+
+
+@pytest.mark.parametrize("word", ["fillet", "f", "Slot"])
+def test_letters_typed_on_the_canvas_lose_nothing(qtbot, wiring, word) -> None:
+    window = wiring.window_
+    window.canvas.setFocus()
+    for letter in word:
+        qtbot.keyClicks(window.focusWidget(), letter)
+    assert window.focusWidget() is window.command_line.edit
+    assert window.command_line.edit.text() == word
+
+
+def test_a_number_that_tab_ends_goes_into_the_first_box_at_the_pointer(qtbot, wiring) -> None:
+    window = wiring.window_
+    line, canvas = window.command_line.edit, window.canvas
+    canvas.set_tool(CanvasTool.RECTANGLE)
+    assert canvas.type_text("0,0")
+    line.setFocus()
+    qtbot.keyClicks(line, "80")
+    qtbot.keyClick(line, TAB)
+    assert line.text() == "" and window.focusWidget() is canvas
+    qtbot.keyClicks(canvas, "50")
+    qtbot.keyClick(canvas, Qt.Key.Key_Return)
+    assert wiring.document.log[-1].command == "rect 0,0 80,50"
 
 
 def test_words_for_the_drawing_are_typed_where_blanks_are_letters(wiring) -> None:
@@ -247,7 +271,9 @@ def test_what_the_mouse_did_wrong_is_told_without_a_column(qtbot, wiring) -> Non
     assert said and "olumn" not in said[-1]
 
 
-def test_an_unknown_word_is_answered_with_those_that_are_like_it(wiring) -> None:
+def test_an_unknown_word_is_answered_with_those_that_are_like_it(qtbot, wiring) -> None:
     for text, answer in (("lime 0,0 1,1", "'lime' is no command; try line"), ("qqqq 1", "F1 lists them all")):
+        said = len(wiring.document.log)
         wiring.window_.command_line.entered.emit(text)
+        qtbot.waitUntil(lambda said=said: len(wiring.document.log) > said)  # the first line may go to another thread
         assert answer in wiring.document.log[-1].reply

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 
@@ -16,6 +16,7 @@ from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOpe
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style
+from app.ui.framework.dropping import place_under
 from app.ui.framework.theme import LIGHT, TEXT_PX, text_font
 from app.ui.panels.changes import Subject, SubjectKind, with_tool
 from app.ui.panels.side_panel import WIDTH, SidePanel
@@ -279,3 +280,34 @@ def test_nothing_is_wider_than_the_panel_when_all_is_set_and_unfolded(qtbot, sty
             group.group.fold.setChecked(True)
         qtbot.wait(1)
         assert panel.widget().minimumSizeHint().width() <= WIDTH - SCROLL_BAR_PX
+
+
+def test_a_depth_that_the_flutes_do_not_reach_is_marked_before_anything_is_computed(qtbot, document, panel):
+    tool = document.job.tools[0]
+    document.change_job("Flutes", with_tool(document.job, tool.number, replace(tool, flute_length=8.0)))
+    enter(qtbot, panel.operation_form.number("depth"), "9")
+    field = panel.operation_form.number("depth")
+    assert "flutes of T1 are 8 mm long" in field.reason.text() and not field.reason.isHidden()
+    assert document.job.operations[0].cut.depth == 9, "it is told, not forbidden"
+    enter(qtbot, field, "8")
+    assert field.reason.isHidden()
+
+
+@pytest.mark.parametrize(("flutes", "words"), [(5.0, "cuts 5 mm with its flutes"), (0.0, "")])
+def test_a_step_down_that_the_cutter_cannot_take_is_marked(qtbot, document, panel, flutes, words):
+    tool = document.job.tools[0]
+    document.change_job("Flutes", with_tool(document.job, tool.number, replace(tool, flute_length=flutes)))
+    enter(qtbot, panel.operation_form.number("depth"), "5")
+    enter(qtbot, panel.operation_form.number("stepdown"), "6")
+    assert panel.operation_form.number("stepdown").reason.text() == "", "no deeper than the depth"
+    enter(qtbot, panel.operation_form.number("depth"), "10")
+    assert words in panel.operation_form.number("stepdown").reason.text()
+    assert bool(panel.operation_form.number("stepdown").reason.text()) is bool(words)
+
+
+def test_the_menu_of_a_plus_stays_in_the_window(qtbot, panel):
+    button, width = panel.operations.add_button, panel.operations.menu.sizeHint().width()
+    left = place_under(button, width).x()
+    right_of_window = panel.window().mapToGlobal(QPoint(panel.window().width(), 0)).x()
+    assert left + width == right_of_window, "it would have left it"
+    assert place_under(button, 4).x() == button.mapToGlobal(QPoint(0, 0)).x(), "a narrow one has its left edges in line"

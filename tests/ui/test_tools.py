@@ -5,16 +5,18 @@ import math
 import pytest
 
 from app.drafting.document import Document
-from app.model.curves import Arc, Circle, Curve, Line
+from app.model.curves import Arc, Circle, Curve, Line, Point
 from app.model.part import Part
 from app.ui.views.canvas.aim import AimRules, aim, rounded
 from app.ui.views.canvas.chain_tools import LineTool, PolylineTool
+from app.ui.views.canvas.drawing_tool import DrawingTool
 from app.ui.views.canvas.modes import CanvasTool
 from app.ui.views.canvas.part_picture import PartPicture
 from app.ui.views.canvas.round_tools import ArcCentreTool, CircleTool
 from app.ui.views.canvas.running import ToolRunner
 from app.ui.views.canvas.snap import SnapKind
 from app.ui.views.canvas.tools import TOOLS, RectangleTool
+from app.ui.views.canvas.typed_values import TypedValues, rows_of
 
 PLACES = {
     CanvasTool.LINE: [(0.0, 0.0), (10.0, 0.0)],
@@ -62,15 +64,19 @@ def test_a_preview_at_the_point_before_is_no_crash(kind: CanvasTool) -> None:
         tool.preview(place)
 
 
-def test_labels_state_the_live_measures() -> None:
+def test_boxes_state_the_live_measures() -> None:
     line, circle, rectangle, arc = LineTool(), CircleTool(), RectangleTool(), ArcCentreTool()
     for tool in (line, circle, rectangle, arc):
         tool.add((0.0, 0.0))
     arc.add((10.0, 0.0))
-    assert line.preview((3.0, 4.0)).label == "L 5.000   53.13°"
-    assert circle.preview((3.0, 4.0)).label == "R 5.000"
-    assert rectangle.preview((3.0, -4.0)).label == "3.000 \u00d7 4.000"
-    assert arc.preview((0.0, 5.0)).label == "R 10.000   90.00°"
+    assert measures(line, (3.0, 4.0)) == {"Length": 5.0, "Angle": pytest.approx(53.1301, abs=1e-4)}
+    assert measures(circle, (3.0, 4.0)) == {"Radius": 5.0, "Diameter": 10.0}
+    assert measures(rectangle, (3.0, -4.0)) == {"Width": 3.0, "Height": 4.0}
+    assert measures(arc, (0.0, 5.0)) == {"Sweep": pytest.approx(90.0)}
+
+
+def measures(tool: DrawingTool, pointer: Point) -> dict[str, float | None]:
+    return {row.box.name: TypedValues().shown(tool, row, pointer) for row in rows_of(tool)}
 
 
 def test_an_arc_keeps_its_sense_past_half_a_turn() -> None:

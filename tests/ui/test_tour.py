@@ -41,6 +41,16 @@ def test_keys_step_on_and_back_and_escape_skips_for_good(qtbot, tour, wiring) ->
     assert load_settings().tour == SEEN
 
 
+@pytest.mark.parametrize("key", [Qt.Key.Key_Return, Qt.Key.Key_Enter])
+def test_enter_presses_the_button_that_has_the_keys(qtbot, tour, key) -> None:
+    qtbot.keyClick(tour.callout.next, key)
+    assert tour.number == 1
+    qtbot.keyClick(tour.callout.back, key)
+    assert tour.number == 0
+    qtbot.keyClick(tour.callout.skip, key)
+    assert not tour.callout.isVisible()
+
+
 def test_the_work_goes_on_while_it_is_open(qtbot, tour, wiring) -> None:
     wiring.window_.actions_["tool_line"].trigger()
     wiring.document.run("line 0,0 10,0")

@@ -123,11 +123,13 @@ def test_in_millimetres_a_line_stays_as_it_was_typed(wiring: Wiring) -> None:
 
 
 def test_the_measures_at_the_mouse_are_in_inches(inches: Wiring) -> None:
-    runner = inches.window_.canvas.runner
+    entry = inches.window_.canvas.entry
     typed(inches, "line", "0,0")
-    assert runner.preview((25.4, 0.0)).label.startswith("L 1.0000 in")
+    entry.pointer = (25.4, 0.0)
+    assert [(row.text, row.unit) for row in entry.shown()] == [("1.0000", "in"), ("0.00", "\u00b0")]
     inches.window_.actions_["units_mm"].trigger()
-    assert runner.preview((25.4, 0.0)).label.startswith("L 25.400 ")
+    entry.pointer = (25.4, 0.0)
+    assert [(row.text, row.unit) for row in entry.shown()] == [("25.400", "mm"), ("0.00", "\u00b0")]
 
 
 def put(field: NumberField, text: str) -> None:

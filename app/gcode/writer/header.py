@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -53,9 +53,10 @@ def safe_name(text: str) -> str:
 
 
 def tool_words(tool: Tool, units: Units) -> str:
-    """Return a tool in the trade's habit: "T1 flat 6 mm"; a V or drill with its name, if it has one."""
+    """Return a tool in the trade's habit: "T1 flat 6 mm"; with its name, if it has one that says more."""
     words = f"T{tool.number} {tool.kind.value} {_length(tool.diameter, units)}"
-    return f"{words} {safe_name(tool.name)}" if tool.name else words
+    unnamed = replace(tool, name="").label
+    return f"{words} {safe_name(tool.name)}" if tool.name and tool.name.casefold() != unnamed.casefold() else words
 
 
 def operation_words(operation: Operation, job: Job) -> str:

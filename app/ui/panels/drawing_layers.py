@@ -18,7 +18,7 @@ from ..framework.icons import IconButton
 from ..framework.labels import Elided, muted
 from ..framework.section import EDGE, Row, Section, theme_children
 from ..framework.theme import Theme
-from .swatch import Swatch
+from .swatch import HARD_TO_SEE, HUES, Swatch
 
 ROW_PX = 28
 MOST_ROWS = 8
@@ -227,7 +227,13 @@ class LayersSection(Section):
     def _add(self) -> None:
         known = set(self.rows_by_name)
         self._renaming = next(name for k in count(1) if (name := f"Layer {k}") not in known)
-        self.asked.emit(f"layer {name_text(self._renaming)}")
+        name, colour = name_text(self._renaming), self._unused_colour()
+        self.asked.emit(f"layer {name}" + (f'; colour {name} "{colour}"' if colour else ""))
+
+    def _unused_colour(self) -> str:
+        """Return the first colour that no layer has, or ""."""
+        used = {layer.colour for layer in self._document.part.layers}
+        return next((hue for hue in HUES if hue not in ("", *HARD_TO_SEE, *used)), "")
 
     def remove(self, name: str) -> None:
         """Take a layer away; who is asked first when something is on it listens to `removal`."""

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel, QMenu
 from ...model.job import Job
 from ...model.operation import OPERATION_KINDS, Operation
 from ...model.tool import Tool
+from ..framework.dropping import drop
 from ..framework.figures import TIMES, clock, grouped
 from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
@@ -193,9 +194,7 @@ class OperationSection(ListSection):
         menu.addAction("Propose operations").triggered.connect(lambda *_: self.proposal.emit())
         menu.addAction("Operations as in 1986").triggered.connect(lambda *_: self.rule_of_1986.emit())
         self.menu = menu
-        self.add_button.clicked.connect(
-            lambda: menu.popup(self.add_button.mapToGlobal(self.add_button.rect().bottomLeft()))
-        )
+        self.add_button.clicked.connect(lambda: drop(menu, self.add_button))
         self.head.addWidget(self.add_button)
         self._shown: object = None
         self.switches: list[Switch] = []

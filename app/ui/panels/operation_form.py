@@ -15,7 +15,7 @@ from ...core.errors import HitofudeError
 from ...drafting.expressions.numbers import length
 from ...model.fields import parameters_of, with_values
 from ...model.job import Job
-from ...model.operation import Operation, Side, parameters
+from ...model.operation import Cut, Operation, Side, parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField, NumberField
 from ..framework.figures import counted
@@ -31,6 +31,9 @@ from .pictures import Picture
 
 USUAL_SHARE = 0.85
 """Of the diameter: what the stepover with the least path comes to on most parts; for the drawing beside the field."""
+
+USUAL_FLUTES = 3.0
+"""Diameters that the flutes of a tool are long where nothing is told of them; the drawing of the tool says so, too."""
 
 
 def _too_wide(stepover: float, diameter: float) -> str:
@@ -196,6 +199,23 @@ class OperationForm(Form):
             )
         passes = math.ceil((cut.floor - cut.finish_depth) / cut.stepdown - 1e-9) + (cut.finish_depth > 0)
         self.number("stepdown").show_value(cut.stepdown, counted(passes, "pass", "passes"))
+        tool = next((each for each in job.tools if each.number == cut.tool), None)
+        if tool is not None and cut.depth <= thickness:
+            self._warn_of_reach(cut, tool)
+
+    def _warn_of_reach(self, cut: Cut, tool: Tool) -> None:
+        """Say what the tool's flutes do not reach, before anything is computed."""
+        if tool.flute_length and cut.depth > tool.flute_length:
+            self.number("depth").refuse(
+                f"Depth is {cut.depth:g} mm, but the flutes of T{tool.number} are {tool.flute_length:g} mm long; take "
+                "a longer tool, or clear above first."
+            )
+        least, known = min(cut.stepdown, cut.depth), tool.flute_length or USUAL_FLUTES * tool.diameter
+        if least > known:
+            self.number("stepdown").refuse(
+                f"Step down is {cut.stepdown:g} mm, and T{tool.number} cuts {known:g} mm "
+                f"{'with its flutes' if tool.flute_length else 'at the most, as wide as it is'}; use less."
+            )
 
     def _show_rings(self, operation: Operation, tool: Tool) -> None:
         self._diameter = tool.diameter

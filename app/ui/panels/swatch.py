@@ -24,6 +24,9 @@ HUES = {
 }
 """Okabe and Ito's colours, which colour-blind eyes tell apart; "" is the theme's ink."""
 
+HARD_TO_SEE = ("#f0e442",)
+"""Of them what is too pale for a line on white: it can be chosen, but no new layer gets it."""
+
 _COLUMNS = 5
 _COLOUR = re.compile(r"#?([0-9a-fA-F]{6})")
 

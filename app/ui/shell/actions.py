@@ -83,7 +83,7 @@ MENUS: tuple[tuple[str, tuple[Spec, ...]], ...] = (
         "&View",
         (
             SEPARATOR,
-            Spec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F"),
+            Spec("fit", "&Fit", "Ctrl+0", "fit", key_hint="F; Home in Draw"),
             Spec("zoom_in", "Zoom &in", "Ctrl++", "zoom-in"),
             Spec("zoom_out", "Zoom &out", "Ctrl+-", "zoom-out"),
             Spec("cut_picture", "Save &picture of the cut…"),

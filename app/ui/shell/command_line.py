@@ -35,6 +35,7 @@ class CommandLine(QWidget):
 
     Attributes:
         completions: what the end of a line could become, and how much of it there is.
+        value_taken: takes a line that Tab ends as a value of the tool in hand, if it is one.
     """
 
     entered = Signal(str)
@@ -46,6 +47,7 @@ class CommandLine(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.log, self.edit = LogView(), QLineEdit()
         self.completions: Completions = lambda line: ("", [])
+        self.value_taken: Callable[[str], bool] = lambda text: False
         self.edit.setObjectName("commandLine")
         self.edit.setAccessibleName("Command line")
         self.edit.textChanged.connect(lambda text: self.edit.setFont(mono_font() if text else text_font()))
@@ -143,7 +145,10 @@ class CommandLine(QWidget):
         elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
             self._step(-1 if key == Qt.Key.Key_Up else 1)
         elif key == Qt.Key.Key_Tab and self.edit.text():
-            self._complete()
+            if self.value_taken(self.edit.text()):
+                self.edit.setText("")
+            else:
+                self._complete()
         else:
             return False
         return True

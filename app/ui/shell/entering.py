@@ -1,4 +1,4 @@
-"""What the command line knows of the drawing and of the tool in hand: what Tab completes, which words are offered."""
+"""What the command line knows of the drawing and of the tool in hand: what Tab does, which words are offered."""
 
 from __future__ import annotations
 
@@ -17,8 +17,17 @@ class Entering(QObject):
         super().__init__(command_line)
         self._command_line, self._canvas = command_line, canvas
         command_line.completions = lambda line: completions(line, document)
+        command_line.value_taken = self._take_value
         canvas.prompt_changed.connect(lambda _: self._show_options())
 
     def _show_options(self) -> None:
         tool = self._canvas.runner.tool
         self._command_line.set_options(tool.options if tool is not None else ())
+
+    def _take_value(self, text: str) -> bool:
+        """Have a number that Tab ends go into the first box at the pointer, and the keys into the next one."""
+        canvas = self._canvas
+        if not canvas.isVisible() or not canvas.entry.begins(text.strip()[:1]) or not canvas.take_value(text.strip()):
+            return False
+        canvas.setFocus()
+        return True

@@ -43,7 +43,7 @@ STEPS = (
     Step(
         lambda marks: marks.tool_strip,
         "Draw",
-        "Take a tool and click. Points snap to ends, middles and centres; a typed number sets the length.",
+        "Take a tool and click. Points snap to ends, middles and centres; typed values stand beside the mouse.",
     ),
     Step(
         lambda marks: marks.command_line,
@@ -180,7 +180,7 @@ class Tour(QObject):
         return QRect(widget.mapTo(self._root, QPoint()), widget.size())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Follow the window's size; Escape skips, Left and Right step."""
+        """Follow the window's size; Escape skips, Left and Right step, Enter presses the button that has the keys."""
         if not self.callout.isVisible():
             return False
         if watched is self._root:
@@ -188,6 +188,9 @@ class Tour(QObject):
                 self._place()
             return False
         if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and isinstance(watched, QPushButton):
+                watched.click()
+                return True
             return self._key(event.key())
         return False
 

@@ -40,6 +40,7 @@ from .drawing_export import DrawingExport
 from .engaging import Engaging
 from .entering import Entering
 from .files import Files, Openers
+from .focus_keeping import FocusKeeper
 from .help import show_about
 from .help_window import HelpWindow
 from .inspecting import PAGE as DRAWING_PAGE
@@ -69,6 +70,7 @@ TEXT_PAGE = "Text"
 WORDS = {
     "compute": "compute",
     "cancel": "cancel",
+    "f": "fit",
     "fit": "fit",
     "export": "export",
     "new": "new",
@@ -150,6 +152,7 @@ class Wiring(QObject):
         self.cleaning = Cleaning(window.drawing_page.cleanup, canvas, workspace)
         self.engaging = Engaging(canvas, window.views.legend, workspace)
         self.entering = Entering(window.command_line, canvas, self.document)
+        self.focus_keeper = FocusKeeper(window, window.views.take_focus)
 
     def _make_helpers(self, workspace: Workspace, commands: Actions) -> None:
         """Make what helps to find one's way."""

@@ -276,6 +276,19 @@ def test_a_new_layer_is_current_and_asks_for_its_name(qtbot, page, document):
     assert document.layer == "text"
 
 
+def test_every_new_layer_has_a_colour_of_its_own(qtbot, page, document):
+    before = len(document.part.layers)
+    for _ in range(8):
+        qtbot.mouseClick(page.layers.add_button, Qt.MouseButton.LeftButton)
+        page.refresh()
+    *colours, last_colour = [layer.colour for layer in document.part.layers[before:]]
+    assert all(colours) and len(set(colours)) == 7, "so many can be told apart, and seen on white"
+    assert last_colour == ""
+    document.undo()
+    document.undo()
+    assert len(document.part.layers) == before + 6, "layer and colour are one step"
+
+
 def test_an_empty_layer_goes_at_once_and_a_full_one_is_asked_about(qtbot, page, document):
     document.run("layer empty")
     page.refresh()

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from itertools import pairwise
 from typing import ClassVar
 
 from ....core.tolerances import WELD
 from ....drafting.expressions.words import ids_text, name_text, number_text, point_text
-from ....model.curves import Line, Point
-from .drawing_tool import Desk, DrawingTool, Pick, Preview, Want, length_label, span_label
+from ....model.curves import Curve, Line, Point
+from .drawing_tool import Desk, DrawingTool, Pick, Preview, Want
+from .value_boxes import Box, PointBoxes, Quantity, ValueBox
 
 MOST_SHOWN = 400
 """Of a larger selection so many curves, evenly spread, are shown at their new places before a click."""
@@ -25,7 +28,8 @@ class Ask:
     Attributes:
         prompt: what is asked. wants: what answers it.
         measure: the number that a point means as the answer; None where the point itself is the answer.
-        sign: put before that number, or before the length from the point before.
+        boxes: the values that can be typed for a point, where they are not the usual ones; the one value where that is
+            the answer.
         sets: the number of the tool that a typed number changes; "" where it is the answer, or a distance.
         optional: Enter passes the question over.
     """
@@ -33,7 +37,7 @@ class Ask:
     prompt: str
     wants: Want = Want.POINT
     measure: Callable[[Sequence[Answer], Point], float] | None = None
-    sign: str = "L"
+    boxes: PointBoxes | Box | None = None
     sets: str = ""
     optional: bool = False
 
@@ -50,7 +54,8 @@ class AskingTool(DrawingTool):
         asks: the questions. form: the line, with `{0}` for the first answer, and `{word}` for a number or a toggle.
         toggles: words that switch something on and off. numbers: words and first values of numbers that stay as they
             were set; whole ones are counts, which Up and Down change, too.
-        no_lengths: those numbers that are counts or angles.
+        no_lengths: those numbers that are counts or angles. box_names: what their boxes are called where the word does
+            not say it.
         once: the tool ends with its first line. keeps: so many answers stay for the next line.
         answers: given so far. setting: the number that is being asked for, or "".
     """
@@ -65,6 +70,7 @@ class AskingTool(DrawingTool):
     toggles: ClassVar[tuple[str, ...]] = ()
     numbers: ClassVar[Mapping[str, float]] = {}
     no_lengths: ClassVar[frozenset[str]] = frozenset()
+    box_names: ClassVar[Mapping[str, str]] = {}
     once: ClassVar[bool] = False
     keeps: ClassVar[int] = 0
 
@@ -117,7 +123,42 @@ class AskingTool(DrawingTool):
     def takes_length(self) -> bool:
         """Whether the number that is asked for is a length."""
         word = self.setting or self.ask.sets
-        return word not in self.no_lengths if word else self.ask.sign != "A"
+        asked = self.ask.boxes
+        return word not in self.no_lengths if word else not isinstance(asked, Box) or asked.quantity is Quantity.LENGTH
+
+    @property
+    def boxes(self) -> PointBoxes | ValueBox | None:
+        """What can be typed in the place of a click now."""
+        asked, measure = self.ask.boxes, self.ask.measure
+        if self.setting or self.wants not in (Want.POINT, Want.EITHER):
+            return None
+        if isinstance(asked, Box):
+            return ValueBox(asked, partial(measure, tuple(self.answers)) if measure is not None else None)
+        return asked or super().boxes
+
+    @property
+    def number_boxes(self) -> Mapping[str, Box]:
+        """The number that is asked for, else all of the tool; none while it asks for curves to be selected or words."""
+        if self.wants in (Want.SELECTION, Want.WORDS):
+            return {}
+        return {
+            word: Box(self.box_names.get(word, word.capitalize()), self._quantity(word))
+            for word in ([self.setting] if self.setting else self.numbers)
+        }
+
+    @property
+    def numbers_first(self) -> bool:
+        """Whether a number typed now is one of the tool."""
+        return bool(self.setting or self.ask.sets)
+
+    def number_shown(self, word: str, cursor: Point) -> float:
+        """Return a number of the tool."""
+        return self.value(word)
+
+    def _quantity(self, word: str) -> Quantity:
+        if isinstance(self.numbers[word], int):
+            return Quantity.COUNT
+        return Quantity.ANGLE if word in self.no_lengths else Quantity.LENGTH
 
     def shown(self, word: str) -> str:
         """Return a number of the tool as it is shown."""
@@ -147,8 +188,7 @@ class AskingTool(DrawingTool):
 
     def add(self, point: Point) -> str | None:
         """Take a point, or the number that it means."""
-        measure = self.ask.measure
-        return self.give(point if measure is None else round(measure(self.answers, point), 6))
+        return self.give(self.meant(point))
 
     def give(self, answer: Answer) -> str | None:
         """Take an answer; return the line when it was the last one."""
@@ -213,30 +253,29 @@ class AskingTool(DrawingTool):
         numbers = {word: number_text(self.value(word)) for word in self.numbers}
         return " ".join(self.form.format(*map(answer_text, answers), **words, **numbers).split())
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
-        """Return the line that a click now would make, or None where questions stay open."""
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
+        """Return the line that a click or a typed value now would make, or None where questions stay open."""
         if self.wants in (Want.SELECTION, Want.WORDS) or (self.wants is Want.CURVE and under is None) or self.setting:
             return None
-        measure = self.ask.measure
-        answer: Answer = (
-            under if under is not None else cursor if measure is None else round(measure(self.answers, cursor), 6)
-        )
-        given = [*self.answers, answer]
+        given = [*self.answers, under if under is not None else self.meant(answer)]
         if len(given) < sum(not ask.optional for ask in self.asks):
             return None
         return self.line_of(given) + self._some_of_many()
 
+    def meant(self, answer: Point | float) -> Point | float:
+        """Return the number that a point means where one is asked for; all else as it is."""
+        measure = self.ask.measure
+        return answer if measure is None or isinstance(answer, float) else round(measure(self.answers, answer), 6)
+
+    def stand_in(self, answer: Point | float) -> tuple[Curve, ...]:
+        """Return what is shown where the line of an answer draws nothing: what is known of the shape already."""
+        return tuple(Line(a, b) for a, b in pairwise(self.points) if math.dist(a, b) >= WELD)
+
     def helpers(self, cursor: Point) -> Preview:
-        """Return lines of construction and live measures for the mouse at a point."""
+        """Return lines of construction for the mouse at a point."""
         if self.base is None or self.wants is Want.CURVE or math.dist(self.base, cursor) < WELD:
             return Preview()
-        measure = self.ask.measure
-        spoke = (Line(self.base, cursor),)
-        if measure is None:
-            return Preview(helpers=spoke, label=span_label(self.base, cursor, self.unit, self.ask.sign))
-        value = measure(self.answers, cursor)
-        figure = f"{value:.3f}\u00b0" if self.ask.sign == "A" else length_label(value, self.unit)
-        return Preview(helpers=spoke, label=f"{self.ask.sign} {figure}")
+        return Preview(helpers=(Line(self.base, cursor),))
 
     def _some_of_many(self) -> str:
         """Return what limits a trial to some curves of a large selection."""

@@ -32,6 +32,7 @@ from .program_hover import describe, nearest_move
 from .program_picture import PathLook, ProgramPicture, shown_purposes
 from .snap_marks import paint_snap
 from .underlay import UnderlayPicture
+from .value_picture import SheetPlace, ValueSheet, paint_values
 from .view import View
 
 __all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
@@ -324,24 +325,38 @@ class Canvas(Hands):
         super().set_unit(unit)
 
     def _paint_tool(self, painter: QPainter) -> None:
-        tool, theme = self.runner.tool, self._look.theme
-        if tool is None or self.aim is None or self.mouse is None:
+        tool, theme, typed = self.runner.tool, self._look.theme, self.runner.typed
+        away = self.aim is None or self.mouse is None
+        if tool is None or (away and typed.free and not self.entry.editing):
             return
-        overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.aiming.acquired), self.area, theme)
+        at = self.entry.at
+        if self.aim is not None:
+            overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.aiming.acquired), self.area, theme)
+        end = typed.answer(tool, at)
+        end = end if isinstance(end, tuple) else at
         if isinstance(tool, CarryTool):
-            for _ in self.picture.selected_steps(
-                painter, self._carried_view(tool, self.aim.point), theme.accent, self.area
-            ):
+            for _ in self.picture.selected_steps(painter, self._carried_view(tool, end), theme.accent, self.area):
                 pass
-        preview = self.runner.preview(self.aim.point)
+        preview = self.runner.preview(at)
         self._preview_picture.paint(painter, self.view, preview.trial, theme)
         overlay.paint_preview(painter, self.view, preview, theme)
-        overlay.paint_points(painter, self.view, [*tool.points[:1], *tool.points[-1:]], theme)
-        if self.aim.snap is not None:
-            paint_snap(painter, self.view, self.aim.snap, theme)
-        base = self.view.to_screen(tool.base) if tool.base is not None else None
-        place = overlay.LabelPlace(self.mouse, base, self.area)
-        overlay.paint_label(painter, [preview.label, self.aim.word], place, theme)
+        given = [*tool.points[:1], *tool.points[-1:]]
+        overlay.paint_points(painter, self.view, given if typed.free else [*given, end], theme)
+        word = ""
+        if self.aim is not None and typed.free:
+            word = self.aim.word
+            if self.aim.snap is not None:
+                paint_snap(painter, self.view, self.aim.snap, theme)
+        self._paint_values(painter, [preview.label, word], end)
+
+    def _paint_values(self, painter: QPainter, words: list[str], end: Point) -> None:
+        """Paint the boxes and words beside the mouse, or beside the point before while the mouse is elsewhere."""
+        base = self.runner.tool.base if self.runner.tool is not None else None
+        mouse = self.mouse or (self.view.to_screen(base) if base is not None else self.area.center())
+        place = SheetPlace(
+            mouse, self.view.to_screen(base) if base is not None else None, self.view.to_screen(end), self.area
+        )
+        paint_values(painter, ValueSheet.of(self.entry, words), place, self._look.theme)
 
     def _carried_view(self, tool: CarryTool, to: Point) -> View:
         """Return the view that shows the selection where it is carried to."""

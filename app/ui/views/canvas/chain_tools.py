@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from ....drafting.curves.shapes import arc_through
 from ....drafting.expressions.words import point_text
 from ....model.curves import Curve, Line, Point
-from .drawing_tool import DrawingTool, Preview, arc_label, span_label
+from .drawing_tool import DrawingTool, Preview, arc_label
 
 
 @dataclass
@@ -54,8 +54,8 @@ class LineTool(DrawingTool):
         return f"line {point_text(points[0])} {point_text(points[1])}"
 
     def show(self, cursor: Point) -> Preview:
-        """Return the next line with length and angle."""
-        return Preview((Line(self.points[-1], cursor),), label=span_label(self.points[-1], cursor, self.unit))
+        """Return the next line."""
+        return Preview((Line(self.points[-1], cursor),))
 
 
 @dataclass
@@ -127,7 +127,7 @@ class PolylineTool(DrawingTool):
         if self.via is not None:
             arc = arc_through(self.points[-1], self.via, cursor)
             return Preview((*done, arc), label=arc_label(arc, self.unit))
-        return Preview((*done, Line(self.points[-1], cursor)), label=span_label(self.points[-1], cursor, self.unit))
+        return Preview((*done, Line(self.points[-1], cursor)))
 
     def _done(self) -> list[Curve]:
         done: list[Curve] = []

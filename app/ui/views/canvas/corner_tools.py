@@ -45,9 +45,9 @@ class BreakTool(AskingTool):
         """The place of the break may be a point of the drawing."""
         return True
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
         """Return the break between both points; at the first one nothing is to be seen."""
-        return super().draft(cursor, under) if self.answers else None
+        return super().draft(answer, under) if self.answers else None
 
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `break CURVE P [P]`."""
@@ -97,6 +97,7 @@ class ChamferTool(FilletTool):
         Ask("second line, or the size", Want.CURVE, sets="size"),
     )
     numbers: ClassVar[Mapping[str, float]] = {"size": 2.0, "second": 0.0}
+    box_names: ClassVar[Mapping[str, str]] = {"second": "Second size"}
 
     def line_of(self, answers: Sequence[Answer]) -> str:
         """Return `chamfer d [and d] CURVE P CURVE P`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import MutableMapping
+from collections.abc import Mapping, MutableMapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import ClassVar
@@ -13,6 +13,7 @@ from ....core.tolerances import WELD
 from ....drafting.difference import Difference
 from ....drafting.document import Document
 from ....model.curves import Arc, Curve, Line, Point
+from .value_boxes import PLACE, SPAN, Box, PointBoxes, ValueBox
 
 
 class Want(Enum):
@@ -53,7 +54,7 @@ class Preview:
 
     Attributes:
         curves: the shape as it would become. helpers: lines of construction.
-        label: its live measures, shown beside the mouse.
+        label: live measures beside those that can be typed, and why the shape would be none.
         trial: what the tool's line would make of the drawing.
     """
 
@@ -78,6 +79,27 @@ class DrawingTool:
 
     name: ClassVar[str] = ""
     prompts: ClassVar[tuple[str, ...]] = ()
+    asked: ClassVar[tuple[PointBoxes, ...]] = ()
+    """The boxes of each of the prompts, where they are not the usual ones."""
+
+    @property
+    def boxes(self) -> PointBoxes | ValueBox | None:
+        """What can be typed in the place of a click now: `asked` by question, else how far and where from the point
+        before.
+        """
+        if len(self.points) < len(self.asked):
+            return self.asked[len(self.points)]
+        return SPAN if self.base is not None else PLACE
+
+    @property
+    def number_boxes(self) -> Mapping[str, Box]:
+        """The numbers of the tool that can be typed now, by their words."""
+        return {}
+
+    @property
+    def numbers_first(self) -> bool:
+        """Whether a number typed now is one of the tool rather than an answer."""
+        return False
 
     @property
     def wants(self) -> Want:
@@ -210,21 +232,6 @@ class DrawingTool:
 def length_label(length: float, unit: float) -> str:
     """Return a length, mm, in the unit that is shown, of so many mm."""
     return f"{length:.3f}" if unit == 1.0 else f"{length / unit:.4f} in"
-
-
-def span_label(a: Point, b: Point, unit: float, sign: str = "L") -> str:
-    """Return length and angle of the way from a to b."""
-    if math.dist(a, b) < WELD:
-        return ""
-    return (
-        f"{sign} {length_label(math.dist(a, b), unit)}   "
-        f"{math.degrees(math.atan2(b[1] - a[1], b[0] - a[0])) % 360:.2f}°"
-    )
-
-
-def size_label(size: Point, unit: float) -> str:
-    """Return the width and the height of what has a size, mm, in the unit that is shown."""
-    return f"{length_label(abs(size[0]), unit)} \u00d7 {length_label(abs(size[1]), unit)}"
 
 
 def arc_label(arc: Arc, unit: float) -> str:

@@ -11,7 +11,8 @@ from ....core.tolerances import WELD
 from ....drafting.curves.meet import foot
 from ....model.curves import Point
 from .asking import CHOOSE, Answer, Ask, AskingTool, answer_text, direction_from, point_of
-from .drawing_tool import Preview, length_label
+from .drawing_tool import Pick, Preview
+from .value_boxes import ANGLE, FACTOR, STEP, PointBoxes, ValueBox
 
 
 def _shift_text(answers: Sequence[Answer]) -> str:
@@ -41,6 +42,7 @@ class CopyTool(AskingTool):
     asks = (CHOOSE, Ask("base point"), Ask("where the copy goes; Enter ends"))
     numbers: ClassVar[Mapping[str, float]] = {"times": 1}
     no_lengths = frozenset({"times"})
+    box_names: ClassVar[Mapping[str, str]] = {"times": "Copies"}
     keeps = 2
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -54,7 +56,7 @@ class RotateTool(AskingTool):
     """About a centre."""
 
     name = "Rotate"
-    asks = (CHOOSE, Ask("centre"), Ask("angle, or a point in its direction", measure=direction_from(1), sign="A"))
+    asks = (CHOOSE, Ask("centre"), Ask("angle, or a point in its direction", measure=direction_from(1), boxes=ANGLE))
     toggles = ("copy",)
     form = "rotate {1} {2} {copy}"
     once = True
@@ -68,13 +70,17 @@ class ScaleTool(AskingTool):
     asks = (
         CHOOSE,
         Ask("centre"),
-        Ask("factor, or a point of the old size"),
-        Ask("a point of the new size, or the factor"),
+        Ask("factor, or a point of the old size", boxes=FACTOR),
+        Ask("a point of the new size, or the factor", boxes=FACTOR),
     )
     toggles = ("copy",)
     form = "scale {1} {2} {copy}"
     once = True
-    takes_length = False
+
+    @property
+    def boxes(self) -> PointBoxes | ValueBox | None:
+        """The factor, with a point of the old size also as the mouse says it."""
+        return super().boxes if len(self.answers) < 3 else ValueBox(FACTOR, self._factor)
 
     def typed(self, value: float) -> str | None:
         """Take the factor."""
@@ -87,18 +93,18 @@ class ScaleTool(AskingTool):
         """Return `scale P factor [copy]`."""
         if len(answers) == 3:
             return super().line_of(answers)
-        centre, old, new = (point_of(answers, k) for k in (1, 2, 3))
-        return super().line_of([*answers[:2], round(math.dist(centre, new) / max(math.dist(centre, old), WELD), 9)])
+        return super().line_of([*answers[:2], self._factor(point_of(answers, 3))])
 
-    def helpers(self, cursor: Point) -> Preview:
-        """Return the factor."""
-        shown = super().helpers(cursor)
-        if len(self.answers) < 3:
-            return shown
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
+        """Return the line of a factor, or of a point of the new size."""
+        if isinstance(answer, float) and len(self.answers) > 1:
+            return super().line_of([*self.answers[:2], answer]) + self._some_of_many()
+        return super().draft(answer, under)
+
+    def _factor(self, point: Point) -> float:
+        """Return how much larger a point says the size is."""
         centre, old = point_of(self.answers, 1), point_of(self.answers, 2)
-        return Preview(
-            helpers=shown.helpers, label=f"\u00d7 {math.dist(centre, cursor) / max(math.dist(centre, old), WELD):.4f}"
-        )
+        return round(math.dist(centre, point) / max(math.dist(centre, old), WELD), 9)
 
 
 @dataclass
@@ -120,7 +126,7 @@ class ArrayTool(AskingTool):
     asks = (
         CHOOSE,
         Ask("base point, or how many columns", sets="columns"),
-        Ask("that point in the next column and row, or @dx,dy"),
+        Ask("that point in the next column and row, or @dx,dy", boxes=STEP),
     )
     numbers: ClassVar[Mapping[str, float]] = {"columns": 3, "rows": 2}
     no_lengths = frozenset({"columns", "rows"})
@@ -139,6 +145,7 @@ class ArrayPolarTool(AskingTool):
     asks = (CHOOSE, Ask("centre, or how many places; Up and Down change it", sets="places"))
     numbers: ClassVar[Mapping[str, float]] = {"places": 6, "over": 360.0}
     no_lengths = frozenset({"places", "over"})
+    box_names: ClassVar[Mapping[str, str]] = {"places": "How many", "over": "Over angle"}
     once = True
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -170,11 +177,18 @@ class OffsetTool(AskingTool):
         away = self.value("distance") or self._away(point_of(answers, 1))
         return f"offset {answer_text(away)} {answer_text(answers[1])}"
 
+    @property
+    def boxes(self) -> PointBoxes | ValueBox | None:
+        """The distance alone, which is a number of the tool."""
+        return None
+
+    def number_shown(self, word: str, cursor: Point) -> float:
+        """Return the distance that is set, else the one to the mouse."""
+        return self.value(word) or self._away(cursor)
+
     def helpers(self, cursor: Point) -> Preview:
-        """Return the distance."""
-        if len(self.answers) != 1:
-            return Preview()
-        return Preview(label=f"D {length_label(self.value('distance') or self._away(cursor), self.unit)}")
+        """Return nothing."""
+        return Preview()
 
     def _away(self, point: Point) -> float:
         """Return how far the selected curve nearest to a point lies from it, mm."""

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ....core.tolerances import WELD
-from ....drafting.expressions.words import point_text
-from ....model.curves import Point
+from ....drafting.curves.shapes import rectangle
+from ....model.curves import Curve, Point
 from .asking import Answer, Ask, AskingTool, answer_text, distance_aside, distance_from, point_of
-from .drawing_tool import Desk, Pick, Preview, Want, size_label
+from .drawing_tool import Desk, Pick, Preview, Want
+from .value_boxes import ANGLE, SIZE, SPAN, Box, PointBoxes, ValueBox, direction
 
 
 def _radius_through(answers: Sequence[Answer], point: Point) -> float:
@@ -35,7 +36,7 @@ class ArcRadiusTool(AskingTool):
     asks = (
         Ask("start point"),
         Ask("end point"),
-        Ask("radius, or a point on the arc", measure=_radius_through, sign="R"),
+        Ask("radius, or a point on the arc", measure=_radius_through, boxes=Box("Radius")),
     )
 
     def follow(self, cursor: Point) -> None:
@@ -74,7 +75,7 @@ class CircleTwoTool(AskingTool):
     """The ends of a diameter."""
 
     name = "Circle"
-    asks = (Ask("one end of a diameter"), Ask("the other end", sign="\u00d8"))
+    asks = (Ask("one end of a diameter"), Ask("the other end", boxes=SPAN.named("Diameter")))
     form = "circle diameter {0} {1}"
 
 
@@ -94,25 +95,25 @@ class RoundRectangleTool(AskingTool):
     name = "Rounded rectangle"
     asks = (
         Ask("first corner"),
-        Ask("opposite corner, or @width,height"),
-        Ask("radius of the corners, or a point as far from the corner", measure=distance_from(1), sign="R"),
+        Ask("opposite corner, or @width,height", boxes=SIZE),
+        Ask("radius of the corners, or a point as far from the corner", measure=distance_from(1), boxes=Box("Radius")),
     )
     form = "rect {0} {1} round {2}"
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
-        """Return the rectangle already before it is round."""
-        return (
-            f"rect {point_text(self.points[0])} {point_text(cursor)}"
-            if len(self.answers) == 1
-            else super().draft(cursor, under)
-        )
+    def number(self, value: float, cursor: Point) -> Point | None:
+        """Return nothing: one number is no rectangle."""
+        return None
+
+    def stand_in(self, answer: Answer) -> tuple[Curve, ...]:
+        """Return the rectangle before it is round, or where it cannot be."""
+        corner = answer if len(self.answers) == 1 else self.answers[1] if len(self.answers) > 1 else None
+        if not isinstance(corner, tuple) or any(abs(a - b) < WELD for a, b in zip(self.points[0], corner, strict=True)):
+            return ()
+        return rectangle(self.points[0], corner)
 
     def helpers(self, cursor: Point) -> Preview:
-        """Return width and height, then the radius."""
-        if len(self.answers) != 1:
-            return super().helpers(cursor)
-        (x, y) = self.points[0]
-        return Preview(label=size_label((cursor[0] - x, cursor[1] - y), self.unit))
+        """Return nothing before the radius."""
+        return super().helpers(cursor) if len(self.answers) > 1 else Preview()
 
 
 @dataclass
@@ -120,7 +121,10 @@ class PolygonTool(AskingTool):
     """Centre, then a corner or the middle of a side; a number before them is how many corners."""
 
     name = "Polygon"
-    asks = (Ask("centre, or how many corners", sets="corners"), Ask("a corner; Up and Down change how many", sign="R"))
+    asks = (
+        Ask("centre, or how many corners", sets="corners"),
+        Ask("a corner; Up and Down change how many", boxes=SPAN.named("Radius")),
+    )
     numbers: ClassVar[Mapping[str, float]] = {"corners": 6}
     no_lengths = frozenset({"corners"})
     toggles = ("side",)
@@ -136,7 +140,9 @@ class SlotTool(AskingTool):
         Ask("centre of one end"),
         Ask("centre of the other end"),
         Ask(
-            "width, or a point on its side", measure=lambda answers, point: 2 * distance_aside(answers, point), sign="W"
+            "width, or a point on its side",
+            measure=lambda answers, point: 2 * distance_aside(answers, point),
+            boxes=Box("Width"),
         ),
     )
     form = "slot {0} {1} {2}"
@@ -149,8 +155,8 @@ class EllipseTool(AskingTool):
     name = "Ellipse"
     asks = (
         Ask("centre"),
-        Ask("end of a half axis", sign="a"),
-        Ask("the other half axis, or a point as far", measure=distance_aside, sign="b"),
+        Ask("end of a half axis", boxes=SPAN.named("Half axis")),
+        Ask("the other half axis, or a point as far", measure=distance_aside, boxes=Box("Half axis")),
     )
     form = "ellipse {0} {1} {2}"
 
@@ -192,11 +198,11 @@ class SplineTool(AskingTool):
         """Return `spline a b …`."""
         return " ".join(["spline", *map(answer_text, answers)])
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
         """Return the spline that goes on to the mouse."""
-        if not self.points or math.dist(self.points[-1], cursor) < WELD:
+        if not self.points or (isinstance(answer, tuple) and math.dist(self.points[-1], answer) < WELD):
             return self.line_of(self.answers) if len(self.answers) > 1 else None
-        return self.line_of([*self.answers, cursor])
+        return self.line_of([*self.answers, answer])
 
 
 @dataclass
@@ -213,8 +219,15 @@ class GuideTool(AskingTool):
     """Construction lines: a point, then another or the angle; or only across or only up."""
 
     name = "Construction line"
-    asks = (Ask("a point of it"), Ask("another point, or the angle"))
-    takes_length = False
+    asks = (Ask("a point of it"), Ask("another point, or the angle", boxes=ANGLE))
+
+    @property
+    def boxes(self) -> PointBoxes | ValueBox | None:
+        """The angle, once there is a point."""
+        return ValueBox(ANGLE, self._angle) if self.answers else super().boxes
+
+    def _angle(self, point: Point) -> float:
+        return direction(self.points[0], point) or 0.0
 
     @property
     def options(self) -> tuple[str, ...]:
@@ -247,9 +260,9 @@ class GuideTool(AskingTool):
         """Return `guide P P`, `guide P angle`, `guide across P` or `guide up P`."""
         return " ".join(["guide", *sorted(self.on), *map(answer_text, answers[:1] if self.on else answers)])
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
-        """Return the line through the mouse."""
-        return self.line_of([*self.answers, cursor]) if self.on or self.answers else None
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
+        """Return the line through the mouse, or at an angle."""
+        return self.line_of([*self.answers, answer]) if self.on or self.answers else None
 
 
 @dataclass
@@ -301,9 +314,9 @@ class DimensionTool(AskingTool):
             f"dimension {'angle' if 'angle' in self.on else ''} {measured} place {answer_text(place)} {way}".split()
         )
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
         """Return the line with the figure at the mouse."""
-        return self.line_of([*self.answers, cursor]) if len(self.answers) == self.wanted - 1 else None
+        return self.line_of([*self.answers, answer]) if len(self.answers) == self.wanted - 1 else None
 
 
 @dataclass
@@ -337,6 +350,6 @@ class MeasureTool(AskingTool):
         """Return `measure P P` or `measure CURVE`."""
         return " ".join(["measure", *(str(a.id) if isinstance(a, Pick) else answer_text(a) for a in answers)])
 
-    def draft(self, cursor: Point, under: Pick | None) -> str | None:
+    def draft(self, answer: Point | float, under: Pick | None) -> str | None:
         """Return nothing: it changes nothing."""
         return None

@@ -12,7 +12,7 @@ from ....drafting.document import Document
 from ....drafting.expressions.words import ids_text, point_text
 from ....model.curves import Point
 from .aim import tidy
-from .drawing_tool import DrawingTool, Preview, length_label, span_label
+from .drawing_tool import DrawingTool, Preview, length_label
 from .trials import Trials
 
 GRIP_PX = 7.0
@@ -66,16 +66,11 @@ class HeldTool(DrawingTool):
         return self.finish()
 
     def show(self, cursor: Point) -> Preview:
-        """Return how far it goes."""
+        """Return how far it goes across and up."""
         dx, dy = cursor[0] - self.points[0][0], cursor[1] - self.points[0][1]
         if not dx and not dy:
             return Preview()
-        span, across, up = (
-            span_label(self.points[0], cursor, self.unit),
-            length_label(dx, self.unit),
-            length_label(dy, self.unit),
-        )
-        return Preview(label=f"{span}\ndx {across}   dy {up}")
+        return Preview(label=f"dx {length_label(dx, self.unit)}   dy {length_label(dy, self.unit)}")
 
 
 @dataclass

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from ....core.errors import InputError
 from ....drafting.document import Document
@@ -26,6 +26,7 @@ from .picking import aimed
 from .running import ToolRunner
 from .selecting import Turns, band_line, click_line
 from .snap import SNAP_NAMES, SNAP_WORDS, best
+from .value_entry import ValueEntry
 from .viewport import Viewport
 
 PICK_PX = 6.0
@@ -38,7 +39,7 @@ class Hands(Viewport):
 
     Attributes:
         aiming: what helps the mouse to aim. grips: of what is selected. turns: which of several things under the mouse
-            is meant.
+            is meant. entry: what is typed into the boxes at the pointer.
 
     Signals:
         cursor_moved: x, y under the mouse, mm. prompt_changed: what is expected next. tool_changed: CanvasTool.
@@ -60,6 +61,10 @@ class Hands(Viewport):
         super().__init__(parent)
         self.document, self.picture = document, PartPicture()
         self.runner = ToolRunner(document, self.message.emit)
+        edited = QLineEdit(self)
+        edited.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        edited.hide()
+        self.entry = ValueEntry(self.runner, edited)
         self.mouse: QPointF | None = None
         self.aim: Aim | None = None
         self.band_from: QPointF | None = None
@@ -131,7 +136,11 @@ class Hands(Viewport):
         self.aiming.switch(ortho=on)
 
     def cancel(self) -> None:
-        """Give up what is going on: the selection window, the shape, the tool, the selection."""
+        """Give up what is going on: what is typed, the selection window, the shape, the tool, the selection."""
+        if self.entry.editing or not self.runner.typed.free:
+            self.entry.give_up()
+            self._tell()
+            return
         if self.marking is not None:
             self.mark(None)
         elif self.band_from is not None:
@@ -148,7 +157,10 @@ class Hands(Viewport):
         if self.marking is not None:
             self.mark(None)
             return
-        self.runner.accept()
+        if self.entry.editing:
+            self.entry.take()
+        else:
+            self.runner.accept()
         self._tell()
 
     def back(self) -> None:
@@ -165,6 +177,17 @@ class Hands(Viewport):
             used = True
         self._tell()
         return used
+
+    def take_value(self, text: str) -> bool:
+        """Take a text as the value of the first box at the pointer and go on to the next; return False where the tool
+        has no two boxes.
+        """
+        if len(self.entry.rows) < 2:
+            return False
+        self.entry.begin(text)
+        self.entry.step(1)
+        self._tell()
+        return True
 
     def delete_selection(self) -> None:
         """Delete what is selected."""
@@ -224,7 +247,16 @@ class Hands(Viewport):
             self.update()
 
     def focusNextPrevChild(self, forward: bool) -> bool:  # noqa: N802 (Qt's name)
-        """Tab goes on to the next of several things under the mouse; without several, to the next field."""
+        """Tab goes on to the next box at the pointer, or to the next of several things under the mouse; without either,
+        to the next field.
+        """
+        if self.entry.rows:
+            if self.entry.editing:
+                self.entry.step(1 if forward else -1)
+            else:
+                self.entry.begin(last=not forward)
+            self._tell()
+            return True
         if self.mouse is None or self.runner.tool is not None or len(self.candidates()) < 2:
             return super().focusNextPrevChild(forward)
         self.turns.on(self.mouse)
@@ -233,18 +265,23 @@ class Hands(Viewport):
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
         """Forget the mouse."""
-        self.mouse = self.aim = None
+        self.mouse = self.aim = self.entry.pointer = None
         self.look_at(None)
         self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Esc cancels, Enter ends, Backspace takes a point back, Del deletes, F and Home fit, Space pans; the rest is
-        text.
+        """Esc cancels, Enter ends, Backspace takes a point back, Del deletes, Home fits, Space pans; figures go into
+        the boxes at the pointer, the rest is text.
         """
         action = self._keys().get(Qt.Key(event.key()))
         commanding = bool(event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier))
-        if commanding:
+        if commanding and not (self.entry.editing and event.matches(QKeySequence.StandardKey.Paste)):
             super().keyPressEvent(event)
+        elif self.entry.key(event):
+            self._tell()
+        elif self.entry.begins(event.text()):
+            self.entry.begin(event.text())
+            self._tell()
         elif action is not None:
             action()
         elif event.text() and event.text().isprintable():
@@ -273,7 +310,6 @@ class Hands(Viewport):
             Qt.Key.Key_Delete: self.delete_selection,
             Qt.Key.Key_Backspace: self.back,
             Qt.Key.Key_Home: self.fit,
-            Qt.Key.Key_F: self.fit,
             Qt.Key.Key_Up: lambda: self._count_on(1),
             Qt.Key.Key_Down: lambda: self._count_on(-1),
             Qt.Key.Key_Space: lambda: self._hold_space(True),
@@ -313,10 +349,22 @@ class Hands(Viewport):
             self.aim, under = aimed(at, tool, self.aiming, self.picture, steps)
             if self.aim is not None:
                 self.runner.aim_at(self.aim.point, under)
+        self.entry.pointer = self.aim.point if self.aim is not None else None
+        self.entry.size = self._size
         self.update()
 
+    @property
+    def _size(self) -> float:
+        """How large what is drawn or in view is, mm."""
+        x0, y0, x1, y1 = self.view.world_box(self.area)
+        drawn = self.picture.box or (x0, y0, x1, y1)
+        return max(x1 - x0, y1 - y0, drawn[2] - drawn[0], drawn[3] - drawn[1])
+
     def _give_point(self, found: Aim) -> None:
-        """Give a tool the point that the mouse aims at."""
+        """Give a tool the point that the mouse aims at, with the values that are held."""
+        if self.entry.editing and not self.entry.settle():
+            self.update()
+            return
         refused = self.aiming.click(found)
         if refused:
             self.message.emit(refused)
@@ -393,6 +441,7 @@ class Hands(Viewport):
             self.tool_changed.emit(self.runner.kind)
         if before[0] != self.prompt:
             self.prompt_changed.emit(self.prompt)
+        self.entry.refresh()
         self._show_cursor()
         self._aim_again()
 

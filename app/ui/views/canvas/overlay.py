@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from ....drafting.difference import Difference
 from ....model.curves import Point
 from ....model.finding import Finding
-from ...framework.theme import Theme, text_font
-from ...framework.words import tr
+from ...framework.theme import Theme
 from .curve_path import MANY, curve_path
 from .drawing_tool import Preview
 from .notes_picture import paint_notes
@@ -21,7 +19,6 @@ from .track import Acquired, Tracked
 from .view import View
 
 _GRIP_HALF = 3.5
-_LABEL_GAP = 16.0
 _OWNED_PX, _OWNED_ALPHA = 7.0, 0.35
 
 
@@ -126,50 +123,6 @@ def paint_tracking(
     for ray in tracked.rays if tracked is not None else ():
         along, _ = ray.seen_from(view.to_world(area.center()))
         painter.drawLine(view.to_screen(ray.start), view.to_screen(ray.at(max(along, 0.0) + reach)))
-
-
-@dataclass(frozen=True, slots=True)
-class LabelPlace:
-    """Where live measures go.
-
-    Attributes:
-        mouse: screen position. away_from: the shape's last point on the screen, which they must not cover, or None.
-        area: where they must stay.
-    """
-
-    mouse: QPointF
-    away_from: QPointF | None
-    area: QRectF
-
-    def sheet(self, width: float, height: float) -> QRectF:
-        """Return the rectangle of a sheet of this size beside the mouse."""
-        right = self.away_from is None or self.mouse.x() >= self.away_from.x() - 1
-        below = self.away_from is None or self.mouse.y() >= self.away_from.y() - 1
-        x = self.mouse.x() + (_LABEL_GAP if right else -_LABEL_GAP - width)
-        y = self.mouse.y() + (_LABEL_GAP if below else -_LABEL_GAP - height)
-        x = min(max(x, self.area.left()), self.area.right() - width)
-        y = min(max(y, self.area.top()), self.area.bottom() - height)
-        sheet = QRectF(x, y, width, height)
-        step = height + 2 * _LABEL_GAP
-        return sheet.translated(0, -step if below else step) if sheet.contains(self.mouse) else sheet
-
-
-def paint_label(painter: QPainter, texts: list[str], place: LabelPlace, theme: Theme) -> None:
-    """Paint live measures on a small sheet beside the mouse."""
-    lines = [tr(line) for text in texts for line in text.split("\n") if line]
-    if not lines:
-        return
-    painter.setFont(text_font(12))
-    metrics = QFontMetricsF(painter.font())
-    width = max(metrics.horizontalAdvance(line) for line in lines) + 16
-    sheet = place.sheet(width, metrics.height() * len(lines) + 8)
-    ground = QColor(theme.paper)
-    ground.setAlphaF(0.94)
-    painter.setPen(QPen(theme.hairline, 1))
-    painter.setBrush(ground)
-    painter.drawRoundedRect(sheet, 4, 4)
-    painter.setPen(theme.ink)
-    painter.drawText(sheet.adjusted(8, 4, 8, 0), Qt.AlignmentFlag.AlignLeft, "\n".join(lines))
 
 
 def paint_band(painter: QPainter, start: QPointF, end: QPointF, theme: Theme) -> None:

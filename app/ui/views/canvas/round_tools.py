@@ -9,7 +9,8 @@ from ....core.tolerances import WELD
 from ....drafting.curves.shapes import arc_about, arc_through, circle, on_circle
 from ....drafting.expressions.words import number_text, point_text
 from ....model.curves import Arc, Line, Point
-from .drawing_tool import DrawingTool, Preview, arc_label, length_label, span_label
+from .drawing_tool import DrawingTool, Preview, arc_label
+from .value_boxes import PLACE, RADIUS, SPAN, PointBoxes, ValueBox, sweep
 
 
 @dataclass
@@ -20,6 +21,12 @@ class ArcCentreTool(DrawingTool):
     seen: float | None = None
     name = "Arc"
     prompts = ("centre", "start point", "end point")
+    asked = (PLACE, SPAN.named("Radius"))
+
+    @property
+    def boxes(self) -> PointBoxes | ValueBox | None:
+        """Place, radius and direction, then how far it goes round."""
+        return sweep(self.points[0], self.points[1], self.turn) if len(self.points) == 2 else super().boxes
 
     def follow(self, cursor: Point) -> None:
         """Add up how far the mouse has gone round the centre since the start, radians."""
@@ -44,9 +51,8 @@ class ArcCentreTool(DrawingTool):
         """Return the radius, then the arc."""
         spokes = tuple(Line(self.points[0], p) for p in (*self.points[1:], cursor))
         if len(self.points) == 1:
-            return Preview(helpers=spokes, label=span_label(self.points[0], cursor, self.unit, "R"))
-        arc = self._arc([*self.points, cursor])
-        return Preview((arc,), spokes, arc_label(arc, self.unit))
+            return Preview(helpers=spokes)
+        return Preview((self._arc([*self.points, cursor]),), spokes)
 
     def _arc(self, points: list[Point]) -> Arc:
         centre, start, towards = points
@@ -69,7 +75,7 @@ class ArcThreeTool(DrawingTool):
     def show(self, cursor: Point) -> Preview:
         """Return the chord, then the arc."""
         if len(self.points) == 1:
-            return Preview(helpers=(Line(self.points[0], cursor),), label=span_label(self.points[0], cursor, self.unit))
+            return Preview(helpers=(Line(self.points[0], cursor),))
         arc = arc_through(self.points[0], self.points[1], cursor)
         return Preview((arc,), label=arc_label(arc, self.unit))
 
@@ -80,6 +86,7 @@ class CircleTool(DrawingTool):
 
     name = "Circle"
     prompts = ("centre", "radius, or a point on the circle")
+    asked = (PLACE, RADIUS)
 
     def number(self, value: float, cursor: Point) -> Point | None:
         """Return a point at the typed radius; any direction will do."""
@@ -90,11 +97,9 @@ class CircleTool(DrawingTool):
         return f"circle {point_text(points[0])} {number_text(round(math.dist(*points), 6))}"
 
     def show(self, cursor: Point) -> Preview:
-        """Return the circle with its radius."""
-        radius = math.dist(self.points[0], cursor)
-        return Preview(
-            (circle(self.points[0], radius),), (Line(self.points[0], cursor),), f"R {length_label(radius, self.unit)}"
-        )
+        """Return the circle and its radius."""
+        (centre,) = self.points
+        return Preview((circle(centre, math.dist(centre, cursor)),), (Line(centre, cursor),))
 
 
 def _round(point: Point) -> Point:

@@ -22,8 +22,11 @@ from .drawing_tool import Desk, DrawingTool, Pick, Preview, Want
 from .modes import CanvasTool
 from .tools import TOOL_WORDS, TOOLS
 from .trials import Trial, Trials
+from .typed_values import TypedValues
 
-_SELECT_PROMPT = "Select: click, or drag a window; from right to left it takes what it crosses"
+_SELECT_PROMPT = (
+    "Select: click; twice takes all that joins it; drag a window, from right to left it takes what it crosses"
+)
 
 
 class ToolRunner:
@@ -33,6 +36,7 @@ class ToolRunner:
         kind: which tool runs. tool: the tool itself, None for SELECT.
         cursor: where the tool aims, mm. under: the curve that a click would pick, or None.
         unit: what lengths are typed and shown in, mm.
+        typed: the values that are held for the answer to the question.
     """
 
     def __init__(self, document: Document, say: Callable[[str], None]) -> None:
@@ -45,6 +49,7 @@ class ToolRunner:
         self.under: Pick | None = None
         self._desk, self._trials = Desk(document, {}), Trials(document)
         self._last = CanvasTool.LINE
+        self.typed = TypedValues()
 
     @property
     def prompt(self) -> str:
@@ -89,6 +94,7 @@ class ToolRunner:
 
     def start(self, kind: CanvasTool) -> None:
         """Begin a tool; an unfinished shape is given up. One that has nothing to ask does its work at once."""
+        self.typed.release()
         self.kind, self.under = kind, None
         self.tool = TOOLS[kind]() if kind in TOOLS else None
         if self.tool is not None:
@@ -97,6 +103,7 @@ class ToolRunner:
 
     def hold(self, tool: DrawingTool) -> None:
         """Take a tool in hand for one point, beside SELECT."""
+        self.typed.release()
         self.kind, self.tool = CanvasTool.SELECT, tool
         tool.unit = self.unit
 
@@ -107,10 +114,18 @@ class ToolRunner:
             self.tool.follow(point)
 
     def click(self, point: Point) -> None:
-        """Take a point, or the curve there; a point that repeats the last is passed over."""
+        """Take a point, or the curve there, with the values that are held; a point that repeats the last is passed
+        over.
+        """
         tool = self.tool
         if tool is None:
             return
+        answer, held = self.typed.answer(tool, point), not self.typed.free
+        self.typed.release()
+        if isinstance(answer, float):
+            self._answer(tool, lambda: tool.typed(answer))
+            return
+        point = answer
         if (
             isinstance(tool, AskingTool)
             and tool.wants in (Want.CURVE, Want.EITHER)
@@ -119,7 +134,8 @@ class ToolRunner:
             self._pick(tool)
             return
         if tool.wants is not Want.POINT or tool.base is None or math.dist(tool.base, point) >= WELD:
-            self.aim_at(point)
+            if not held:
+                self.aim_at(point)
             self._answer(tool, lambda: tool.add(point))
 
     def accept(self) -> None:
@@ -134,6 +150,7 @@ class ToolRunner:
 
     def back(self) -> None:
         """Take the last point back."""
+        self.typed.release()
         if self.tool is not None:
             self._run(self.tool.back())
 
@@ -144,6 +161,7 @@ class ToolRunner:
 
     def cancel(self) -> bool:
         """Give up the shape, or else the tool; return whether there was either."""
+        self.typed.release()
         if self.tool is None:
             return False
         if self.busy and isinstance(self.tool, AskingTool):
@@ -161,15 +179,37 @@ class ToolRunner:
         return self.wants_words or (self.tool is not None and text.strip().lower() in self.tool.options)
 
     def preview(self, point: Point) -> Preview:
-        """Return what a click at a point would make."""
+        """Return what a click at a point would make, with the values that are held."""
         tool = self.tool
+        if tool is None:
+            return Preview()
+        answer = self.typed.answer(tool, point)
         if not isinstance(tool, AskingTool):
-            return tool.preview(point) if tool is not None else Preview()
-        shown, line = tool.helpers(point), tool.draft(point, self.under)
+            return tool.preview(answer if isinstance(answer, tuple) else point)
+        shown = tool.helpers(answer if isinstance(answer, tuple) else point)
+        line = tool.draft(answer, self.under)
         trial = self._trials.of(line) if line is not None else Trial()
+        made = trial.difference
         return replace(
-            shown, trial=trial.difference, label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0])))
+            shown,
+            trial=made,
+            curves=() if made.added or made.gone or made.notes else tool.stand_in(answer),
+            label="\n".join(filter(None, (shown.label, trial.reason.split(";")[0]))),
         )
+
+    def read(self, text: str, is_length: bool) -> float | Point:
+        """Return what a typed text stands for: a point, a length in mm, or another number.
+
+        Raises:
+            CommandError: it stands for nothing of that kind.
+        """
+        tool = self.tool
+        last = (tool.base if tool is not None else None) or self._document.last_point
+        scope = replace(self._document.session.scope, last=last, plain=self.unit)
+        value = value_of(read_value(text), scope)
+        if isinstance(value, Curves):
+            raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
+        return float(scope.length(value)) if is_length and not isinstance(value, tuple) else value
 
     def type_text(self, text: str) -> bool:
         """Take typed text: a word of the tool, a point, a distance, or a command word alone that begins a tool.
@@ -218,15 +258,11 @@ class ToolRunner:
         return True
 
     def _place(self, tool: DrawingTool, text: str) -> None:
-        scope = replace(self._document.session.scope, last=tool.base or self._document.last_point, plain=self.unit)
-        value = value_of(read_value(text), scope)
+        value = self.read(text, tool.takes_length)
+        self.typed.release()
         if isinstance(value, tuple):
-            self.click(value)
+            self.click(tidy(value))
             return
-        if isinstance(value, Curves):
-            raise CommandError(f"'{text}' is a curve; a point or a length is wanted.")
-        if tool.takes_length:
-            value = float(scope.length(value))
         before = self._answers(tool)
         line = tool.typed(value)
         if line is not None:

@@ -14,9 +14,10 @@ from . import corner_tools as corner
 from . import edit_tools as edit
 from . import form_tools as form
 from .chain_tools import LineTool, PolylineTool
-from .drawing_tool import DrawingTool, Preview, size_label
+from .drawing_tool import DrawingTool, Preview
 from .modes import CanvasTool
 from .round_tools import ArcCentreTool, ArcThreeTool, CircleTool
+from .value_boxes import PLACE, SIZE
 
 
 @dataclass
@@ -25,6 +26,7 @@ class RectangleTool(DrawingTool):
 
     name = "Rectangle"
     prompts = ("first corner", "opposite corner, or @width,height")
+    asked = (PLACE, SIZE)
 
     def number(self, value: float, cursor: Point) -> Point | None:
         """Return nothing: one number is no rectangle."""
@@ -43,9 +45,8 @@ class RectangleTool(DrawingTool):
         return f"rect {point_text(points[0])} {point_text(points[1])}"
 
     def show(self, cursor: Point) -> Preview:
-        """Return the rectangle with width and height."""
-        (x, y) = self.points[0]
-        return Preview(rectangle(self.points[0], cursor), label=size_label((cursor[0] - x, cursor[1] - y), self.unit))
+        """Return the rectangle."""
+        return Preview(rectangle(self.points[0], cursor))
 
 
 _ALL: dict[CanvasTool, Callable[[], DrawingTool]] = {

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QMenu, QPushButton, QToolButton, QVBoxLayout, QWidget
 
+from ...framework.dropping import drop
 from ...framework.fields import restyle
 from ...framework.icons import IconButton
 from ...framework.section import hairline
@@ -167,7 +168,7 @@ class TextPage(QWidget):
         editor.find_asked.connect(self.begin_find)
         self.run_button.clicked.connect(self.run_asked)
         self.find_button.clicked.connect(self.begin_find)
-        self.more.clicked.connect(lambda: self.menu.popup(self.more.mapToGlobal(self.more.rect().bottomLeft())))
+        self.more.clicked.connect(lambda: drop(self.menu, self.more))
         self.verdict.pressed.connect(self.go_to_problem)
         finder.reached.connect(self._on_found)
         finder.marked.connect(lambda words, rows: editor.show_found(words))

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QVBoxLayout, QWidget
 from ....formats.plot.surface_plot import colour_of, line_of
 from ....formats.scene.edit import with_table_moved, with_value, without_table
 from ....model.scene import LineType, Scene
+from ...framework.dropping import drop
 from ...framework.fields import NumberField
 from ...framework.figures import TIMES
 from ...framework.icons import IconButton, IconLabel
@@ -213,7 +214,7 @@ class ScenePanel(QScrollArea):
 
     def _connect(self) -> None:
         add = self.surfaces.add_button
-        add.clicked.connect(lambda: self.menu.popup(add.mapToGlobal(add.rect().bottomLeft())))
+        add.clicked.connect(lambda: drop(self.menu, add))
         self.passes.add_button.clicked.connect(self.passes_wanted)
         self.tools.add_button.clicked.connect(self.tool_wanted)
         self.form.changed.connect(self._on_changed)

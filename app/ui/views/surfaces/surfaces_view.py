@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QMenu, QSlider, QVBoxLayout, QWidget
 
 from ....model.finding import Finding
 from ....usecases.strands import BoundaryPoint
+from ...framework.dropping import drop
 from ...framework.fields import ChoiceField
 from ...framework.figures import counted
 from ...framework.icons import IconButton
@@ -103,7 +104,7 @@ class SurfacesView(QWidget):
         self.looks.chosen.connect(self.set_look)
         self.plane.valueChanged.connect(lambda _: self._show())
         self.fit.clicked.connect(self.canvas.fit)
-        self.eye.clicked.connect(lambda: self.menu.popup(self.eye.mapToGlobal(self.eye.rect().bottomLeft())))
+        self.eye.clicked.connect(lambda: drop(self.menu, self.eye))
         self.colours.activated.connect(lambda _: self.canvas.set_colour_by(self.colours.currentData()))
         self.canvas.pointed.connect(self._on_pointed)
         self.canvas.picked.connect(self._on_picked)
