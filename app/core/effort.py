@@ -17,7 +17,7 @@ _MINUTE, _HOUR, _DAY = 60.0, 3600.0, 86400.0
 
 
 @dataclass(frozen=True, slots=True)
-class Effort:
+class Reckoning:
     """What a job will take, about: right within a factor of three on a machine of two usual cores.
 
     Attributes:
@@ -35,7 +35,7 @@ class Effort:
         return f"This will take about {_spoken(self.seconds)}: {self.about}. For less, {self.remedy}."
 
 
-def announce(effort: Effort, progress: Progress) -> None:
+def announce(effort: Reckoning, progress: Progress) -> None:
     """Say how long a job will take, if it is long."""
     if effort.seconds >= LONG_S:
         progress.remark(effort.sentence())

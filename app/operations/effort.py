@@ -31,7 +31,7 @@ PASS_S = 1.4e-5
 
 
 @dataclass(frozen=True, slots=True)
-class Extent:
+class Workload:
     """What the contours of a job come to.
 
     Attributes:
@@ -51,10 +51,10 @@ class Extent:
         return 2.0 * self.area / self.length if self.length > 0 else 0.0
 
 
-def extent_of(regions: Sequence[Region]) -> Extent:
+def workload_of(regions: Sequence[Region]) -> Workload:
     """Return what some regions come to."""
     rows = [contour_rows(contour) for region in regions for contour in region.contours]
-    return Extent(
+    return Workload(
         abs(sum(signed_area(each) for each in rows)),
         sum(path_length(each) for each in rows),
         sum(len(each) for each in rows),
@@ -63,12 +63,12 @@ def extent_of(regions: Sequence[Region]) -> Extent:
     )
 
 
-def along_walls(extent: Extent, operation: Operation, tool: Tool) -> float:
+def along_walls(extent: Workload, operation: Operation, tool: Tool) -> float:
     """Return what paths along the walls take, s."""
     return extent.pieces * (PIECE_S + PASS_S * (_passes(operation) - 1))
 
 
-def over_area(extent: Extent, operation: Operation, tool: Tool, step: float) -> float:
+def over_area(extent: Workload, operation: Operation, tool: Tool, step: float) -> float:
     """Return what paths over the whole area take, `step` mm beside one another, s.
 
     Rings have fewer lines and arcs the farther in they are: half of the walls' on the average.

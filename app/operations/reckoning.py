@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..core.effort import Effort, counted
+from ..core.effort import Reckoning, counted
 from ..model.job import Job
 from ..model.part import Region
-from .effort import CONTOUR_S, ISLAND_S, extent_of
+from .effort import CONTOUR_S, ISLAND_S, workload_of
 from .registry import way_of
 
 
-def job_effort(job: Job, regions: Sequence[Region]) -> Effort:
+def job_effort(job: Job, regions: Sequence[Region]) -> Reckoning:
     """Return what a job takes whose contours bound some regions."""
-    extent = extent_of(regions)
+    extent = workload_of(regions)
     seconds = extent.regions * CONTOUR_S + extent.islands * ISLAND_S
     worst, most = "", 0.0
     for operation in job.operations:
@@ -27,4 +27,4 @@ def job_effort(job: Job, regions: Sequence[Region]) -> Effort:
     about = f"{extent.area:,.0f} mm2 within {contours} of {extent.pieces:,} lines and arcs"
     about += f", {worst} for the most part" if most > seconds / 2 else ""
     remedy = "use a larger tool, leave out layers, or check the units" if most > seconds / 2 else "leave out layers"
-    return Effort(seconds, about, remedy)
+    return Reckoning(seconds, about, remedy)

@@ -13,7 +13,7 @@ from ..model.operation import Operation
 from ..model.tool import Tool
 from ..toolpath.setting import Setting
 from ..toolpath.sheets import Sheet, Sheets
-from .effort import Extent, along_walls
+from .effort import Workload, along_walls
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Way:
 
     paths: Callable[[Setting, int, Progress], None]
     missed: Callable[[Sheets, Operation, Sheet | None], Iterable[Finding]] = lambda sheets, operation, sheet: ()
-    effort: Callable[[Extent, Operation, Tool], float] = along_walls
+    effort: Callable[[Workload, Operation, Tool], float] = along_walls
 
 
 _WAYS: dict[type[Operation], Way] = {}

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.effort import Effort, announce
+from ..core.effort import Reckoning, announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..gcode.interpreter.program import NcProgram
 from ..model.finding import Finding, FindingKind, worst_first
@@ -219,7 +219,7 @@ class _CutRun:
             graphics,
         )
 
-    def effort(self) -> Effort:
+    def effort(self) -> Reckoning:
         """Return how long it will take."""
         part, judged = self.setup.part, self.options.judge and self.setup.part is not None
         drawn = judged and isinstance(part, FlatPart)

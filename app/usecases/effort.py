@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from ..core.effort import Effort, counted
+from ..core.effort import Reckoning, counted
 from ..fitting.point_curves.effective_method import EffectiveMethod
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.rework.stretches import Stretch
@@ -33,7 +33,7 @@ _POINT_S = {Form.LINES: 6e-6, Form.ARCS: 6e-5, Form.NURBS: 2e-4}
 
 def cut_effort(
     programs: Sequence[NcProgram], tools: Mapping[int, Tool], pitch: float, drawn: bool, judged: bool
-) -> Effort:
+) -> Reckoning:
     """Return what cutting programs takes.
 
     Args:
@@ -53,29 +53,29 @@ def cut_effort(
     seconds = (cells * _CELL_S + count * _MOTION_S) * (_JUDGED if judged else 1.0)
     floors = pieces * _FLOOR_S if drawn else 0.0
     fewer = "choose fewer cells (--grid) or a part of the stock (--window)"
-    return Effort(
+    return Reckoning(
         seconds + floors,
         f"{count:,.0f} motions in cells of {pitch:.3g} mm",
         "leave out what it is compared with (--against)" if floors > seconds else fewer,
     )
 
 
-def scene_effort(families: Iterable[FacetCrossings]) -> Effort:
+def scene_effort(families: Iterable[FacetCrossings]) -> Reckoning:
     """Return what a scene's passes take."""
     crossings, planes = 0.0, 0
     for family in families:
         crossings, planes = crossings + family.crossings, planes + family.planes
-    return Effort(
+    return Reckoning(
         crossings * _CROSSING_S,
         f"{planes:,} passes over {crossings:,.0f} facets",
         "use a larger pitch or scallop height, coarser surfaces, or check the model's units",
     )
 
 
-def smooth_effort(stretches: Sequence[Stretch], form: Form, effective: EffectiveMethod | None) -> Effort:
+def smooth_effort(stretches: Sequence[Stretch], form: Form, effective: EffectiveMethod | None) -> Reckoning:
     """Return what fitting a program's stretches takes."""
     points = sum(stretch.stop - stretch.first for stretch in stretches)
-    return Effort(
+    return Reckoning(
         points * _POINT_S[form] * (1.0 if effective is None else 2.0),
         f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches')}",
         "smooth it in parts" if form is Form.LINES else "smooth it as lines (--as lines), or in parts",

@@ -165,7 +165,7 @@ def origin_of(scene: Scene, stock: StockBox) -> tuple[float, float, float]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Plan:
+class _PlannedPasses:
     """A family of passes before it is computed: with what tool, on which planes, how far beside the surfaces."""
 
     passes: Passes
@@ -174,12 +174,14 @@ class _Plan:
     planes: Planes
 
 
-def _plan(facets: Facets, passes: Passes, tool: Tool, stock: StockBox) -> _Plan:
+def _plan(facets: Facets, passes: Passes, tool: Tool, stock: StockBox) -> _PlannedPasses:
     overrun = _overrun(passes, tool, stock)
-    return _Plan(passes, tool, overrun, _planes(facets, passes, tool, overrun.far))
+    return _PlannedPasses(passes, tool, overrun, _planes(facets, passes, tool, overrun.far))
 
 
-def _family(scene: Scene, facets: SceneFacets, plan: _Plan, rest: tuple[float, Sources], progress: Progress) -> Family:
+def _family(
+    scene: Scene, facets: SceneFacets, plan: _PlannedPasses, rest: tuple[float, Sources], progress: Progress
+) -> Family:
     """Compute one family of passes; `rest` is the grid, and what reads files."""
     grid, sources = rest
     passes, tool, overrun, planes = plan.passes, plan.tool, plan.overrun, plan.planes

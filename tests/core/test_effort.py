@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from app.core.effort import LONG_S, Effort, announce
+from app.core.effort import LONG_S, Reckoning, announce
 from app.core.progress import NO_PROGRESS, Progress
 
 
 def heard(seconds: float) -> list[str]:
     said: list[str] = []
-    announce(Effort(seconds, "9 rings", "use a larger tool"), Progress(remarks=said.append).part(0.2, 0.4).part(0, 1))
+    announce(
+        Reckoning(seconds, "9 rings", "use a larger tool"), Progress(remarks=said.append).part(0.2, 0.4).part(0, 1)
+    )
     return said
 
 
@@ -39,4 +41,4 @@ def test_a_minute_is_never_without_a_word() -> None:
 
 
 def test_nobody_need_listen() -> None:
-    announce(Effort(1e9, "all", "stop"), NO_PROGRESS)
+    announce(Reckoning(1e9, "all", "stop"), NO_PROGRESS)

@@ -13,7 +13,7 @@ from app.model.curves import Circle, Curve, Line
 from app.model.job import Job
 from app.model.part import Entity, Part
 from app.operations.compute import compute, regions_of
-from app.operations.effort import Extent, extent_of, over_area
+from app.operations.effort import Workload, over_area, workload_of
 from app.operations.reckoning import job_effort
 from app.usecases.make import export
 from app.usecases.options import MakeOptions, job_with_options
@@ -49,10 +49,10 @@ def job_of(curves: list[Curve], diameter: float | None = None) -> Job:
     return replace(job, tools=tuple(replace(tool, diameter=diameter) for tool in job.tools))
 
 
-def test_the_extent_of_a_plate_is_its_area_walls_and_counts() -> None:
+def test_the_workload_of_a_plate_is_its_area_walls_and_counts() -> None:
     plate = [Line((a - 5, b - 5), (c - 5, d - 5)) for a, b, c, d in ((0, 0, 40, 0), (40, 0, 40, 40), (40, 40, 0, 40))]
     regions, _ = regions_of(job_of([*plate, Line((-5, 35), (-5, -5)), *holes(3)]))
-    extent = extent_of(regions)
+    extent = workload_of(regions)
     assert extent.area == pytest.approx(1600 - 9 * math.pi * 16)
     assert extent.length == pytest.approx(160 + 9 * math.tau * 4)
     assert (extent.regions, extent.islands) == (1, 9)
@@ -62,7 +62,7 @@ def test_the_work_of_an_area_does_not_hang_on_the_units() -> None:
     """In a drawing that is a tenth as large a tool a tenth as wide has as much to do."""
     job = job_of(square(100.0))
     pocket, tool = job.operations[0], job.tool(job.operations[0].cut.tool)
-    large, small = Extent(1e6, 4e3, 4, 1, 0), Extent(1e4, 4e2, 4, 1, 0)
+    large, small = Workload(1e6, 4e3, 4, 1, 0), Workload(1e4, 4e2, 4, 1, 0)
     tenth = replace(tool, diameter=tool.diameter / 10)
     assert over_area(large, pocket, tool, 5.0) == pytest.approx(over_area(small, pocket, tenth, 0.5))
 

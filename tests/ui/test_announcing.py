@@ -7,12 +7,12 @@ import threading
 import pytest
 from PySide6.QtCore import QObject
 
-from app.core.effort import Effort, announce
+from app.core.effort import Reckoning, announce
 from app.core.progress import Progress
 from app.ui.framework.worker import Worker
 from app.ui.shell.announcing import Announcing
 
-LONG = Effort(1234.0, "9 rings", "use a larger tool")
+LONG = Reckoning(1234.0, "9 rings", "use a larger tool")
 
 
 @pytest.fixture

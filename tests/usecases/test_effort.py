@@ -19,7 +19,7 @@ from app.surfaces.passes.facet_crossings import facet_crossings
 from app.surfaces.patches.facets import Facets
 from app.surfaces.sections.compound import Planes
 from app.usecases.cut import CutOptions, CutSetup, cut
-from app.usecases.effort import cut_effort, scene_effort, smooth_effort
+from app.usecases.effort import cut_effort, smooth_effort
 from app.usecases.smooth import smooth
 from app.usecases.smoothed import Form, SmoothOptions
 from app.usecases.surface import read_and_compute

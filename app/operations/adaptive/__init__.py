@@ -10,7 +10,7 @@ from ...model.operation import AdaptiveOperation, Operation
 from ...model.tool import Tool
 from ...toolpath.narrow import too_small
 from ...toolpath.sheets import Sheet, Sheets
-from ..effort import Extent, over_area
+from ..effort import Workload, over_area
 from ..registry import Way, register
 from .paths import adaptive, least_width, room_needed
 
@@ -22,7 +22,7 @@ def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterab
     return too_small(sheet.regions, level, sheets.job.tool(operation.cut.tool), least_width(sheets.job, operation))
 
 
-def _effort(extent: Extent, operation: Operation, tool: Tool) -> float:
+def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
     """As of rings a step apart that engages so much of the rim along a straight wall."""
     assert isinstance(operation, AdaptiveOperation)
     return over_area(extent, operation, tool, tool.radius * (1 - math.cos(operation.most_engaged_deg)))

@@ -9,7 +9,7 @@ from ...model.operation import Operation, PocketOperation
 from ...model.tool import Tool
 from ...toolpath.narrow import finest, too_small
 from ...toolpath.sheets import Sheet, Sheets
-from ..effort import Extent, over_area
+from ..effort import Workload, over_area
 from ..registry import Way, register
 from .paths import candidates, pocket, wall_distance
 
@@ -24,7 +24,7 @@ def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterab
     return too_small(sheet.regions, level, tool, finest(sheets.job, operation))
 
 
-def _effort(extent: Extent, operation: Operation, tool: Tool) -> float:
+def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
     assert isinstance(operation, PocketOperation)
     return over_area(extent, operation, tool, operation.stepover or candidates(tool.radius, extent.pieces)[0])
 
