@@ -96,7 +96,7 @@ def test_ways_between_the_cells_are_looked_at_closer_together_or_one_by_one(
 
 
 def test_descents_that_were_not_looked_at_to_the_end_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The deepest of those seen is no more than a bound, and the remark says so."""
+    """One of the five lies on a cell's centre and is seen at once, two are looked at closer, two are not."""
     monkeypatch.setattr(led_ways, "FEW", 10**6)
     monkeypatch.setattr(led_ways, "MOST", 2)
     places = "".join(f"G0 Z5\nX{6 * k + 3} Y{4 * k + 4}\nG1 Z-{2 + k} F900\n" for k in range(5))
@@ -106,7 +106,7 @@ def test_descents_that_were_not_looked_at_to_the_end_are_counted(monkeypatch: py
         BoxStock(StockBox(0, 0, -10, 40, 30, 0)),
     )
     said = [each for each in cut(setup, CutOptions(12)).findings if "fast ways down" in each.text]
-    assert [(each.amount, each.counts) for each in said] == [(3.0, False)]
+    assert [(each.amount, each.counts) for each in said] == [(2.0, False)]
 
 
 SCENE = """
