@@ -91,7 +91,7 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
             shown.told(fraction, text)
 
     stopped.tick = None if quiet else shown.tick
-    return Progress(told, stopped)
+    return Progress(told, stopped, remarks=None if quiet else shown.remark)
 
 
 class _ProgressLine:
@@ -111,6 +111,12 @@ class _ProgressLine:
         """Show once more what was told last, if nothing was shown for so long; a terminal shows it still."""
         if not self._alone and self._text and self._fraction < 1 and self._is_time():
             self._show()
+
+    def remark(self, sentence: str) -> None:
+        """Say a sentence in a line of its own, above what a terminal goes on to show."""
+        if self._alone:
+            show("\r\x1b[K")
+        say(f"hitofude: {sentence}")
 
     def _is_time(self) -> bool:
         quiet_since = self._at if self._alone else max(self._at, self._stopped.waited)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 from ..core.progress import Progress
 
@@ -36,7 +37,7 @@ class StageTimes:
             if listener is not None:
                 listener(fraction, text)
 
-        return Progress(told, progress.cancelled, progress.start, progress.stop)
+        return replace(progress, listener=told)
 
     def seconds(self) -> dict[str, float]:
         """Return the time of each stage so far, s, in the order in which they came first."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .errors import Cancelled
 
 Listener = Callable[[float, str], None]
+Remarks = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -20,12 +21,14 @@ class Progress:
         listener: called with (fraction in [0, 1] of the whole job, text); called on the job's own thread.
         cancelled: set by anybody who wants the job to stop.
         start, stop: the part of the whole job, in [0, 1], that this object reports on.
+        remarks: called with a sentence that is to be heard at once, not at the end; on the job's own thread.
     """
 
     listener: Listener | None = None
     cancelled: threading.Event | None = None
     start: float = 0.0
     stop: float = 1.0
+    remarks: Remarks | None = None
 
     def step(self, fraction: float, text: str = "") -> None:
         """Report that `fraction` in [0, 1] of this part is done.
@@ -38,10 +41,15 @@ class Progress:
         if self.listener is not None:
             self.listener(self.start + (self.stop - self.start) * fraction, text)
 
+    def remark(self, sentence: str) -> None:
+        """Say something that its user should hear before the work goes on."""
+        if self.remarks is not None:
+            self.remarks(sentence)
+
     def part(self, start: float, stop: float) -> Progress:
         """Return a progress for the sub-step from `start` to `stop`, both in [0, 1] of this part."""
         span = self.stop - self.start
-        return Progress(self.listener, self.cancelled, self.start + span * start, self.start + span * stop)
+        return replace(self, start=self.start + span * start, stop=self.start + span * stop)
 
 
 NO_PROGRESS = Progress()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import shapely
 
+from ..core.effort import announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.overlay.overlay import Overlaid, without_crossings
 from ..geometry.region import nested
@@ -26,6 +27,7 @@ from ..toolpath.setting import Setting
 from ..toolpath.sheets import Sheets
 from ..toolpath.witness import about_regions
 from . import known  # noqa: F401 (registers the kinds)
+from .reckoning import job_effort
 from .registry import way_of
 
 
@@ -47,6 +49,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     setting = Setting(job, made.regions, Sheets(job, parts), findings=about, observer=observer)
     if not setting.regions and not lines:
         return Program(setting.builder.moves(), findings=tuple(setting.findings))
+    announce(job_effort(job, setting.regions), progress)
     setting.findings.extend(under_clamps(job, parts, setting.regions))
     operations = in_order(job)
     for k, index in enumerate(operations):

@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from ..core.progress import Progress
 from ..model.finding import Finding
 from ..model.operation import Operation
+from ..model.tool import Tool
 from ..toolpath.setting import Setting
 from ..toolpath.sheets import Sheet, Sheets
+from .effort import Workload, along_walls
 
 
 @dataclass(frozen=True)
@@ -22,10 +24,12 @@ class Way:
         paths: makes the moves of the operation with an index in the job of a setting.
         missed: what an operation asks for and no path of it will make, from the drawing alone; without a sheet for one
             that makes none, which is asked of nobody else's area.
+        effort: how long paths and their proof take, s, about, by what the contours come to.
     """
 
     paths: Callable[[Setting, int, Progress], None]
     missed: Callable[[Sheets, Operation, Sheet | None], Iterable[Finding]] = lambda sheets, operation, sheet: ()
+    effort: Callable[[Workload, Operation, Tool], float] = along_walls
 
 
 _WAYS: dict[type[Operation], Way] = {}

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.effort import Reckoning, announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..gcode.interpreter.program import NcProgram
 from ..model.finding import Finding, FindingKind, worst_first
@@ -32,6 +33,7 @@ from ..verify.judge import Judging, judge, wanted_over
 from ..verify.judgement import Judgement, findings_of
 from ..verify.parts import FlatPart, Part, SolidPart, beyond
 from ..verify.wall_probe import WallProbe, unseen_walls
+from .effort import cut_effort
 
 __all__ = ["CELLS", "CutOptions", "CutProgram", "CutSetup", "Engine", "cut"]
 
@@ -150,6 +152,8 @@ def cut(
         Cancelled: the job was asked to stop.
     """
     run = _CutRun.of(setup, options, graphics)
+    if exact is None:  # else the caller has announced all of its job
+        announce(run.effort(), progress)
     done = run.cut(progress.part(0.0, 0.4))
     judgement = run.judged(done.cut, exact, progress.part(0.4, 1.0)) if setup.part is not None else None
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
@@ -214,6 +218,12 @@ class _CutRun:
             setup.stock.over(grid),
             graphics,
         )
+
+    def effort(self) -> Reckoning:
+        """Return how long it will take."""
+        part, judged = self.setup.part, self.options.judge and self.setup.part is not None
+        drawn = judged and isinstance(part, FlatPart)
+        return cut_effort(self.setup.programs, self.setup.tools, self.workpiece.grid.pitch, drawn, judged)
 
     def cut(self, progress: Progress) -> _Done:
         """Cut all programs, and look for what goes wrong on the way: on the whole stock, whatever the window is."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..core.effort import announce
 from ..core.errors import HitofudeError, InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..fitting.fitted import FittedPath
@@ -34,6 +35,7 @@ from ..gcode.writer.curve_blocks import Spelling, curve_blocks
 from ..gcode.writer.linuxcnc_biarcs import driven
 from ..geometry.same_places import near
 from ..model.motion import Floats, MotionKind, Motions, Nurbs
+from .effort import smooth_effort
 from .smooth_report import certificate
 from .smooth_source import SourceProgram, read_source
 from .smoothed import REACH, TOLERANCES, Form, Piece, Smoothed, SmoothOptions
@@ -64,6 +66,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
     """
     ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
     found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
+    announce(smooth_effort(found.stretches, options.form, options.effective), progress)
     work = _SmoothingRun(options, ready, found)
     blocks, kept = work.written(progress.part(0.2, 0.7))
     while True:

@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..core.effort import announce
 from ..core.errors import GeometryError, ParameterError
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.scene.toml import read_scene
@@ -26,6 +27,7 @@ from ..model.stock_box import StockBox
 from ..model.tool import Tool
 from ..operations.parallel.surface_moves import Milling, SurfaceMoves, surface_moves
 from ..surfaces.cutter_contact.scene_facets import SceneFacets, region_area, scene_facets
+from ..surfaces.passes.facet_crossings import facet_crossings
 from ..surfaces.passes.path import Follower, FollowOptions, Overrun, cutter_path
 from ..surfaces.passes.scallop import corner_radius, scallop_planes, stepover_for_scallop
 from ..surfaces.patches.build import Built, build, regions_of
@@ -33,6 +35,7 @@ from ..surfaces.patches.facets import Facets, joined
 from ..surfaces.sections.compound import Compound, Planes
 from ..surfaces.sections.planes import even_planes, widened
 from ..surfaces.sections.section import compound_surface
+from .effort import scene_effort
 from .scene_findings import moves_findings, scene_findings
 
 FLOOR = "floor"
@@ -129,9 +132,11 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
     tools, families = [_tool(scene, passes) for passes in wanted], []
     progress.step(0.15, "Looking for holes")
     found = tuple(scene_findings(built, facets.facets, stock, tools))
-    for number, passes in enumerate(wanted):
+    plans = [_plan(facets.facets, passes, tool, stock) for passes, tool in zip(wanted, tools, strict=True)]
+    announce(scene_effort(facet_crossings(facets.facets, plan.planes) for plan in plans), progress)
+    for number, plan in enumerate(plans):
         share = progress.part(0.15 + 0.75 * number / len(wanted), 0.15 + 0.75 * (number + 1) / len(wanted))
-        families.append(_family(scene, facets, passes, (grid, sources, stock), share).numbered(numbers))
+        families.append(_family(scene, facets, plan, (grid, sources), share).numbered(numbers))
     progress.step(0.9, "Joining passes")
     top = max(stock.z1, float(facets.facets.triangles[:, :, 2].max()))
     moves = surface_moves([_milling(family) for family in families], top + scene.safe_z, top + scene.retract_z)
@@ -160,14 +165,27 @@ def origin_of(scene: Scene, stock: StockBox) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _family(
-    scene: Scene, facets: SceneFacets, passes: Passes, rest: tuple[float, Sources, StockBox], progress: Progress
-) -> Family:
-    """Compute one family of passes; `rest` is the grid, what reads files, and the stock."""
-    grid, sources, stock = rest
-    tool = _tool(scene, passes)
+@dataclass(frozen=True, eq=False)
+class _PlannedPasses:
+    """A family of passes before it is computed: with what tool, on which planes, how far beside the surfaces."""
+
+    passes: Passes
+    tool: Tool
+    overrun: Overrun
+    planes: Planes
+
+
+def _plan(facets: Facets, passes: Passes, tool: Tool, stock: StockBox) -> _PlannedPasses:
     overrun = _overrun(passes, tool, stock)
-    planes = _planes(facets.facets, passes, tool, overrun.far)
+    return _PlannedPasses(passes, tool, overrun, _planes(facets, passes, tool, overrun.far))
+
+
+def _family(
+    scene: Scene, facets: SceneFacets, plan: _PlannedPasses, rest: tuple[float, Sources], progress: Progress
+) -> Family:
+    """Compute one family of passes; `rest` is the grid, and what reads files."""
+    grid, sources = rest
+    passes, tool, overrun, planes = plan.passes, plan.tool, plan.overrun, plan.planes
     below = (
         facets.facets
         if passes.floor is None

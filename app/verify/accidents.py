@@ -236,7 +236,8 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
 
 def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
     """Yield, for each tool, its descents into metal at the feed for going sideways."""
-    for each in fast_plunges(stage.metal, stage.before, stage.tools, stage.plunge_rates, progress):
+    looked = fast_plunges(stage.metal, stage.before, stage.tools, stage.plunge_rates, progress)
+    for each in looked.found:
         others = "" if each.count == 1 else f", the deepest of {each.count} such descents"
         said = (
             "which is how fast it cuts sideways, too"
@@ -250,6 +251,7 @@ def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
         )
         found = stage.told(FindingKind.FEED, text, each.motion, (each.x, each.y), each.depth)
         yield replace(found, counts=each.rate is not None)
+    yield from _unseen(stage, looked.unseen, "fast ways down")
 
 
 def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:

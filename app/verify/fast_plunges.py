@@ -8,8 +8,8 @@ everything is told only of what is deep.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,14 +64,27 @@ class FastPlunge:
     count: int
 
 
+@dataclass(frozen=True, slots=True)
+class FastPlunges:
+    """What a look for fast descents has found.
+
+    Attributes:
+        found: of each tool the deepest.
+        unseen: fast descents that may go into metal, and were not looked at to the end; their depths are not known.
+    """
+
+    found: tuple[FastPlunge, ...] = ()
+    unseen: int = 0
+
+
 def fast_plunges(
     metal: Metal,
     before: Workpiece,
     tools: Mapping[int, Tool],
     rates: Mapping[int, float],
     progress: Progress = NO_PROGRESS,
-) -> Iterator[FastPlunge]:
-    """Yield, by tool, the descents of the last program of some that are too fast for it.
+) -> FastPlunges:
+    """Return, by tool, the descents of the last program of some that are too fast for it.
 
     Args:
         before: the metal before that program. tools: by T number.
@@ -96,7 +109,7 @@ def fast_plunges(
         span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(metal, tools, known, span, top)
     ]
     if not spans:
-        return
+        return FastPlunges()
     # metal under the axis that a cell would not show makes no plunge, so no closer look is taken
     wide = NARROW * before.grid.pitch
     radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
@@ -109,15 +122,18 @@ def fast_plunges(
         for first, last in spans
     ]
     deepest: dict[int, list[FastPlunge]] = {}
-    for k, hits in hits_along(metal, before, ways, progress).hits.items():
+    looked = hits_along(metal, before, ways, progress)
+    for k, hits in looked.hits.items():
         (first, last), hit = spans[k], max(hits, key=lambda each: each.depth)
         number = int(course.tool[first])
         if hit.depth >= _least(tools[number], known[number]):
             feed, (x, y) = float(motions.feed[first : last + 1].max()), _at_height(ways[k].points, hit.z)
             deepest.setdefault(number, []).append(FastPlunge(first, number, x, y, hit.depth, feed, known[number], 1))
-    for found in deepest.values():
-        worst = max(found, key=lambda each: each.depth)
-        yield FastPlunge(worst.motion, worst.tool, worst.x, worst.y, worst.depth, worst.feed, worst.rate, len(found))
+    worst = (
+        replace(max(found, key=lambda each: each.depth), count=sum(each.count for each in found))
+        for found in deepest.values()
+    )
+    return FastPlunges(tuple(worst), looked.unseen)
 
 
 def _at_height(points: Floats, z: float) -> tuple[float, float]:

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -21,7 +23,7 @@ from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post
 from app.gcode.translate.program import Translated, translated
 from app.gcode.writer.blocks import Blocks
-from app.model.motion import MotionKind
+from app.model.motion import MotionKind, Motions
 from app.model.motion_path import lengths as lengths_of
 from tests.conftest import ROOT
 from tests.examples import examples
@@ -134,17 +136,26 @@ REFUSED = [
     ("fanuc", "G0 X1\nG0 Y#<_y>\nM2\n", "a.ngc:2: what #<_y> is the program does not say"),
     ("fanuc", "G0 X1\nG0 X#100\nM2\n", "a.ngc:2: what #100 is the program does not say"),
     ("grbl", "o1 if [#5221 gt 0]\nG0 X1\no1 endif\nG0 X2\nM2\n", "a.ngc:1: what #5221 is the program does not say"),
-    ("fanuc", "o1 repeat [2]\n/G0 X2\nG0 X1\no1 endrepeat\nM2\n", "a.ngc:2: a block that may be left out (/)"),
-    ("fanuc", "/G0 X1\nG0 X2\nM2\n", "a.ngc:1: a block that may be left out (/)"),
+    ("grbl", "/G0 X1\nG0 X2\nM2\n", "a.ngc:1: a block that may be left out (/) is always done by grbl"),
+    ("fanuc", "G0 X1\n/2 G0 X2\nM2\n", "a.ngc:2: a switch of its own for some blocks (/2)"),
+    ("fanuc", "F100\nG1 X1\n/X2 F50\nX3\nM2\n", "a.ngc:4: what is written for Fanuc is not the same there (feed"),
     ("fanuc", "G0 X1\nM2\nG0 X5\n", "a.ngc:3: what stands behind the end"),
     ("fanuc", "F100\nG2 X0 I1 P3\nM2\n", "a.ngc:2:10: P3: several turns in one block"),
-    ("haas", "F100\nG5 I1 J1 P1 Q1 X20\nM2\n", "a.ngc:2:1: G5: G5 has no counterpart"),
     ("haas", "G59.1\nG0 X1\nM2\n", "a.ngc:1:1: G59.1: G59.1 has no counterpart"),
     ("haas", "G0 X1 A5\nM2\n", "a.ngc:1:7: A5: the axis A is not written for Haas"),
     ("haas", "M62 P1\nG0 X1\nM2\n", "a.ngc:1:1: M62: M62 has no counterpart"),
     ("haas", "M101\nG0 X1\nM2\n", "a.ngc:1:1: M101: M101 has no counterpart"),
     ("haas", "S100.5 M3\nG0 X1\nM2\n", "a.ngc:1:1: S100.5: Haas takes whole speeds only"),
-    ("haas", "S100 M3\nF100\nG0 Z5\nG84 X1 Y1 Z-1 R1 P0.1\nM2\n", "a.ngc:4:1: G84: G84 has no counterpart"),
+    ("haas", "S100 M3\nF100\nG0 Z5\nG84 X1 Y1 Z-1 R1 P0.1\nM2\n", "a.ngc:4:1: G84: the dwell of G84 is at another"),
+    (
+        "haas",
+        "S100 M3\nF100\nG0 Z5\nG98 G84 X1 Y1 Z-1 R1\nM2\n",
+        "a.ngc:4:5: G84: out of a tapped hole Haas goes at feed to R",
+    ),
+    ("haas", "S100 M3\nF100\nG0 Z5\nG91 G99 G84 X1 Y1 Z-1 R1\nM2\n", "a.ngc:4:9: G84: G84 under G91"),
+    ("mach3", "S100 M3\nF100\nG0 Z5\nG99 G84 X1 Y1 Z-1 R1\nM2\n", "a.ngc:4:5: G84: G84 does not tap alike on Mach3"),
+    ("fanuc", "S100 M3\nF100\nG0 Z5\nG88 X1 Y1 Z-1 R1 P1\nM2\n", "a.ngc:4:1: G88: behind G88 the operator"),
+    ("fanuc", "S9 M3\nF1\nG0 Z5\nG87 X1 Y1 Z-1 R1 I1 J0 K0\nM2\n", "a.ngc:4:1: G87: G87 goes in beside the axis"),
     ("haas", "G38.2 Z-5 F100\nM2\n", "a.ngc:1:1: G38.2: G38.2 has no counterpart"),
     ("haas", "F100\nG53 G1 X5\nM2\n", "a.ngc:2:1: G53: G53 has no counterpart"),
     ("haas", "G0 @5 ^30\nM2\n", "a.ngc:1:4: @5: polar coordinates are not written"),
@@ -157,6 +168,124 @@ REFUSED = [
 def test_what_has_no_counterpart_is_named(control: str, text: str, words: str) -> None:
     assert words in told(control, text)
     assert told(control, text).endswith("keep the program for LinuxCNC.")
+
+
+HOLES = "G21 G90 G17\nS500{}\nF100.\nG0 X0. Y0. Z10.\n{} X1. Y2. Z-5. R2.\nX8.\nG80\nG0 Z10.\nM30\n"
+
+
+def test_a_bore_with_a_standing_spindle_is_written_out() -> None:
+    """G86: out at rapid rate behind M5, and on again."""
+    hole = ["G1 Z-5. F100.", "G4 P500", "M5", "G0 Z2.", "M3", "X8.", "G1 Z-5.", "G4 P500", "M5", "G0 Z2.", "M3", "Z10."]
+    assert blocks("fanuc", HOLES.format(" M3", "G99 G86 P0.5"))[-len(hole) :] == hole
+    back = into("linuxcnc", HOLES.format(" M4", "G98 G86"), "fanuc")
+    assert back.data.decode().count("M5\nG0 Z10.0000\nM4") == 2
+
+
+@pytest.mark.parametrize(("control", "came"), [("haas", "fanuc"), ("haas", "linuxcnc"), ("fanuc", "linuxcnc")])
+def test_tapping_stays_the_controls_own(control: str, came: str) -> None:
+    made = blocks(control, HOLES.format(" M4", "G99 G74"), came)
+    at = made.index("G99 G74 X1. Y2. Z-5. R2. F100.")
+    assert made[at + 1 :] == ["G80", "G0 X8.", "G99 G74 X8. Y2. Z-5. R2.", "G80", "G0 Z10."]
+
+
+def test_a_tap_that_the_cycle_starts_is_started_over_the_hole() -> None:
+    """On Fanuc G84 turns the spindle itself; LinuxCNC refuses it with a standing one."""
+    made = blocks("linuxcnc", HOLES.format("", "G98 G84"), "fanuc")
+    at = made.index("M3")
+    assert made[at - 1 : at + 4] == [
+        "Z2.0000",
+        "M3",
+        "G99 G84 X1.0000 Y2.0000 Z-5.0000 R2.0000 F100",
+        "G80",
+        "G0 Z10.0000",
+    ]
+
+
+def test_out_of_a_tapped_hole_fanuc_goes_at_feed_to_r_alone() -> None:
+    kinds = read_program(HOLES.format(" M3", "G98 G84").encode(), ReadOptions(Dialect.FANUC)).motions
+    hole = [(MotionKind(kind), z) for kind, z in zip(kinds.kind.tolist(), kinds.end[:, 2].tolist(), strict=True)][2:6]
+    assert hole == [
+        (MotionKind.RAPID, 2.0),
+        (MotionKind.LINE, -5.0),
+        (MotionKind.LINE, 2.0),
+        (MotionKind.RAPID, 10.0),
+    ]
+
+
+@pytest.mark.skipif(RS274 is None, reason="LinuxCNC is not installed")
+@pytest.mark.parametrize("cycle", ["G98 G84", "G99 G84", "G98 G86", "G99 G89"])
+def test_cycles_of_fanuc_are_what_linuxcnc_makes_of_them(cycle: str) -> None:
+    made = into("linuxcnc", HOLES.format(" M3", cycle), "fanuc")
+    printed, complaint = rs274(made.data, {})
+    assert not complaint
+    assert_same(made.program, printed)
+
+
+CURVES = "G21 G90 G17\nF100\nG0 X0 Y0 Z5\nG5 X20 Y10 I10 J0 P-3 Q8\nG5.1 X40 Y0 I10 J12\nG1 X50\nM2\n"
+
+
+def driven_along(motions: Motions) -> np.ndarray:
+    """Points (n, 2) of level lines and arcs, from their centres and directions."""
+    points = [motions.start[0, :2]]
+    for k in range(len(motions)):
+        a, b, centre = motions.start[k, :2], motions.end[k, :2], motions.centre[k, :2]
+        if motions.kind[k] >= MotionKind.ARC_CW:
+            first, last = (math.atan2(*(place - centre)[::-1]) for place in (a, b))
+            sign = 1 if motions.kind[k] == MotionKind.ARC_CCW else -1
+            turn = sign * ((sign * (last - first)) % math.tau)
+            for share in np.linspace(0, 1, 40)[1:-1]:
+                size = math.hypot(*(a - centre)) * (1 - share) + math.hypot(*(b - centre)) * share
+                points.append(
+                    centre + size * np.array([math.cos(first + share * turn), math.sin(first + share * turn)])
+                )
+        points.append(b)
+    return np.array(points)
+
+
+def bezier(points: list[tuple[float, float]], at: np.ndarray) -> np.ndarray:
+    """De Casteljau."""
+    rows = [np.tile(np.array(point), (len(at), 1)) for point in points]
+    while len(rows) > 1:
+        rows = [(1 - at[:, None]) * a + at[:, None] * b for a, b in pairwise(rows)]
+    return rows[0]
+
+
+@pytest.mark.parametrize(("control", "step"), [("fanuc", 1e-3), ("haas", 1e-3), ("grbl", 1e-4), ("mach3", 1e-4)])
+def test_splines_are_written_as_arcs_within_the_last_decimals(control: str, step: float) -> None:
+    made = into(control, CURVES)
+    assert not {"G5", "G5.1"} & set(made.data.decode().split()) and b"spline" in made.data.lower()
+    motions = made.program.motions
+    at = np.linspace(0, 1, 2001)
+    meant = np.vstack(
+        [bezier([(0, 0), (10, 0), (17, 18), (20, 10)], at), bezier([(20, 10), (30, 22), (40, 0)], at), [(50, 0)]]
+    )
+    driven = shapely.LineString(driven_along(motions))
+    assert driven.hausdorff_distance(shapely.LineString(meant)) < 2.5 * step
+    assert len(motions) < 120
+
+
+SWITCHED = (
+    "G21 G90 G17\nF100\nG0 X0 Y0 Z5\nG1 Z-1\nX10\n/G1 X20 F50\n/G2 X30 I5\nG1 X40 F100\nY5\n/M8\n/G81 X1 Z-2 R1\n/G80\n"
+    "G0 Z11\nM2\n"
+)
+
+
+@pytest.mark.parametrize("control", ["fanuc", "haas", "mach3"])
+@pytest.mark.parametrize("left_out", [True, False])
+def test_blocks_that_a_switch_leaves_out_keep_their_slash(control: str, left_out: bool) -> None:
+    made = into(control, SWITCHED)
+    assert sum(line.startswith("/") for line in made.data.decode().splitlines()) >= 4
+    before, after = (
+        read_program(text, ReadOptions(Dialect(name), block_delete=left_out))
+        for text, name in ((SWITCHED.encode(), "linuxcnc"), (made.data, control))
+    )
+    assert_moves_alike(before, after, made.off)
+
+
+def test_a_switch_that_changes_what_follows_is_proven_in_both_positions() -> None:
+    """What is modal behind it is said again; what hangs on it otherwise is refused."""
+    assert blocks("fanuc", "F100\nG1 X1\n/G0 X2\nG1 X3\nM2\n")[-3:] == ["G1 X1. F100.", "/G0 X2.", "G1 X3. F100."]
+    assert "is not the same there (rapid or feed" in told("fanuc", "F100\nG1 X1\n/G0 X2\nX3\nM2\n")
 
 
 LOOP = (

@@ -95,6 +95,20 @@ def test_ways_between_the_cells_are_looked_at_closer_together_or_one_by_one(
     assert (found.x, found.y, found.amount) == (35.0, 25.0, pytest.approx(9.0, abs=1e-6))
 
 
+def test_descents_that_were_not_looked_at_to_the_end_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of the five lies on a cell's centre and is seen at once, two are looked at closer, two are not."""
+    monkeypatch.setattr(led_ways, "FEW", 10**6)
+    monkeypatch.setattr(led_ways, "MOST", 2)
+    places = "".join(f"G0 Z5\nX{6 * k + 3} Y{4 * k + 4}\nG1 Z-{2 + k} F900\n" for k in range(5))
+    setup = CutSetup(
+        (program(f"{BEGIN}{SLOWLY}{SLOT}{places}G0 Z5\nM2\n"),),
+        {1: Tool(1, 1.0)},
+        BoxStock(StockBox(0, 0, -10, 40, 30, 0)),
+    )
+    said = [each for each in cut(setup, CutOptions(12)).findings if "fast ways down" in each.text]
+    assert [(each.amount, each.counts) for each in said] == [(2.0, False)]
+
+
 SCENE = """
 name = "part"
 stock = { box = [-1, -1, -10, 41, 31, 1] }

@@ -48,6 +48,21 @@ class Negative:
     layer: str
 
 
+@dataclass(frozen=True)
+class UnreadText:
+    """A text of a sort that is not read; its place in drawing units."""
+
+    at: Point
+    sort: str
+    layer: str
+
+
+def _place_of(entity: Any) -> Point:
+    """Return where a text is, seen from above."""
+    at = entity.dxf.get("insert", (0.0, 0.0))
+    return (float(at[0]), float(at[1]))
+
+
 @dataclass
 class DxfSheet:
     """What a space or a block draws.
@@ -59,6 +74,7 @@ class DxfSheet:
         without_length: places of entities that draw nothing, None where there is no place.
         hidden: blocks inserted on frozen layers.
         negative: circles and arcs that nobody knows how to draw.
+        unread: texts that are left out for what they are.
         heights: least and greatest Z seen, drawing units.
     """
 
@@ -69,6 +85,7 @@ class DxfSheet:
     without_length: list[Point | None] = field(default_factory=list)
     hidden: list[Hidden] = field(default_factory=list)
     negative: list[Negative] = field(default_factory=list)
+    unread: list[UnreadText] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
     _more: int = 0
@@ -81,7 +98,7 @@ class DxfSheet:
     @property
     def is_empty(self) -> bool:
         """True where nothing is drawn, and nothing is to be said of a place."""
-        return not (self.size or self.letterings or self.without_length or self.hidden or self.negative)
+        return not (self.size or self.letterings or self.without_length or self.hidden or self.negative or self.unread)
 
     def more(self) -> Iterator[Lettering | Hatch]:
         """Yield its texts and hatches."""
@@ -164,13 +181,14 @@ class DxfWalker:
 
     def _draw(self, entity: Any, kind: str, sheet: DxfSheet) -> None:
         try:
-            made = self._lettering(entity, kind) if kind in _TEXTS else hatch_of(entity) if kind == "HATCH" else None
-            curves = [] if made is not None else curves_of(entity)
+            made = self._letterings(entity, kind) if kind in _TEXTS else [hatch_of(entity)] if kind == "HATCH" else []
+            curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
             sheet.without_length.append(nothing.args[0])
             return
         except LeftOutError as left:
             sheet.left_out[left.args[0]] += 1
+            sheet.unread.append(UnreadText(_place_of(entity), left.args[0], entity.dxf.layer))
             return
         except NegativeRadiusError as negative:
             at, radius = negative.args
@@ -181,8 +199,16 @@ class DxfWalker:
             return
         sheet.see(heights_of(entity))
         sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
-        if made is not None:
-            sheet.add(made)
+        for each in made:
+            sheet.add(each)
+
+    def _letterings(self, entity: Any, kind: str) -> list[Lettering]:
+        """Return what a text draws; an MTEXT of several columns as many times as it has columns."""
+        if kind != "MTEXT":
+            return [self._lettering(entity, kind)]
+        from .mtext import columns_of
+
+        return [self._lettering(each, kind) for each in columns_of(entity)]
 
     def _lettering(self, entity: Any, kind: str) -> Lettering:
         self._read[kind] = None
@@ -246,6 +272,10 @@ class DxfWalker:
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.negative
         ]
+        sheet.unread += [
+            replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
+            for each in inner.unread
+        ]
         for each in inner.more():
             sheet.add(each.moved(place, outer))
         for curve, layer in inner.curves:
@@ -254,7 +284,7 @@ class DxfWalker:
                 sheet.without_length.append(place.point(curve.start))
             else:
                 sheet.curves.append((moved, outer if layer == "0" else layer))
-        self._bounded(max(len(sheet.hidden), len(sheet.negative), sheet.size))
+        self._bounded(max(len(sheet.hidden), len(sheet.negative), len(sheet.unread), sheet.size))
 
     def _block(self, name: str, insert: Any) -> DxfSheet:
         key = name.casefold()

@@ -34,7 +34,7 @@ from ..drawing_account import (
 from ..reading_question import Contents, Question, UndecidedError, about_far, about_frozen, about_layouts, about_units
 from .blocks import DxfSheet, DxfWalker
 from .drawn import all_drawn
-from .findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative
+from .findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative, about_unread
 from .layouts import PAPER, layout_named, paper
 from .load import load
 
@@ -116,6 +116,7 @@ def read_dxf(
         *_damage(loaded.repaired),
         *about_place(found),
         *about_negative(sheet, unit.size),
+        *about_unread(sheet, unit.size),
         *without_length(nothing),
         *_heights(sheet, unit.size),
         *about_hidden(sheet, unit.size),

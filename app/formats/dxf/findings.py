@@ -46,6 +46,16 @@ def about_negative(sheet: DxfSheet, size: float) -> Iterator[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 
 
+def about_unread(sheet: DxfSheet, size: float) -> Iterator[Finding]:
+    """Name the texts that are left out for what they are, a sentence a sort; `size`: the drawing's unit, mm."""
+    for sort in dict.fromkeys(each.sort for each in sheet.unread):
+        alike = [each for each in sheet.unread if each.sort == sort]
+        x, y = alike[0].at[0] * size, alike[0].at[1] * size
+        count, where = len(alike), f"at ({x:.3f}, {y:.3f}) on layer {alike[0].layer}"
+        text = f"1 {sort} {where} is not read." if count == 1 else f"{count} {sort} are not read, the first {where}."
+        yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(count), layer=alike[0].layer)
+
+
 def about_hidden(sheet: DxfSheet, size: float) -> Iterator[Finding]:
     """Name the blocks that are inserted on frozen layers, a sentence a layer; `size` is that of the drawing's unit,
     mm.

@@ -26,6 +26,11 @@ _DOWNWARD = 3
 _EXACT = 2
 
 
+def columns_of(entity: Any) -> list[Any]:
+    """Return an MTEXT and the further ones that are its columns, each with a place and a text of its own."""
+    return [entity, *(entity.columns.linked_columns if entity.has_columns else ())]
+
+
 def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
     """Return what an MTEXT draws, drawing units, seen from above.
 
@@ -40,8 +45,8 @@ def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
     at = (float(dxf.insert.x), float(dxf.insert.y))
     if dxf.get("flow_direction", 1) == _DOWNWARD:
         raise LeftOutError("MTEXT (vertical)")
-    if entity.has_columns and entity.columns.count != 1:
-        raise LeftOutError("MTEXT (in columns)")
+    if entity.has_columns and len(entity.columns.linked_columns) + 1 < entity.columns.count:
+        raise LeftOutError("MTEXT (in columns)")  # one text, broken where the lines of a font are as high as a column
     if len(entity.text) > MOST_LETTERS:
         raise LeftOutError(f"MTEXT (of more than {MOST_LETTERS} letters)")
     if not dxf.char_height > 0:

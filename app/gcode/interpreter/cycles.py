@@ -330,15 +330,19 @@ def _break_chips(hole: _Hole) -> Iterator[Step]:
 
 
 def _tap(hole: _Hole) -> Iterator[Step]:
-    """G84, G74 with a floating holder: in, the other way round out, all the way to the clearance at feed."""
-    turning = _TAPS[hole.cycle.code]
+    """G84, G74: in, and the other way round out at feed, on LinuxCNC to the clearance, on Fanuc and Haas to R."""
+    turning, fanuc = _TAPS[hole.cycle.code], hole.cycle.fanuc
+    if fanuc and hole.cycle.spindle != turning:
+        yield Spindle(turning)
     yield hole.tap(hole.bottom)
     yield Spindle(0)
     yield Spindle(-turning)
     yield Dwell(hole.cycle.dwell or 0.0)
-    yield hole.tap(hole.clear)
+    yield hole.tap(hole.r if fanuc else hole.clear)
     yield Spindle(0)
     yield Spindle(turning)
+    if fanuc:
+        yield hole.rapid(hole.clear)
 
 
 def _bore_out_at_feed(hole: _Hole) -> Iterator[Step]:
@@ -385,10 +389,12 @@ def _bore_by_hand_out(hole: _Hole) -> Iterator[Step]:
 
 
 def _bore_dwell_out(hole: _Hole) -> Iterator[Step]:
-    """G89: all the way to the clearance at feed."""
+    """G89: at feed on LinuxCNC all the way to the clearance, on Fanuc and Haas to R."""
     yield hole.feed(hole.bottom)
     yield Dwell(hole.cycle.dwell or 0.0)
-    yield hole.feed(hole.clear)
+    yield hole.feed(hole.r if hole.cycle.fanuc else hole.clear)
+    if hole.cycle.fanuc:
+        yield hole.rapid(hole.clear)
 
 
 _BORING: dict[str, Callable[[_Hole], Iterator[Step]]] = {

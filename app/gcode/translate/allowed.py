@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ...core.errors import InputError
+from ...model.motion import Plane
 from ..interpreter.block import ALWAYS, POLAR
-from ..interpreter.codes import CYCLES, ROTARY, TAKES, Group
+from ..interpreter.codes import ROTARY, TAKES, Group
 from ..interpreter.dialect import HABITS, Dialect
 from ..interpreter.program import Problem
 from ..interpreter.steps import Step
@@ -27,8 +28,21 @@ read.
 """
 _SAID_OTHERWISE = ("G61.1", "G64", "G90.1", "G97", "G98", "G99", "G187")
 """Of these only what they mean is written, so that it is nothing whether the other control has the word."""
-WRITTEN_OUT = ("G73", "G81", "G82", "G83", "G85", "G89")
-"""Cycles that can be written as moves and dwells; in the others the spindle stops or turns back."""
+WRITTEN_OUT = ("G73", "G81", "G82", "G83", "G85", "G86", "G89")
+"""Cycles that can be written as moves, dwells and M words, and mean the same."""
+TAPPING = ("G74", "G84")
+TAPS = {Dialect.LINUXCNC: (Dialect.FANUC, Dialect.HAAS), Dialect.FANUC: (Dialect.LINUXCNC, Dialect.HAAS)}
+"""Controls whose tapping does with a floating holder what another one's does; Haas taps rigidly, and moves and M words
+would let the feed override tear a tap.
+"""
+_BY_HAND = {
+    "G87": "{0} goes in beside the axis with a spindle that stands at a known angle, for which {1} is told otherwise",
+    "G88": "behind {0} the operator takes the tool out by hand, and where it then is {1} takes otherwise",
+}
+NO_SWITCH = (Dialect.GRBL,)
+"""They do blocks with a slash whatever is asked for."""
+SPLINES = frozenset({"G5", "G5.1", "G5.2", "G5.3", "G6.2"})
+"""What they draw is written as lines and arcs."""
 WRITTEN_AS_MOTIONS = frozenset({"G41", "G42", "G41.1", "G42.1", "G65", "M97", "M98", "M99"})
 """Cutter compensation and calls: what they make of the path is written."""
 TABLE_LETTERS = frozenset("lpxyz")
@@ -102,8 +116,12 @@ def _missing(code: str, step: Step, source: Source) -> str:
     post, habits = source.post, HABITS[source.post.dialect]
     if code == "M6":
         return "" if habits.tool_changes else f"{post.title} changes no tools, so each needs a file of its own"
-    if code in CYCLES:
-        return "" if code in WRITTEN_OUT else f"{code} has no counterpart on {post.title} that is known to do the same"
+    if code in TAPPING:
+        return _untapped(code, step, source)
+    if code in _BY_HAND:
+        return _BY_HAND[code].format(code, post.title)
+    if code in WRITTEN_OUT or code in SPLINES:
+        return ""
     if code in habits.missing and code not in _SAID_OTHERWISE and code not in WRITTEN_AS_MOTIONS:
         return f"{post.title} has no {code}"
     if code in ALIKE or code in WRITTEN_AS_MOTIONS or code in ("G43", "G95"):
@@ -112,6 +130,18 @@ def _missing(code: str, step: Step, source: Source) -> str:
     if special is not None and special(step, source):
         return ""
     return f"{code} has no counterpart on {post.title} that is known to do the same"
+
+
+def _untapped(code: str, step: Step, source: Source) -> str:
+    """Return why a tapping cycle cannot be said as the other control's own, or ""."""
+    title, state = source.post.title, step.states[1]
+    if source.post.dialect not in TAPS.get(source.dialect, ()):
+        return f"{code} does not tap alike on {title}: how feed and spindle are coupled differs"
+    if step.block.get("p"):
+        return f"the dwell of {code} is at another place on {title}"
+    if not state.absolute or state.plane is not Plane.XY or step.block.has("l"):
+        return f"{code} under G91, in another plane or with L is not written for {title}"
+    return ""
 
 
 def _same_zero(step: Step, source: Source) -> bool:

@@ -5,6 +5,7 @@ written out where it has none that is known to do the same.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +17,10 @@ from ..interpreter.program import EventKind, NcProgram
 from ..interpreter.steps import Step
 from ..posts.post import ArcCentre
 from ..writer.arcs import ArcRules, MeantArc, written_pieces
+from ..writer.curve_blocks import Spelling, curve_blocks
 from ..writer.grid import Position, counts, numeral
+from .allowed import TAPPING
+from .near_arcs import near_arcs
 from .sheet import Sheet
 
 _ARC_STEPS = 2.0
@@ -118,7 +122,7 @@ class Mover:
         elif kind in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
             self._arc(step, row, start, end)
         else:
-            raise self._sheet.source.refusal(step.line, f"a spline is not written for {self._sheet.post.title}")
+            self._spline(step, row)
 
     def _straight(self, step: Step, kind: MotionKind, ends: tuple[Position, Position], letters: str) -> None:
         words = {letter: self._axis(letter, *ends) for letter in letters}
@@ -141,6 +145,24 @@ class Mover:
         body = [letter + words[letter] for letter in "XYZIJK" if letter in words]
         sheet.emit(" ".join([*head, *([length] if length else []), *body, *([feed] if feed else [])]))
         sheet.motion = motion
+
+    def _spline(self, step: Step, row: int) -> None:
+        """Write a spline as lines and arcs near it, whose end is the next block's start.
+
+        Raises:
+            InputError: it lies in no plane of the control, or the block is in force in another way.
+        """
+        sheet, state = self._sheet, self._sheet.modal
+        feed = sheet.feed_word(step, self._feed)
+        own = replace(state, arc_absolute=sheet.post.arcs.centre is ArcCentre.ABSOLUTE)
+        motions = near_arcs(self._motions.splines[row], 10.0 ** -self._digits("X") * self._unit)
+        if not state.absolute:
+            sheet.emit("G90")
+        for block in curve_blocks(motions, Spelling(sheet.post, own, feed.removeprefix("F"), resumed=True)):
+            sheet.emit(block)
+        if not state.absolute:
+            sheet.emit("G91")
+        sheet.motion = ""
 
     def _arc(self, step: Step, row: int, start: Position, end: Position) -> None:
         """Write an arc or a helix: its centre anew, as the rounding of both ends allows."""
@@ -208,14 +230,52 @@ class Mover:
 
     def _cycle(self, step: Step) -> None:
         """Write a drilling cycle: as the control's own where that is surely the same, else move by move."""
+        if step.motion in TAPPING:
+            self._tap(step)
+            return
         if self._drilled(step):
             return
         self._sheet.leave_cycle()
         for row in range(*step.rows):
             self._wait(step, row)
-            moved = self._motions.end[row] != self._motions.start[row]
-            self._row(step, row, "".join(letter for letter, moves in zip("XYZ", moved.tolist(), strict=True) if moves))
+            self._sheet.spin(self._program.states[self._motions.state[row]].spindle)
+            self._moved(step, row)
         self._wait(step, step.rows[1])
+        self._sheet.spin(step.states[1].spindle)
+
+    def _moved(self, step: Step, row: int) -> None:
+        """Write one motion of a cycle, along the axes along which it goes."""
+        moved = self._motions.end[row] != self._motions.start[row]
+        self._row(step, row, "".join(letter for letter, moves in zip("XYZ", moved.tolist(), strict=True) if moves))
+
+    def _tap(self, step: Step) -> None:
+        """Write a tapped hole as the control's own cycle, out to R; the ways before and behind it are moves.
+
+        Raises:
+            InputError: the way out at feed goes on beyond R.
+        """
+        sheet, motions = self._sheet, self._motions
+        sheet.leave_cycle()
+        lines = [row for row in range(*step.rows) if motions.kind[row] == MotionKind.LINE]
+        alike = len(lines) == 2 and motions.start[lines[0], 2] == motions.end[lines[1], 2]
+        if not alike:
+            raise sheet.source.refuse(
+                step, "g", step.motion, f"out of a tapped hole {sheet.post.title} goes at feed to R alone; use G99"
+            )
+        for row in range(step.rows[0], lines[0]):
+            self._moved(step, row)
+        state = self._program.states[motions.state[lines[0]]]
+        sheet.spin(state.spindle)
+        self._feed = float(motions.feed[lines[0]])
+        (x, y, top), (_, _, bottom) = (self._place(lines[0], end[lines[0]]) for end in (motions.start, motions.end))
+        values = (("X", x, "X"), ("Y", y, "Y"), ("Z", bottom, "Z"), ("R", top, "Z"))
+        body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
+        sheet.emit(" ".join(["G99", step.motion, *body, sheet.feed_word(step, self._feed)]).strip())
+        sheet.emit("G80")
+        sheet.modal = replace(sheet.modal, spindle=step.states[1].spindle)
+        sheet.motion = ""
+        for row in range(lines[1] + 1, step.rows[1]):
+            self._moved(step, row)
 
     def _wait(self, step: Step, row: int) -> None:
         """Write the dwell that a cycle has before a motion."""

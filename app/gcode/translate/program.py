@@ -14,6 +14,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import MotionKind, Plane
 from ...model.part import Units
 from ..checks.elsewhere import elsewhere, read_elsewhere
+from ..interpreter.block import SLASH
 from ..interpreter.codes import Group
 from ..interpreter.dialect import HABITS
 from ..interpreter.macro import is_macro
@@ -24,7 +25,7 @@ from ..interpreter.steps import Step
 from ..interpreter.text import Text, code_of
 from ..posts.post import Post
 from ..rework.compare import Difference, DifferenceKind, compare
-from .allowed import Source, check_step
+from .allowed import NO_SWITCH, SPLINES, Source, check_step
 from .moves import Mover
 from .sheet import Sheet
 
@@ -65,7 +66,8 @@ class Translated:
 def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: Progress = NO_PROGRESS) -> Translated:
     """Return a program in the words of a post, proven by reading it back as that post's control would.
 
-    Comments stay, as the control takes them. Loops, subroutines, jumps, expressions and cutter compensation are written
+    Comments stay, as the control takes them. Blocks that a switch may leave out keep their slash, and both positions of
+    the switch are proven. Loops, subroutines, jumps, expressions and cutter compensation are written
     as the motions that they make, and the head says so. Cycles that it has not, or that its own settings change, are
     moves; a length that its G43 takes up by moving stands with the next move along Z.
 
@@ -79,18 +81,56 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
         InputError: something has no counterpart there; named with its line and word.
         Cancelled: the job was asked to stop.
     """
-    program, steps = read_steps(data, read, progress.part(0.0, 0.3))
     text = Text(data)
     source = Source(name, tuple(text.data.decode(text.encoding).split("\n")), read.dialect, post)
-    made = _written(source, program, steps, progress.part(0.3, 0.5))
-    after = read_program(made, ReadOptions(post.dialect, limits=read.limits), progress.part(0.5, 0.6))
-    return _proven(source, (program, after), made, progress.part(0.6, 1.0))
+    optional = _optional(source)
+    written = replace(read, block_delete=read.block_delete and not optional)
+    program, steps = read_steps(data, written, progress.part(0.0, 0.3))
+    made = _written(source, program, steps, (optional, progress.part(0.3, 0.5)))
+    own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits)
+    after = read_program(made, own, progress.part(0.5, 0.6))
+    done = _proven(source, (program, after), made, (own, progress.part(0.6, 0.8 if optional else 1.0)))
+    if not optional:
+        return done
+    left_out = read_program(data, replace(read, block_delete=True), progress.part(0.8, 0.85))
+    if left_out.error is not None:
+        raise InputError(f"{left_out.error.told(name)} That is so where the blocks with a slash are left out.")
+    own = replace(own, block_delete=True)
+    after = read_program(made, own, progress.part(0.85, 0.9))
+    other = _proven(source, (left_out, after), made, (own, progress.part(0.9, 1.0)))
+    return other if read.block_delete else done
 
 
-def _written(source: Source, program: NcProgram, steps: tuple[Step, ...], progress: Progress) -> bytes:
-    """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of
-    doing.
+def _optional(source: Source) -> frozenset[int]:
+    """Return the lines, 1-based, that a switch may leave out.
+
+    Raises:
+        InputError: the other control has no such switch, or there are several of them.
     """
+    found: set[int] = set()
+    for line, text in enumerate(source.lines, 1):
+        slash = SLASH.match(_code(text)) if "/" in text else None
+        if slash is None:
+            continue
+        if source.post.dialect in NO_SWITCH:
+            raise source.refusal(
+                line, f"a block that may be left out (/) is always done by {source.post.title}, which has no switch"
+            )
+        if slash[0][-1:] not in ("/", "1"):
+            raise source.refusal(
+                line, f"a switch of its own for some blocks ({slash[0]}) is not written for {source.post.title}"
+            )
+        found.add(line)
+    return frozenset(found)
+
+
+def _written(
+    source: Source, program: NcProgram, steps: tuple[Step, ...], how: tuple[frozenset[int], Progress]
+) -> bytes:
+    """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of
+    doing; `how` is which lines may be left out, and the progress.
+    """
+    optional, progress = how
     jumps = _jumps(source, steps)
     units = program.states[0].units
     sheet = Sheet(source, units if units is Units.INCH else Units.MM, _number(source))
@@ -104,7 +144,9 @@ def _written(source: Source, program: NcProgram, steps: tuple[Step, ...], progre
         writer.pass_to(step.line)
         if k == 0:
             sheet.begin()
+        sheet.choose(step.line in optional)
         writer.write(step)
+    sheet.choose(False)
     writer.pass_rest(begun=bool(steps))
     sheet.end()
     return ("\n".join(sheet.lines) + "\n").encode("ascii", "replace")
@@ -171,10 +213,12 @@ def _remarks(jumps: bool, steps: tuple[Step, ...]) -> list[str]:
     computed = any(
         step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps
     )
+    curved = any(code in SPLINES for step in steps for code in step.block.codes.values())
     compensated = any(code in _COMPENSATION for step in steps for code in step.block.codes.values())
     return [
         *(["Loops, subroutines and jumps are written out as what they do"] if jumps else []),
         *(["Parameters and expressions are written as the numbers that they give"] if computed else []),
+        *(["Splines are written as lines and arcs"] if curved else []),
         *(
             ["Cutter compensation is written out: the path is that of the tool's centre, so G40 throughout"]
             if compensated
@@ -215,8 +259,6 @@ def _check_rest(source: Source, line: int, ends: bool, jumps: bool) -> None:
     title = source.post.title
     if not code or code.startswith("%") or (_NUMBER.match(code) and not ends and HABITS[source.dialect].fanuc_flow):
         return
-    if code.startswith("/") or re.match(r"n[0-9.]+/", code):
-        raise source.refusal(line, f"a block that may be left out (/) is not read, so it cannot be written for {title}")
     if not jumps:
         raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
 
@@ -229,20 +271,23 @@ def _stop(sheet: Sheet, step: Step) -> None:
         sheet.emit(code)
 
 
-def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, progress: Progress) -> Translated:
-    """Return the new program if both controls do the same.
+def _proven(
+    source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, how: tuple[ReadOptions, Progress]
+) -> Translated:
+    """Return the new program if both controls do the same; `how` it is read by the other one, and the progress.
 
     Raises:
         InputError: they do not, or it cannot be read.
     """
     before, after = programs
+    read, progress = how
     title = source.post.title
     if after.error is not None:
         raise InputError(
             f"{source.name} cannot be written for {title}: as written, {after.error.told('line')} Keep the program for "
             f"{HABITS[source.dialect].title}."
         )
-    _check_modes(source, after, made)
+    _check_modes(source, after, made, replace(read, limits=PATIENT))
     units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
     off = _STEPS * max(10.0 ** -source.post.digits(unit).X * unit.value for unit in units)
     (first, kept), (second, others) = _moving(before), _moving(after)
@@ -260,7 +305,7 @@ def _proven(source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, 
     return Translated(made, after, off, rows)
 
 
-def _check_modes(source: Source, after: NcProgram, made: bytes) -> None:
+def _check_modes(source: Source, after: NcProgram, made: bytes, read: ReadOptions) -> None:
     """Refuse a text that leaves units, plane, G90 or the like to what another job has left in force.
 
     Where the tool stands elsewhere an arc that begins at a place that the program has not told fits no more; there the
@@ -269,7 +314,6 @@ def _check_modes(source: Source, after: NcProgram, made: bytes) -> None:
     Raises:
         InputError: it does; the post's first blocks are to blame.
     """
-    read = ReadOptions(source.post.dialect, limits=PATIENT)
     again = read_elsewhere(made, read, elsewhere(after.states[0].units), NO_PROGRESS)
     here, there = (_modes_by_line(program) for program in (after, again))
     wrong = sorted(line for line, modes in here.items() if there.get(line, modes) != modes)

@@ -14,11 +14,12 @@ from ..interpreter.program import FeedMode, ModalState
 from ..interpreter.steps import Step
 from ..writer.blocks import Blocks
 from ..writer.grid import spelled
-from .allowed import Source
+from .allowed import TAPPING, Source
 
 PLANES = {Plane.XY: "G17", Plane.ZX: "G18", Plane.YZ: "G19"}
 JOINED = (Dialect.FANUC, Dialect.HAAS, Dialect.MACH3)
 """Alone their G43 and G49 may move Z, so that they stand in the block of the next move along Z."""
+_TURNS = {1: "M3", -1: "M4", 0: "M5"}
 MOST_DWELL_OFF_S = 1e-6
 MOST_FEED_OFF = 0.05
 """mm/min; where a feed would be rounded by more it has more digits than the post's."""
@@ -34,6 +35,7 @@ class Sheet:
         modal: what is in force behind them. motion: the G word that axis words obey, "" = say it.
         length: H of the length in force; waiting: that the next move along Z has to take with it, None = none.
         cycle: the drilling cycle in force, or "".
+        optional: whether a switch may leave out the blocks to come.
     """
 
     def __init__(self, source: Source, units: Units, number: int) -> None:
@@ -43,6 +45,7 @@ class Sheet:
         self.motion = self.cycle = self.feed = ""
         self.length = 0
         self.waiting: int | None = None
+        self.optional = False
         self._blocks = Blocks(self.post, units)
         self._path = self._blending(None, "G64")
         self._number = number
@@ -71,7 +74,15 @@ class Sheet:
 
     def emit(self, text: str) -> None:
         """Write a block; nothing where there is no text."""
-        self._blocks.block(text)
+        (self._blocks.optional_block if self.optional else self._blocks.block)(text)
+
+    def choose(self, optional: bool) -> None:
+        """Write blocks that a switch may leave out, or again those that it may not; these say anew how and how fast to
+        move, since nobody knows what was done before them.
+        """
+        if self.optional and not optional:
+            self.motion = self.feed = ""
+        self.optional = optional
 
     def comment(self, text: str) -> None:
         """Write a comment in as many lines as the control needs; what a program reads goes on so that it can be put
@@ -96,6 +107,8 @@ class Sheet:
             InputError: it cannot be said.
         """
         after = step.states[1]
+        if step.motion in TAPPING and Group.SPINDLE not in step.block.codes:
+            after = replace(after, spindle=self.modal.spindle)  # the cycle itself may start it, over the hole
         self._tool(step)
         self._spindle(step, after)
         self._coolant(after)
@@ -140,10 +153,16 @@ class Sheet:
                 raise self.source.refuse(step, "s", "", f"{self.post.title} takes whole speeds only")
             words.append(f"S{plain(after.speed)}")
         if after.spindle != self.modal.spindle:
-            words.append({1: "M3", -1: "M4", 0: "M5"}[after.spindle])
+            words.append(_TURNS[after.spindle])
         if words:
             self.leave_cycle()
         self.emit(" ".join(words))
+
+    def spin(self, turning: int) -> None:
+        """Have the spindle turn so within a block; its speed stays."""
+        if turning != self.modal.spindle:
+            self.emit(_TURNS[turning])
+            self.modal = replace(self.modal, spindle=turning)
 
     def _coolant(self, after: ModalState) -> None:
         before, words = self.modal, self.post.coolant

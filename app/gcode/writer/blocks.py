@@ -78,6 +78,12 @@ class Blocks:
             self._end_cycle()
             self.lines.append(text if text.startswith(("%", "O")) else self._numbered(text))
 
+    def optional_block(self, text: str) -> None:
+        """Write a block that a switch may leave out."""
+        if text:
+            self.block(text)
+            self.lines[-1] = f"/{self.lines[-1]}"
+
     def home(self, text: str) -> None:
         """Write a block that goes to the machine's own home."""
         self.block(text)

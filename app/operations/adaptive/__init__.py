@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from ...model.finding import Finding
 from ...model.operation import AdaptiveOperation, Operation
+from ...model.tool import Tool
 from ...toolpath.narrow import too_small
 from ...toolpath.sheets import Sheet, Sheets
+from ..effort import Workload, over_area
 from ..registry import Way, register
 from .paths import adaptive, least_width, room_needed
 
@@ -19,4 +22,10 @@ def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterab
     return too_small(sheet.regions, level, sheets.job.tool(operation.cut.tool), least_width(sheets.job, operation))
 
 
-register(AdaptiveOperation, Way(adaptive, _missed))
+def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
+    """As of rings a step apart that engages so much of the rim along a straight wall."""
+    assert isinstance(operation, AdaptiveOperation)
+    return over_area(extent, operation, tool, tool.radius * (1 - math.cos(operation.most_engaged_deg)))
+
+
+register(AdaptiveOperation, Way(adaptive, _missed, _effort))

@@ -6,10 +6,12 @@ from collections.abc import Iterable
 
 from ...model.finding import Finding
 from ...model.operation import Operation, PocketOperation
+from ...model.tool import Tool
 from ...toolpath.narrow import finest, too_small
 from ...toolpath.sheets import Sheet, Sheets
+from ..effort import Workload, over_area
 from ..registry import Way, register
-from .paths import pocket, wall_distance
+from .paths import candidates, pocket, wall_distance
 
 
 def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterable[Finding]:
@@ -22,4 +24,9 @@ def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterab
     return too_small(sheet.regions, level, tool, finest(sheets.job, operation))
 
 
-register(PocketOperation, Way(pocket, _missed))
+def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
+    assert isinstance(operation, PocketOperation)
+    return over_area(extent, operation, tool, operation.stepover or candidates(tool.radius, extent.pieces)[0])
+
+
+register(PocketOperation, Way(pocket, _missed, _effort))

@@ -12,11 +12,13 @@ class Activity(QObject):
 
     Signals:
         progress(fraction or None, text): of whoever told last, in [0, 1]; None = nothing runs any more.
+        remarked(text): what its user should hear before the work is done, such as that it takes long.
         busy_changed(bool): something runs, or nothing. cancelled(): the user leaves what runs.
         ended(): the window has closed; whoever holds threads or much memory lets go of them.
     """
 
     progress = Signal(object, str)
+    remarked = Signal(str)
     busy_changed = Signal(bool)
     cancelled = Signal()
     ended = Signal()
@@ -38,6 +40,7 @@ class Activity(QObject):
         """
         self._workers.append(worker)
         worker.progress.connect(self._tell)
+        worker.remarked.connect(self.remarked)
         worker.busy_changed.connect(lambda busy: self._on_busy(text if busy else ""))
         self.cancelled.connect(worker.cancel)
         self.ended.connect(worker.finish)

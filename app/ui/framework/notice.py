@@ -19,7 +19,11 @@ def _call(act: Callable[[], None], *_: object) -> None:
 
 
 class Notice(QWidget):
-    """Shows one sentence at a time; a newer one takes its place."""
+    """Shows one sentence at a time; a newer one takes its place.
+
+    Attributes:
+        sentence: as it was said last, whatever language it is shown in.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -29,6 +33,7 @@ class Notice(QWidget):
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
         self._stays = False
+        self.sentence = ""
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(16, 4, 8, 4)
         self._row.setSpacing(8)
@@ -53,7 +58,7 @@ class Notice(QWidget):
             error: True for what went wrong.
             stays: True when only an answer, or another sentence, closes the bar.
         """
-        self._stays = stays
+        self._stays, self.sentence = stays, sentence
         for button in self.buttons:
             self._row.removeWidget(button)
             button.deleteLater()

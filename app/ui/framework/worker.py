@@ -101,7 +101,8 @@ class _Runner(threading.Thread):
     def _run(self, work: _Work) -> None:
         value, error = None, None
         try:
-            progress = Progress(partial(self._tell, work.job_id), work.cancelled)
+            remarks = partial(self._worker.remark_told.emit, work.job_id)
+            progress = Progress(partial(self._tell, work.job_id), work.cancelled, remarks=remarks)
             waits = told_waits(lambda text: progress.step(self._fraction, text))
             with _NO_COLLECTOR, within(budget_limit()), waits:
                 value = work.function(progress)
@@ -139,11 +140,13 @@ class Worker(QObject):
     """
 
     progress = Signal(float, str)
+    remarked = Signal(str)
     done = Signal(Answer)
     failed = Signal(Answer)
     cancelled = Signal(int)
     busy_changed = Signal(bool)
     told = Signal(int, float, str)
+    remark_told = Signal(int, str)
     answered = Signal(Answer)
 
     def __init__(self, parent: QObject | None = None, head_start_s: float = HEAD_START_S) -> None:
@@ -154,6 +157,7 @@ class Worker(QObject):
         self._next_id = 1
         self._current: _Work | None = None
         self.told.connect(self._on_told, Qt.ConnectionType.QueuedConnection)
+        self.remark_told.connect(self._on_remark, Qt.ConnectionType.QueuedConnection)
         self.answered.connect(self._on_answered, Qt.ConnectionType.QueuedConnection)
 
     @property
@@ -203,6 +207,11 @@ class Worker(QObject):
     def _on_told(self, job_id: int, fraction: float, text: str) -> None:
         if self._current is not None and self._current.job_id == job_id:
             self.progress.emit(fraction, text)
+
+    @Slot(int, str)
+    def _on_remark(self, job_id: int, sentence: str) -> None:
+        if self._current is not None and self._current.job_id == job_id:
+            self.remarked.emit(sentence)
 
     @Slot(Answer)
     def _on_answered(self, answer: Answer) -> None:

@@ -34,6 +34,7 @@ from ..views.surfaces.scene_control import SAMPLES, SceneControl, SceneProgram
 from ..views.surfaces.scene_export import SceneExport
 from .actions import Actions
 from .advising import Advising
+from .announcing import Announcing
 from .cleaning import Cleaning
 from .context_menu import ContextMenu
 from .drawing_export import DrawingExport
@@ -151,6 +152,7 @@ class Wiring(QObject):
         self.inspecting = Inspecting(window.drawing_page, window.notice, commands)
         self.cleaning = Cleaning(window.drawing_page.cleanup, canvas, workspace)
         self.engaging = Engaging(canvas, window.views.legend, workspace)
+        self.announcing = Announcing(workspace, self)
         self.entering = Entering(window.command_line, canvas, self.document)
         self.focus_keeper = FocusKeeper(window, window.views.take_focus)
 

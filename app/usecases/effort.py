@@ -1,0 +1,82 @@
+"""How long cuts, scenes and smoothing will take, reckoned from counts before they are begun.
+
+Seconds a piece are measured: cuts of 80,000 to 800,000 motions in 1,024 to 4,096 cells, scenes of 1,500 to 120,000
+moves, programs of 20,000 to 100,000 points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from ..core.effort import Reckoning, counted
+from ..fitting.point_curves.effective_method import EffectiveMethod
+from ..gcode.interpreter.program import NcProgram
+from ..gcode.rework.stretches import Stretch
+from ..model.motion_path import lengths
+from ..model.tool import Tool
+from ..surfaces.passes.facet_crossings import FacetCrossings
+from .smoothed import Form
+
+_CELL_S, _MOTION_S = 4e-9, 1e-6
+"""A cell that a cutter passes over; a motion by itself."""
+_JUDGED = 3.0
+"""So many cuts are made where a part is proven: as it is, with a wider and with a slimmer cutter."""
+_FLOOR_S = 1.5e-5
+"""A piece of path as long as its tool is wide, of which coverage of a drawing's floors is asked."""
+_CROSSING_S = 1.1e-4
+"""A facet that a plane of passes crosses: contact, path, compound surface, text and proof."""
+_POINT_S = {Form.LINES: 6e-6, Form.ARCS: 6e-5, Form.NURBS: 2e-4}
+"""A point of a stretch that is fitted anew and proven."""
+
+
+def cut_effort(
+    programs: Sequence[NcProgram], tools: Mapping[int, Tool], pitch: float, drawn: bool, judged: bool
+) -> Reckoning:
+    """Return what cutting programs takes.
+
+    Args:
+        tools: by T number. pitch: of the cells, mm.
+        drawn: whether the part is a drawing's. judged: whether there is a part at all.
+    """
+    cells = pieces = count = 0.0
+    for program in programs:
+        numbers = np.array([state.tool for state in program.states], np.int64)[program.motions.state]
+        length = np.nan_to_num(lengths(program.motions))
+        for number in np.unique(numbers).tolist():
+            if (tool := tools.get(number)) is not None:
+                way = float(length[numbers == number].sum())
+                cells += way * tool.diameter / pitch**2
+                pieces += way / tool.diameter
+        count += len(program.motions)
+    seconds = (cells * _CELL_S + count * _MOTION_S) * (_JUDGED if judged else 1.0)
+    floors = pieces * _FLOOR_S if drawn else 0.0
+    fewer = "choose fewer cells (--grid) or a part of the stock (--window)"
+    return Reckoning(
+        seconds + floors,
+        f"{count:,.0f} motions in cells of {pitch:.3g} mm",
+        "leave out what it is compared with (--against)" if floors > seconds else fewer,
+    )
+
+
+def scene_effort(families: Iterable[FacetCrossings]) -> Reckoning:
+    """Return what a scene's passes take."""
+    crossings, planes = 0.0, 0
+    for family in families:
+        crossings, planes = crossings + family.crossings, planes + family.planes
+    return Reckoning(
+        crossings * _CROSSING_S,
+        f"{planes:,} passes over {crossings:,.0f} facets",
+        "use a larger pitch or scallop height, coarser surfaces, or check the model's units",
+    )
+
+
+def smooth_effort(stretches: Sequence[Stretch], form: Form, effective: EffectiveMethod | None) -> Reckoning:
+    """Return what fitting a program's stretches takes."""
+    points = sum(stretch.stop - stretch.first for stretch in stretches)
+    return Reckoning(
+        points * _POINT_S[form] * (1.0 if effective is None else 2.0),
+        f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches')}",
+        "smooth it in parts" if form is Form.LINES else "smooth it as lines (--as lines), or in parts",
+    )

@@ -1,0 +1,121 @@
+"""Cuts, scenes and smoothing that take long are announced before they are begun, in reckonings that hold."""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+
+import numpy as np
+import pytest
+
+from app.core.progress import Progress
+from app.formats.scene.toml import sources_of
+from app.gcode.interpreter.reader import read_program
+from app.model.stock_box import StockBox
+from app.model.tool import Tool
+from app.simulation.field.workpiece import BoxStock
+from app.surfaces.passes.facet_crossings import facet_crossings
+from app.surfaces.patches.facets import Facets
+from app.surfaces.sections.compound import Planes
+from app.usecases.cut import CutOptions, CutSetup, cut
+from app.usecases.effort import cut_effort, smooth_effort
+from app.usecases.smooth import smooth
+from app.usecases.smoothed import Form, SmoothOptions
+from app.usecases.surface import read_and_compute
+from tests.conftest import ROOT
+
+SAMPLES = ROOT / "resources" / "samples"
+NO_FILES = sources_of(lambda name: b"")
+WITHIN = 3.0
+
+
+class HeardError(Exception):
+    """Ends a job at its first word."""
+
+
+def stop(sentence: str) -> None:
+    raise HeardError(sentence)
+
+
+def strokes(count: int) -> bytes:
+    lines = (f"G1 X{300 if k % 2 else 0} Y{k % 300}" for k in range(count))
+    return "\n".join(["G21 G90", "T1 M6", "S1000 M3", "G0 X0 Y0 Z5", "G1 Z-1 F300", *lines, "G0 Z5", "M2", ""]).encode()
+
+
+def spheres(pitch: float) -> bytes:
+    text = (SAMPLES / "spheres.toml").read_text()
+    return re.sub(r"^pitch = .*$", f"pitch = {pitch}", text, flags=re.MULTILINE).encode()
+
+
+def waves(count: int) -> bytes:
+    at = np.arange(count) * 0.002
+    radius = 100 + 6 * np.sin(7 * at)
+    lines = [
+        f"G1 X{x:.4f} Y{y:.4f}"
+        for x, y in zip((radius * np.cos(at)).tolist(), (radius * np.sin(at)).tolist(), strict=True)
+    ]
+    return "\n".join(["G21 G90 G17", "S1000 M3", "G0 X106 Y0 Z5", "G1 Z-1 F300", *lines, "G0 Z5", "M2", ""]).encode()
+
+
+def test_a_long_cut_is_announced() -> None:
+    program = read_program(strokes(250_000))
+    setup = CutSetup((program,), {1: Tool(1, 6.0)}, BoxStock(StockBox(0.0, 0.0, -10.0, 300.0, 300.0, 0.0)))
+    with pytest.raises(HeardError, match=r"about \d+ seconds: 250,003 motions in cells of 0.293 mm. .*--grid"):
+        cut(setup, CutOptions(), Progress(remarks=stop))
+
+
+def test_a_long_scene_is_announced() -> None:
+    with pytest.raises(HeardError, match=r"about \d+ minutes: .* passes over .* facets"):
+        read_and_compute("a.toml", spheres(0.005), NO_FILES, Progress(remarks=stop))
+
+
+def test_a_long_smoothing_is_announced() -> None:
+    with pytest.raises(HeardError, match=r"about \d+ seconds: 110,001 moves in 1 stretch"):
+        smooth("a.ngc", waves(110_000), SmoothOptions(form=Form.NURBS), Progress(remarks=stop))
+
+
+def test_short_ones_say_nothing() -> None:
+    smooth("a.ngc", waves(200), SmoothOptions(), Progress(remarks=stop))
+    setup = CutSetup((read_program(strokes(9)),), {1: Tool(1, 6.0)}, BoxStock(StockBox(0, 0, -10, 300, 300, 0)))
+    cut(setup, CutOptions(64), Progress(remarks=stop))
+
+
+def test_planes_cross_facets_as_often_as_these_are_wide_across_them() -> None:
+    """Two triangles that halve a square 10 mm wide, under planes 1 mm apart: each is crossed by all of them."""
+    square = np.array([[[0, 0, 0], [10, 0, 0], [10, 10, 0]], [[0, 0, 0], [10, 10, 0], [0, 10, 0]]], float)
+    none = np.zeros(2, np.int64)
+    facets = Facets(square, none, none, np.zeros((2, 3, 2)), np.zeros(2), np.zeros((2, 2)), ())
+    found = facet_crossings(facets, Planes((0.0, 0.0), 0.0, tuple(float(k) for k in range(10))))
+    assert (found.planes, found.crossings) == (10, pytest.approx(20.0))
+    turned = facet_crossings(facets, Planes((0.0, 0.0), math.pi / 2, tuple(float(k) for k in range(10))))
+    assert turned.crossings == pytest.approx(20.0)
+
+
+def test_finer_cells_and_a_drawing_to_compare_with_make_a_cut_longer() -> None:
+    program = read_program(strokes(100))
+    plain, fine = (cut_effort((program,), {1: Tool(1, 6.0)}, pitch, False, False).seconds for pitch in (0.4, 0.1))
+    judged = cut_effort((program,), {1: Tool(1, 6.0)}, 0.4, True, True).seconds
+    assert 10 < fine / plain < 16 and judged > 3 * plain
+
+
+@pytest.mark.exhaustive
+def test_what_is_said_of_scenes_is_within_a_factor_of_three() -> None:
+    said: list[str] = []
+    begun = time.process_time()
+    read_and_compute("a.toml", spheres(0.1), NO_FILES, Progress(remarks=said.append))
+    took = time.process_time() - begun
+    seconds = float(re.search(r"about (\d+) seconds", said[0])[1])  # type: ignore[index]
+    assert took / WITHIN < seconds < took * WITHIN
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("form", list(Form))
+def test_what_is_said_of_smoothing_is_within_a_factor_of_three(form: Form) -> None:
+    data, options = waves(40_000), SmoothOptions(form=form)
+    smooth("a.ngc", waves(300), options)  # loads the code
+    begun = time.process_time()
+    done = smooth("a.ngc", data, options)
+    took = time.process_time() - begun
+    said = smooth_effort(done.found.stretches, form, None).seconds
+    assert took / WITHIN < said < took * WITHIN
