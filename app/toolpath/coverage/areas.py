@@ -21,6 +21,9 @@ Shapes = NDArray[np.object_]
 _WORTH_TWO_CORES = 32
 """Overlays from which a second core is worth its start."""
 
+_GRID = 1e-9
+"""mm; where rounding leaves the library without an answer, one on this grid is found."""
+
 
 def united(shapes: Iterable[Shape] | Shapes | Shape) -> Shape:
     """Return what any of some areas covers."""
@@ -30,7 +33,10 @@ def united(shapes: Iterable[Shape] | Shapes | Shape) -> Shape:
     first, second = shapely.STRtree(parts).query(parts)
     if np.all(first == second):
         return gathered(parts)
-    return shapely.disjoint_subset_union_all(parts)
+    try:
+        return shapely.disjoint_subset_union_all(parts)
+    except shapely.errors.GEOSException:
+        return shapely.union_all(shapely.make_valid(parts), grid_size=_GRID)
 
 
 def common(one: Shape, other: Shape) -> Shape:
@@ -57,9 +63,16 @@ def without(one: Shape, other: Shape) -> Shape:
     return gathered(left)
 
 
-def each_with_each(overlay: Callable[[Shapes, Shapes], Shapes], one: Shapes, other: Shapes) -> Shapes:
+def each_with_each(overlay: Callable[..., Shapes], one: Shapes, other: Shapes) -> Shapes:
     """Return the overlay of each shape (n,) with the one (n,) beside it, on all cores."""
-    return np.concatenate(in_bands(lambda band: overlay(one[band], other[band]), len(one), _WORTH_TWO_CORES))
+
+    def overlaid(band: slice) -> Shapes:
+        try:
+            return overlay(one[band], other[band])
+        except shapely.errors.GEOSException:
+            return overlay(shapely.make_valid(one[band]), shapely.make_valid(other[band]), grid_size=_GRID)
+
+    return np.concatenate(in_bands(overlaid, len(one), _WORTH_TWO_CORES))
 
 
 def _parts(shapes: Iterable[Shape] | Shapes | Shape) -> Shapes:
