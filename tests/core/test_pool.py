@@ -16,3 +16,12 @@ def test_little_work_is_done_at_once() -> None:
     for count in (0, 1, WORTH_TWO_CORES - 1):
         assert in_bands(lambda band: (threading.get_ident(), band), count) == [(here, slice(0, count))]
     assert len(in_bands(lambda band: band, 10, worth=10)) > 1
+
+
+def test_bands_within_bands_wait_for_no_thread() -> None:
+    """Were they given to the executor too, all its threads would wait for ever."""
+
+    def inner(band: slice) -> int:
+        return sum(in_bands(lambda each: each.stop - each.start, WORTH_TWO_CORES))
+
+    assert set(in_bands(inner, WORTH_TWO_CORES)) == {WORTH_TWO_CORES}

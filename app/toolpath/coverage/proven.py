@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -20,7 +19,7 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from ...core.memory import portion
-from ...core.pool import pool
+from ...core.pool import in_bands
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, R, Rows, sweeps, within_half_turn
@@ -40,7 +39,8 @@ _SLACK = 1e-3
 _SAME = 1e-4
 """mm by which two arcs that follow one another may miss being one."""
 
-_BANDS, _WORTH_TWO_CORES = 4, 500
+_WORTH_TWO_CORES = 500
+"""Squares from which a second core is worth its start."""
 
 _ROUNDING = 1e-9
 """mm; more than a distance is off by."""
@@ -204,8 +204,7 @@ def _judged(area: DistanceField, path: _Beside, squares: _Squares) -> States:
     count, field, reach = len(squares.centres), path.swath.field, path.swath.radius + _SLACK
     found = np.empty(count, np.uint8)
 
-    def look(ends: tuple[int, int]) -> None:
-        band = slice(*ends)
+    def look(band: slice) -> None:
         judge(
             area.rows,
             area.order,
@@ -224,8 +223,7 @@ def _judged(area: DistanceField, path: _Beside, squares: _Squares) -> States:
             found[band],
         )
 
-    bands = np.linspace(0, count, (_BANDS if count >= _WORTH_TWO_CORES else 1) + 1).astype(int)
-    list(pool().map(look, pairwise(bands.tolist())))
+    in_bands(look, count, _WORTH_TWO_CORES)
     return found
 
 
