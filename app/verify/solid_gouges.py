@@ -104,7 +104,7 @@ class SolidGouges:
         )
         order = np.argsort(-depth, kind="stable")
         order = order[depth[order] > self.part.tolerance]
-        told = order[_apart(cut.places[order])]
+        told = order[apart(cut.places[order])]
         self._measure(depth, columns, told)
         return [
             self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k])) for k in told.tolist()
@@ -213,8 +213,8 @@ class SolidGouges:
         return spot
 
 
-def _apart(places: Floats) -> NDArray[np.int64]:
-    """Return which of some places (m, 2) are farther than APART from all of these before them."""
+def apart(places: Floats) -> NDArray[np.int64]:
+    """Return which of some places (m, 2), in order, are farther than APART from all of these before them."""
     from .apart_kernels import told_apart
 
     cells = np.floor(places / APART).astype(np.int64)
