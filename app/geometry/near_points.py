@@ -26,19 +26,8 @@ def pairs_within(points: Floats, reach: float) -> Indices:
     if len(points) ** 2 <= FEW:
         near = np.triu(_distances(points, points) <= reach, 1)
         return np.argwhere(near).astype(np.int64)
-    import shapely
-
-    plane = np.zeros((len(points), 2))  # near there is near enough to be compared
-    plane[:, : min(points.shape[1], 2)] = points[:, :2]
-    places = shapely.points(plane)
-    pairs = shapely.STRtree(places).query(places, "dwithin", reach * (1 + 1e-12)).T
-    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
-    square = np.zeros(len(pairs))
-    for axis in range(points.shape[1]):
-        square += (points[pairs[:, 0], axis] - points[pairs[:, 1], axis]) ** 2
-    pairs = pairs[np.sqrt(square) <= reach]
-    ordered: Indices = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].astype(np.int64)
-    return ordered
+    pairs = _near(points, points, reach)
+    return pairs[pairs[:, 0] < pairs[:, 1]]
 
 
 def all_within(points: Floats, places: Floats, reach: float) -> tuple[Indices, Indices]:
@@ -52,11 +41,26 @@ def all_within(points: Floats, places: Floats, reach: float) -> tuple[Indices, I
     if len(points) * len(places) <= FEW:
         place, point = np.nonzero(_distances(places, points) <= reach)
         return place.astype(np.int64), point.astype(np.int64)
-    from scipy.spatial import cKDTree
+    place, point = _near(points, places, reach).T
+    return place, point
 
-    found = cKDTree(points).query_ball_point(places, reach, return_sorted=True)
-    place = np.repeat(np.arange(len(places)), [len(each) for each in found])
-    return place, np.concatenate([np.zeros(0, np.int64), *found]).astype(np.int64)
+
+def _near(points: Floats, places: Floats, reach: float) -> Indices:
+    """Return (place, point), (m, 2), of all points within a distance of places; by place, then by point."""
+    import shapely
+
+    plane, around = (np.zeros((len(each), 2)) for each in (points, places))
+    plane[:, : points.shape[1]] = points[:, :2]  # near there is near enough to be compared
+    around[:, : points.shape[1]] = places[:, :2]
+    tree = shapely.STRtree(shapely.points(plane))
+    place, point = tree.query(shapely.points(around), "dwithin", reach * (1 + 1e-12))
+    square = np.zeros(len(place))
+    for axis in range(points.shape[1]):
+        square += (places[place, axis] - points[point, axis]) ** 2
+    kept = np.sqrt(square) <= reach
+    pairs = np.column_stack([place[kept], point[kept]]).astype(np.int64)
+    ordered: Indices = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    return ordered
 
 
 def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices]:

@@ -10,7 +10,7 @@ cut; that nothing else is deeper by more than a cell's way, the certificate says
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -97,14 +97,22 @@ class SolidGouges:
         cut = walls.cut_places(deep)
         if not len(cut):
             return []
-        depth = self._depth_in.of(Columns(cut.places, cut.heights, metal_at(self.before, cut.places)))
+        columns, fine = Columns(cut.places, cut.heights, metal_at(self.before, cut.places)), self.part.tolerance / 10
+        depth = self._depth_in.of(columns, fine=fine)
+        self._measure(
+            depth, columns, np.flatnonzero((depth <= self.part.tolerance) & (depth > self.part.tolerance - 2 * fine))
+        )
         order = np.argsort(-depth, kind="stable")
         order = order[depth[order] > self.part.tolerance]
-        found = (
-            self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k]))
-            for k in order.tolist()
-        )
-        return list(_apart(found))
+        told = order[apart(cut.places[order])]
+        self._measure(depth, columns, told)
+        return [
+            self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k])) for k in told.tolist()
+        ]
+
+    def _measure(self, depth: Floats, columns: Columns, some: NDArray[np.int64]) -> None:
+        """Measure the depths of some columns as finely as can be."""
+        depth[some] = np.maximum(depth[some], self._depth_in.of(columns.only(some)))
 
     def _spot(self, place: Floats, z: float, depth: float, motion: int) -> Spot:
         line = int(self.lines[motion]) if motion >= 0 else 0
@@ -205,12 +213,16 @@ class SolidGouges:
         return spot
 
 
-def _apart(spots: Iterator[Spot]) -> Iterator[Spot]:
-    """Yield spots but for those within APART of an earlier one."""
-    told: dict[tuple[int, int], list[Spot]] = {}
-    for spot in spots:
-        col, row = math.floor(spot.x / APART), math.floor(spot.y / APART)
-        around = (other for dx in (-1, 0, 1) for dy in (-1, 0, 1) for other in told.get((col + dx, row + dy), ()))
-        if all(math.hypot(spot.x - other.x, spot.y - other.y) > APART for other in around):
-            told.setdefault((col, row), []).append(spot)
-            yield spot
+def apart(places: Floats) -> NDArray[np.int64]:
+    """Return which of some places (m, 2), in order, are farther than APART from all of these before them."""
+    from .apart_kernels import told_apart
+
+    cells = np.floor(places / APART).astype(np.int64)
+    cells -= cells.min(axis=0, initial=0) - 1
+    high = int(cells[:, 1].max(initial=0)) + 2
+    squares, own = np.unique(cells[:, 0] * high + cells[:, 1], return_inverse=True)
+    beside = squares[:, None] + np.array([dx * high + dy for dx in (-1, 0, 1) for dy in (-1, 0, 1)])
+    at = np.minimum(np.searchsorted(squares, beside), len(squares) - 1)
+    around = np.where(squares[at] == beside, at, -1)
+    told = np.empty(len(places), np.int64)
+    return told[: told_apart(np.ascontiguousarray(places), own.ravel(), np.ascontiguousarray(around), APART, told)]

@@ -21,6 +21,8 @@ from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
 from app.toolpath.coverage.flat import region_shapes
 from app.toolpath.coverage.uncut import uncut
+from app.toolpath.coverage.uncut_kernels import widest
+from app.toolpath.linking import runs_kernels
 from app.toolpath.linking.bridge import RingField
 from app.toolpath.linking.link import Manner, link
 from app.toolpath.linking.runs import NOTHING, Filling, between, fill, gaps_of
@@ -171,3 +173,40 @@ def check_random_part(seed: int, share: float, outside_in: bool) -> None:
             points = points_at(rows, np.full(len(rows), fraction))
             assert plain_distance.distance(points, contours).min() >= first - tolerances.LEVEL
             assert plain_distance.inside(points, contours).all()
+
+
+def test_squares_between_rings_are_those_that_each_would_be_by_itself() -> None:
+    """Quartered, lists of rows handed on: the same squares as where all rows are asked for each."""
+    radius, smallest = 1.0, 1 / 32
+    primitives = pack(nest(fig2()))
+    levels, halves = rings(primitives, 1.0, 2.0, radius)
+    k = next(k for k, half in enumerate(halves[: len(levels) - 1]) if half.rings and levels[k + 1].rings)
+    walls, inner = DistanceField.of(primitives.rows), RingField.of(levels[k + 1].rings, 0).field
+    gaps = DistanceField.of(
+        np.concatenate(
+            [gap.rows for gap in gaps_of(halves[k], RingField(inner, *2 * (np.zeros(0, np.int64),)), radius)]
+        )
+    )
+    low, high = gaps.boxes[:, :2].min(axis=0) - 1, gaps.boxes[:, 2:].max(axis=0) + 1
+    axes = (np.arange(a, b, 0.5) for a, b in zip(low, high, strict=True))
+    first = np.stack(np.meshgrid(*axes), -1).reshape(-1, 2)
+    squares = np.column_stack([first, np.full(len(first), 0.25)])
+    radii = np.full(len(inner.rows), radius)
+    trees = [part for field in (walls, gaps, inner) for part in (field.rows, field.order, field.nodes)]
+    found, count = runs_kernels.squares_beyond(
+        *trees, radii, widest(radii, inner.order, len(inner.nodes)), np.array([halves[k].distance, smallest]), squares
+    )
+    expected: list[tuple[float, ...]] = []
+    while len(squares):
+        half = squares[:, 2]
+        far = half * math.sqrt(2.0)
+        cut, inside = inner.nearest(squares[:, :2])[0] - radius, walls.nearest(squares[:, :2])[0] - halves[k].distance
+        near = gaps.nearest(squares[:, :2])[0] < np.maximum(inside, 0.0) + 2 * far
+        open_ = (cut > -far) & (inside + far >= 0) & near
+        done = open_ & ((half <= smallest) | ((half <= 4 * smallest) & (cut >= far) & (inside >= far)))
+        expected += map(tuple, squares[done].tolist())
+        more = np.repeat(squares[open_ & ~done], 4, axis=0)
+        turn = np.arange(len(more)) % 4
+        shift = np.column_stack([turn % 2 - 0.5, turn // 2 - 0.5])
+        squares = np.column_stack([more[:, :2] + more[:, 2:] * shift, more[:, 2] / 2])
+    assert count > 100 and sorted(map(tuple, found[:count, :3].tolist())) == sorted(expected)

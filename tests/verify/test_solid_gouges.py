@@ -21,6 +21,7 @@ from app.simulation.field.workpiece import BoxStock
 from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
 from app.verify.parts import SolidPart
 from app.verify.solid_depth import Columns, DepthInSolid
+from app.verify.solid_gouges import APART, apart
 from tests.surfaces.solids import FLOOR, WALL, pocketed_block, stl
 from tests.verify.test_judge import program
 
@@ -282,3 +283,13 @@ def test_the_side_that_two_bodies_touch_in_is_no_surface(turned: bool) -> None:
     assert solid.shells == 1 and judgement is not None and judgement.certificate is not None
     assert judgement.gouge.max_mm == pytest.approx(5.0, abs=1e-4)
     assert 5.0 - 1e-4 <= judgement.certificate.gouge_mm <= 5.5
+
+
+@pytest.mark.parametrize("count", [0, 1, 800])
+def test_places_are_told_apart_as_if_each_were_compared_with_all(count: int) -> None:
+    places = np.random.default_rng(4).uniform(-9.0, 9.0, (count, 2))
+    told: list[int] = []
+    for k in range(count):
+        if all(np.hypot(*(places[k] - places[other])) > APART for other in told):
+            told.append(k)
+    assert apart(places).tolist() == told

@@ -9,8 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.pool import pool
 from ...model.motion import Floats
 from ..box_tree import box_tree
+
+_BAND = 4096
+"""Segments that are measured by one piece of work: the same ones whatever the machine, as where a search begins can
+tell in the last digits.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +51,14 @@ class TriangleTree:
         """
         from .nearest_kernels import deepest
 
-        out = np.empty(len(segments))
-        deepest(self.boxes, self.triangles, np.ascontiguousarray(segments), np.ascontiguousarray(known), fine, out)
+        segments, known, out = np.ascontiguousarray(segments), np.ascontiguousarray(known), np.empty(len(segments))
+
+        def measure(first: int) -> None:
+            band = slice(first, first + _BAND)
+            deepest(self.boxes, self.triangles, segments[band], known[band], fine, out[band])
+
+        firsts = range(0, len(segments), _BAND)
+        list(map(measure, firsts) if len(firsts) < 2 else pool().map(measure, firsts))
         return out
 
     def tops(self, points: Floats) -> Floats:
