@@ -27,7 +27,7 @@ from .shown_cut import ShownCut
 _ROLES = {Level.OK: "ok", Level.BAD: "error", Level.REMARK: "warning", Level.NONE: ""}
 _TEXT_PX, _LEAST_LIST_PX, _ROOM_PX = 100, 112, 700
 
-_TITLE_PX = 210
+_TITLE_PX = 230
 """So wide a place's title is shown whole; the words of where it lies give way first."""
 
 
