@@ -68,7 +68,7 @@ class Badge(QPushButton):
         """Paint the button with as much of its line as fits."""
         option = QStyleOptionButton()
         self.initStyleOption(option)
-        option.text = self.fitting(self.width() - (self.sizeHint().width() - self._width_of(self.text())))  # type: ignore[attr-defined]
+        option.text = self.fitting(self.width() - (self.sizeHint().width() - self._width_of(self.text())))
         QStylePainter(self).drawControl(QStyle.ControlElement.CE_PushButton, option)
 
     def fitting(self, width: int) -> str:
