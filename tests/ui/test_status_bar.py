@@ -2,6 +2,8 @@
 
 import pytest
 
+from app.ui.framework.verdict import Level, Verdict
+from app.ui.shell.badge import Badge
 from app.ui.shell.status_bar import StatusBar
 
 
@@ -24,3 +26,26 @@ def test_what_goes_on_in_the_background_is_told_while_no_job_tells_of_itself(bar
     assert bar.waiting.isVisible() and bar.waiting.text() == "Compiling: 4 of 9"
     bar.show_waiting("")
     assert not bar.waiting.isVisible()
+
+
+@pytest.mark.parametrize(("room", "shown"), [(1.0, 5), (0.9, 3), (0.6, 2)])
+def test_where_room_is_short_the_badge_leaves_out_whole_parts(qtbot, room, shown):
+    badge = Badge()
+    qtbot.addWidget(badge)
+    parts = ["✓ 0 gouge", "0 left", "15 places out of reach", "2 strokes", "4:12"]
+    badge.show_verdict(Verdict(Level.OK, " · ".join(parts)))
+    fits = badge.fitting(round(room * badge.fontMetrics().horizontalAdvance(badge.text())))
+    assert fits.removesuffix(" · …").split(" · ") == parts[:shown]
+    assert fits.endswith("…") is (shown < 5)
+    assert badge.text() == " · ".join(parts), "what is read aloud and told by the tip is all of it"
+    assert badge.minimumSizeHint().width() < badge.sizeHint().width()
+
+
+def test_a_place_far_out_is_not_cut_off(qtbot):
+    bar = StatusBar()
+    qtbot.addWidget(bar)
+    bar.show_place(-123456.789, 0.0)
+    assert bar.place_x.sizeHint().width() <= bar.place_x.maximumWidth()
+    bar.resize(1280, 34)
+    bar.show()
+    assert bar.place_x.width() >= bar.place_x.fontMetrics().horizontalAdvance("X -123456.789")

@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, Qt, QTimer, Signal
-from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QPaintEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QStyle,
+    QStyleOptionButton,
+    QStylePainter,
+    QVBoxLayout,
+    QWidget,
+)
 
 from ...model.finding import Finding
 from ..framework.fields import restyle
@@ -15,10 +26,15 @@ from ..framework.verdict import Level, Verdict, finding_level, short, worst_firs
 _TURN = "◐◓◑◒"
 _TURN_MS = 150
 _TEXT_PX, _BUTTON_PX = 472, 24
+_LEAST_PX = 120
+_PART = " · "
 
 
 class Badge(QPushButton):
-    """The product in one line: grey, turning, green with figures, or the worst finding."""
+    """The product in one line: grey, turning, green with figures, or the worst finding.
+
+    Where room is short, whole parts of the line give way, the last ones first; the tool tip has them all.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -35,7 +51,7 @@ class Badge(QPushButton):
     def show_verdict(self, verdict: Verdict) -> None:
         """Show a verdict that stands."""
         self._timer.stop()
-        self.setToolTip(verdict.tip)
+        self.setToolTip("\n".join(filter(None, (verdict.text if _PART in verdict.text else "", verdict.tip))))
         self._show(verdict.level, verdict.text)
 
     def show_running(self) -> None:
@@ -43,6 +59,29 @@ class Badge(QPushButton):
         if not self._timer.isActive():
             self._timer.start()
             self._advance()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Room for the first words."""
+        return QSize(_LEAST_PX, super().minimumSizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the button with as much of its line as fits."""
+        option = QStyleOptionButton()
+        self.initStyleOption(option)
+        option.text = self.fitting(self.width() - (self.sizeHint().width() - self._width_of(self.text())))
+        QStylePainter(self).drawControl(QStyle.ControlElement.CE_PushButton, option)
+
+    def fitting(self, width: int) -> str:
+        """Return as much of the line as fits in a width, px."""
+        parts = self.text().split(_PART)
+        for count in range(len(parts), 0, -1):
+            text = _PART.join(parts[:count]) + ("" if count == len(parts) else f"{_PART}…")
+            if self._width_of(text) <= width:
+                return text
+        return self.fontMetrics().elidedText(parts[0], Qt.TextElideMode.ElideRight, width)
+
+    def _width_of(self, text: str) -> int:
+        return self.fontMetrics().horizontalAdvance(text)
 
     def _advance(self) -> None:
         self._turn = (self._turn + 1) % len(_TURN)

@@ -40,7 +40,7 @@ class StatusBar(QWidget):
         self.message = Elided(role="muted")
         self.waiting = muted()
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.bar, self.step = QProgressBar(), muted()
+        self.bar, self.step = QProgressBar(), Elided(role="muted")
         self.cancel = IconButton("cancel", "Cancel the job (Esc)")
         self.badge = Badge()
         self._lay_out()
@@ -62,7 +62,7 @@ class StatusBar(QWidget):
         row.setContentsMargins(16, 0, 8, 0)
         row.setSpacing(8)
         for label in (self.place_x, self.place_y):
-            label.setFixedWidth(label.fontMetrics().horizontalAdvance("X -999.999"))
+            label.setMinimumWidth(label.fontMetrics().horizontalAdvance("X -999.999"))
             row.addWidget(label)
         row.addWidget(self.unit)
         row.addSpacing(4)
@@ -125,3 +125,4 @@ class StatusBar(QWidget):
         self.waiting.setVisible(fraction is None and bool(self.waiting.text()))
         self.bar.setValue(round(1000 * (fraction or 0.0)))
         self.step.setText(text)
+        self.step.setToolTip(text)

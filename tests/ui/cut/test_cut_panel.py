@@ -5,10 +5,12 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 
+from app.ui.framework.labels import Elided
 from app.ui.framework.verdict import Level, Verdict
 from app.ui.framework.view import View
 from app.ui.views.cut.colouring import CutColour
-from app.ui.views.cut.entries import EntryColour
+from app.ui.views.cut.cut_panel import CutPanel
+from app.ui.views.cut.entries import Entry, EntryColour
 from tests.ui.cut.real_cut import real_shown
 
 WAIT_MS = 20_000
@@ -29,6 +31,22 @@ def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(beside):
     assert "mm²" in window.cut_panel.histogram.sums.text()
     beside.showing.show_view(View.DRAW)
     assert window.panel.isVisible() and not window.cut_panel.isVisible()
+
+
+def test_what_is_wrong_is_read_whole_and_where_gives_way(qtbot):
+    panel = CutPanel()
+    qtbot.addWidget(panel)
+    titles = ("Shank in metal, 12.500 deep", "Rapid through metal, 2.000 deep")
+    panel.entries = tuple(
+        Entry(title, "A sentence.", EntryColour.ACCIDENT, True, (112.3, 4.5, -1.0), line=1234) for title in titles
+    )
+    panel._fill()
+    panel.resize(panel.maximumWidth(), 600)
+    panel.show()
+    for row, title in zip(panel.rows, titles, strict=True):
+        named, where = row.findChildren(Elided)
+        assert named.text() == title and named.width() >= named.fontMetrics().horizontalAdvance(title)
+        assert where.width() < where.sizeHint().width() and where.text() in row.toolTip()
 
 
 def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):

@@ -13,7 +13,7 @@ from ....core.tolerances import WELD
 from ....drafting.expressions.words import ids_text, name_text, number_text, point_text
 from ....model.curves import Curve, Line, Point
 from .drawing_tool import Desk, DrawingTool, Pick, Preview, Want
-from .value_boxes import Box, PointBoxes, Quantity, ValueBox
+from .value_boxes import NamedValue, PointBoxes, ValueBox, ValueKind
 
 MOST_SHOWN = 400
 """Of a larger selection so many curves, evenly spread, are shown at their new places before a click."""
@@ -37,7 +37,7 @@ class Ask:
     prompt: str
     wants: Want = Want.POINT
     measure: Callable[[Sequence[Answer], Point], float] | None = None
-    boxes: PointBoxes | Box | None = None
+    boxes: PointBoxes | NamedValue | None = None
     sets: str = ""
     optional: bool = False
 
@@ -124,7 +124,11 @@ class AskingTool(DrawingTool):
         """Whether the number that is asked for is a length."""
         word = self.setting or self.ask.sets
         asked = self.ask.boxes
-        return word not in self.no_lengths if word else not isinstance(asked, Box) or asked.quantity is Quantity.LENGTH
+        return (
+            word not in self.no_lengths
+            if word
+            else not isinstance(asked, NamedValue) or asked.quantity is ValueKind.LENGTH
+        )
 
     @property
     def boxes(self) -> PointBoxes | ValueBox | None:
@@ -132,17 +136,17 @@ class AskingTool(DrawingTool):
         asked, measure = self.ask.boxes, self.ask.measure
         if self.setting or self.wants not in (Want.POINT, Want.EITHER):
             return None
-        if isinstance(asked, Box):
+        if isinstance(asked, NamedValue):
             return ValueBox(asked, partial(measure, tuple(self.answers)) if measure is not None else None)
         return asked or super().boxes
 
     @property
-    def number_boxes(self) -> Mapping[str, Box]:
+    def number_boxes(self) -> Mapping[str, NamedValue]:
         """The number that is asked for, else all of the tool; none while it asks for curves to be selected or words."""
         if self.wants in (Want.SELECTION, Want.WORDS):
             return {}
         return {
-            word: Box(self.box_names.get(word, word.capitalize()), self._quantity(word))
+            word: NamedValue(self.box_names.get(word, word.capitalize()), self._quantity(word))
             for word in ([self.setting] if self.setting else self.numbers)
         }
 
@@ -155,10 +159,10 @@ class AskingTool(DrawingTool):
         """Return a number of the tool."""
         return self.value(word)
 
-    def _quantity(self, word: str) -> Quantity:
+    def _quantity(self, word: str) -> ValueKind:
         if isinstance(self.numbers[word], int):
-            return Quantity.COUNT
-        return Quantity.ANGLE if word in self.no_lengths else Quantity.LENGTH
+            return ValueKind.COUNT
+        return ValueKind.ANGLE if word in self.no_lengths else ValueKind.LENGTH
 
     def shown(self, word: str) -> str:
         """Return a number of the tool as it is shown."""

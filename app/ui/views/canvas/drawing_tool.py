@@ -13,7 +13,7 @@ from ....core.tolerances import WELD
 from ....drafting.difference import Difference
 from ....drafting.document import Document
 from ....model.curves import Arc, Curve, Line, Point
-from .value_boxes import PLACE, SPAN, Box, PointBoxes, ValueBox
+from .value_boxes import PLACE, SPAN, NamedValue, PointBoxes, ValueBox
 
 
 class Want(Enum):
@@ -92,7 +92,7 @@ class DrawingTool:
         return SPAN if self.base is not None else PLACE
 
     @property
-    def number_boxes(self) -> Mapping[str, Box]:
+    def number_boxes(self) -> Mapping[str, NamedValue]:
         """The numbers of the tool that can be typed now, by their words."""
         return {}
 

@@ -14,7 +14,7 @@ from ....drafting.curves.shapes import rectangle
 from ....model.curves import Curve, Point
 from .asking import Answer, Ask, AskingTool, answer_text, distance_aside, distance_from, point_of
 from .drawing_tool import Desk, Pick, Preview, Want
-from .value_boxes import ANGLE, SIZE, SPAN, Box, PointBoxes, ValueBox, direction
+from .value_boxes import ANGLE, SIZE, SPAN, NamedValue, PointBoxes, ValueBox, direction
 
 
 def _radius_through(answers: Sequence[Answer], point: Point) -> float:
@@ -36,7 +36,7 @@ class ArcRadiusTool(AskingTool):
     asks = (
         Ask("start point"),
         Ask("end point"),
-        Ask("radius, or a point on the arc", measure=_radius_through, boxes=Box("Radius")),
+        Ask("radius, or a point on the arc", measure=_radius_through, boxes=NamedValue("Radius")),
     )
 
     def follow(self, cursor: Point) -> None:
@@ -96,7 +96,11 @@ class RoundRectangleTool(AskingTool):
     asks = (
         Ask("first corner"),
         Ask("opposite corner, or @width,height", boxes=SIZE),
-        Ask("radius of the corners, or a point as far from the corner", measure=distance_from(1), boxes=Box("Radius")),
+        Ask(
+            "radius of the corners, or a point as far from the corner",
+            measure=distance_from(1),
+            boxes=NamedValue("Radius"),
+        ),
     )
     form = "rect {0} {1} round {2}"
 
@@ -142,7 +146,7 @@ class SlotTool(AskingTool):
         Ask(
             "width, or a point on its side",
             measure=lambda answers, point: 2 * distance_aside(answers, point),
-            boxes=Box("Width"),
+            boxes=NamedValue("Width"),
         ),
     )
     form = "slot {0} {1} {2}"
@@ -156,7 +160,7 @@ class EllipseTool(AskingTool):
     asks = (
         Ask("centre"),
         Ask("end of a half axis", boxes=SPAN.named("Half axis")),
-        Ask("the other half axis, or a point as far", measure=distance_aside, boxes=Box("Half axis")),
+        Ask("the other half axis, or a point as far", measure=distance_aside, boxes=NamedValue("Half axis")),
     )
     form = "ellipse {0} {1} {2}"
 

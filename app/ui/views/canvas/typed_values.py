@@ -10,35 +10,35 @@ from ....model.curves import Point
 from .aim import tidy
 from .asking import AskingTool
 from .drawing_tool import DrawingTool
-from .value_boxes import Box, Held, PointBoxes, Quantity, ValueBox
+from .value_boxes import Held, NamedValue, PointBoxes, ValueBox, ValueKind
 
 ORIGIN: Point = (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ValueRow:
     """One of the boxes of a question.
 
     Attributes:
         word: of the number of the tool that it changes, or "". part: else which value of the answer it is.
     """
 
-    box: Box
+    box: NamedValue
     word: str = ""
     part: int = 0
 
     @property
     def is_length(self) -> bool:
         """Whether it takes a length."""
-        return self.box.quantity is Quantity.LENGTH
+        return self.box.quantity is ValueKind.LENGTH
 
 
-def rows_of(tool: DrawingTool) -> tuple[Row, ...]:
+def rows_of(tool: DrawingTool) -> tuple[ValueRow, ...]:
     """Return the boxes of a tool's question, in the order of Tab: first what a number alone means."""
     boxes = tool.boxes
     asked = boxes.boxes if isinstance(boxes, PointBoxes) else (boxes.box,) if isinstance(boxes, ValueBox) else ()
-    answer = tuple(Row(box, part=part) for part, box in enumerate(asked))
-    numbers = tuple(Row(box, word) for word, box in tool.number_boxes.items())
+    answer = tuple(ValueRow(box, part=part) for part, box in enumerate(asked))
+    numbers = tuple(ValueRow(box, word) for word, box in tool.number_boxes.items())
     return (*numbers, *answer) if tool.numbers_first else (*answer, *numbers)
 
 
@@ -97,7 +97,7 @@ class TypedValues:
             return next((part for part, value in enumerate(self._values(boxes)) if value is None), None)
         return boxes.open(base, base if pointer is None else pointer, self._values(boxes))
 
-    def shown(self, tool: DrawingTool, row: Row, pointer: Point) -> float | None:
+    def shown(self, tool: DrawingTool, row: ValueRow, pointer: Point) -> float | None:
         """Return what a box shows, in mm, degrees or as it is; None where that is open."""
         if isinstance(tool, AskingTool) and row.word:
             return tool.number_shown(row.word, pointer)
@@ -111,10 +111,10 @@ class TypedValues:
             return None
         return boxes.values(tool.base or ORIGIN, answer)[row.part]
 
-    def refused(self, tool: DrawingTool, row: Row, value: float) -> str:
+    def refused(self, tool: DrawingTool, row: ValueRow, value: float) -> str:
         """Return why a box cannot take a value, or ""."""
         name, boxes = row.box.name, tool.boxes
-        if row.box.quantity is Quantity.COUNT and (value != int(value) or value < 1):
+        if row.box.quantity is ValueKind.COUNT and (value != int(value) or value < 1):
             return f"{name} is {value:g}; use a whole number from 1."
         if row.word or not isinstance(boxes, PointBoxes) or boxes.zero:
             return ""

@@ -14,7 +14,7 @@ Held = Sequence[float | None]
 """A value for each box of a question; None where the pointer sets it."""
 
 
-class Quantity(Enum):
+class ValueKind(Enum):
     """What a box counts: mm, degrees, whole numbers from 1, or times."""
 
     LENGTH = auto()
@@ -24,11 +24,11 @@ class Quantity(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class NamedValue:
     """One value: its name, in English, and what it counts."""
 
     name: str
-    quantity: Quantity = Quantity.LENGTH
+    quantity: ValueKind = ValueKind.LENGTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class PointBoxes:
         either: the boxes are one value said in several ways, so that one that is typed replaces another.
     """
 
-    boxes: tuple[Box, ...]
+    boxes: tuple[NamedValue, ...]
     values: Callable[[Point, Point], Held]
     point: Callable[[Point, Point, Held], Point]
     quiet: bool = False
@@ -78,7 +78,7 @@ class ValueBox:
         measure: the value that a point means, None where a point means something else.
     """
 
-    box: Box
+    box: NamedValue
     measure: Callable[[Point], float] | None = None
 
 
@@ -151,22 +151,24 @@ def _radius_point(base: Point, pointer: Point, held: Held) -> Point:
     return along(base, pointer, length) if math.dist(base, pointer) >= WELD else (base[0] + length, base[1])
 
 
-ANGLE = Box("Angle", Quantity.ANGLE)
-FACTOR = Box("Factor", Quantity.FACTOR)
+ANGLE = NamedValue("Angle", ValueKind.ANGLE)
+FACTOR = NamedValue("Factor", ValueKind.FACTOR)
 
-PLACE = PointBoxes((Box("X"), Box("Y")), lambda base, pointer: pointer, _place_point, quiet=True, zero=True)
+PLACE = PointBoxes(
+    (NamedValue("X"), NamedValue("Y")), lambda base, pointer: pointer, _place_point, quiet=True, zero=True
+)
 """Coordinates, where there is nothing yet to start from."""
 
-SPAN = PointBoxes((Box("Length"), ANGLE), _span_values, _span_point)
+SPAN = PointBoxes((NamedValue("Length"), ANGLE), _span_values, _span_point)
 """How far and in which direction from the point before."""
 
-SIZE = PointBoxes((Box("Width"), Box("Height")), _size_values, _size_point)
+SIZE = PointBoxes((NamedValue("Width"), NamedValue("Height")), _size_values, _size_point)
 """Across and up, on the pointer's side of the point before."""
 
-STEP = PointBoxes((Box("Step across"), Box("Step up")), _step_values, _step_point, zero=True)
+STEP = PointBoxes((NamedValue("Step across"), NamedValue("Step up")), _step_values, _step_point, zero=True)
 """Across and up with their signs."""
 
-RADIUS = PointBoxes((Box("Radius"), Box("Diameter")), _radius_values, _radius_point, either=True)
+RADIUS = PointBoxes((NamedValue("Radius"), NamedValue("Diameter")), _radius_values, _radius_point, either=True)
 """The radius of a circle round the point before, or its diameter."""
 
 
@@ -192,4 +194,4 @@ def sweep(centre: Point, start: Point, turn: float) -> PointBoxes:
         radius, end = math.dist(centre, start), first + sense * math.radians(angle)
         return (centre[0] + radius * math.cos(end), centre[1] + radius * math.sin(end))
 
-    return PointBoxes((Box("Sweep", Quantity.ANGLE),), values, point)
+    return PointBoxes((NamedValue("Sweep", ValueKind.ANGLE),), values, point)

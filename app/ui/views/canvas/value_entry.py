@@ -15,8 +15,8 @@ from ...framework.figures import TIMES, grouped
 from .asking import AskingTool
 from .drawing_tool import DrawingTool, length_label
 from .running import ToolRunner
-from .typed_values import ORIGIN, Row, rows_of
-from .value_boxes import Quantity
+from .typed_values import ORIGIN, ValueRow, rows_of
+from .value_boxes import ValueKind
 
 _BEGINS = frozenset("0123456789.+-(@")
 """What a value begins with; anything else is a word, which the command line takes."""
@@ -56,7 +56,7 @@ class ValueEntry:
     def __init__(self, runner: ToolRunner, line: QLineEdit) -> None:
         """Begin with nothing typed; `line` edits the text and is never shown."""
         self._runner, self._line = runner, line
-        self.row: Row | None = None
+        self.row: ValueRow | None = None
         self.wrong = self.doubt = ""
         self.pointer: Point | None = None
         self.size = 0.0
@@ -64,7 +64,7 @@ class ValueEntry:
         self._question: tuple[object, ...] = ()
 
     @property
-    def rows(self) -> tuple[Row, ...]:
+    def rows(self) -> tuple[ValueRow, ...]:
         """The boxes of the question now."""
         return rows_of(self._runner.tool) if self._runner.tool is not None else ()
 
@@ -167,7 +167,7 @@ class ValueEntry:
         quiet = getattr(boxes, "quiet", False) and not self.editing and self._runner.typed.free
         return [self._shown(tool, row) for row in self.rows if row.word or not quiet]
 
-    def _shown(self, tool: DrawingTool, row: Row) -> RowShown:
+    def _shown(self, tool: DrawingTool, row: ValueRow) -> RowShown:
         unit, held = self._unit(row), self._is_held(row)
         if row == self.row and self._line.text():
             return RowShown(row.box.name, self._line.text(), unit, held, self._line.cursorPosition())
@@ -175,26 +175,26 @@ class ValueEntry:
         text = "" if value is None else self._text(row, value)
         return RowShown(row.box.name, text, unit, held, 0 if row == self.row else None)
 
-    def _is_held(self, row: Row) -> bool:
+    def _is_held(self, row: ValueRow) -> bool:
         return row.word in self._before if row.word else row.part in self._runner.typed.held
 
-    def _unit(self, row: Row) -> str:
+    def _unit(self, row: ValueRow) -> str:
         inch = self._runner.unit != 1.0
-        names = {Quantity.LENGTH: "in" if inch else "mm", Quantity.ANGLE: "\u00b0", Quantity.FACTOR: TIMES}
+        names = {ValueKind.LENGTH: "in" if inch else "mm", ValueKind.ANGLE: "\u00b0", ValueKind.FACTOR: TIMES}
         return names.get(row.box.quantity, "")
 
-    def _text(self, row: Row, value: float) -> str:
+    def _text(self, row: ValueRow, value: float) -> str:
         match row.box.quantity:
-            case Quantity.LENGTH:
+            case ValueKind.LENGTH:
                 return length_label(value, self._runner.unit).removesuffix(" in")
-            case Quantity.ANGLE:
+            case ValueKind.ANGLE:
                 return f"{value:.2f}"
-            case Quantity.COUNT:
+            case ValueKind.COUNT:
                 return f"{value:.0f}"
-            case Quantity.FACTOR:
+            case ValueKind.FACTOR:
                 return f"{value:.4f}"
 
-    def _go_to(self, row: Row) -> None:
+    def _go_to(self, row: ValueRow) -> None:
         self.row, self.wrong, self.doubt = row, "", ""
         self._line.clear()
 
@@ -219,7 +219,7 @@ class ValueEntry:
         if self.wrong:
             self._forget(row)
 
-    def _hold(self, tool: DrawingTool, row: Row, value: float | Point) -> str:
+    def _hold(self, tool: DrawingTool, row: ValueRow, value: float | Point) -> str:
         """Hold a value, or a whole point; return why not, or ""."""
         typed = self._runner.typed
         if isinstance(value, tuple):
@@ -238,7 +238,7 @@ class ValueEntry:
             typed.hold(tool, row.part, value)
         return ""
 
-    def _forget(self, row: Row) -> None:
+    def _forget(self, row: ValueRow) -> None:
         """Leave a box to the pointer again, or to what stood there."""
         if not row.word:
             self._runner.typed.release(row.part)
@@ -276,7 +276,7 @@ class ValueEntry:
             value = self._runner.typed.held.get(row.part) if not row.word else None
             if row.word in self._before and isinstance(tool, AskingTool):
                 value = tool.value(row.word)
-            if value is not None and row.box.quantity is Quantity.COUNT and value > _MANY:
+            if value is not None and row.box.quantity is ValueKind.COUNT and value > _MANY:
                 return f"{row.box.name} {grouped(value, 0)}? Enter again takes it."
             if value is not None and row.is_length:
                 lengths.append(abs(value))

@@ -41,7 +41,7 @@ HINT_OF_ONE = "Enter: done"
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class SheetLine:
     """A line under the boxes: what it says, whether it is an error or a doubt."""
 
     text: str
@@ -54,19 +54,19 @@ class ValueSheet:
     """What stands on the sheet."""
 
     rows: tuple[RowShown, ...]
-    words: tuple[Words, ...]
+    words: tuple[SheetLine, ...]
 
     @staticmethod
     def of(entry: ValueEntry, words: Sequence[str]) -> ValueSheet:
         """Return what an entry shows, and words beside it."""
         rows = tuple(entry.shown())
-        lines = [Words(tr(line)) for text in words for line in text.split("\n") if line]
+        lines = [SheetLine(tr(line)) for text in words for line in text.split("\n") if line]
         if entry.wrong:
-            lines = [Words(tr(entry.wrong), wrong=True)]
+            lines = [SheetLine(tr(entry.wrong), wrong=True)]
         elif entry.doubt:
-            lines = [Words(tr(entry.doubt), doubtful=True)]
+            lines = [SheetLine(tr(entry.doubt), doubtful=True)]
         elif entry.editing:
-            lines.append(Words(tr(HINT if len(rows) > 1 else HINT_OF_ONE)))
+            lines.append(SheetLine(tr(HINT if len(rows) > 1 else HINT_OF_ONE)))
         return ValueSheet(rows, tuple(lines))
 
 

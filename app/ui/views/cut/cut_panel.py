@@ -27,6 +27,9 @@ from .shown_cut import ShownCut
 _ROLES = {Level.OK: "ok", Level.BAD: "error", Level.REMARK: "warning", Level.NONE: ""}
 _TEXT_PX, _LEAST_LIST_PX, _ROOM_PX = 100, 112, 700
 
+_TITLE_PX = 230
+"""So wide a place's title is shown whole; the words of where it lies give way first."""
+
 
 class Dot(QWidget):
     """A spot of an entry's colour; a ring for what is out of reach."""
@@ -236,8 +239,10 @@ class CutPanel(QWidget):
         dot.set_theme(self._theme)
         title = _Title(entry.title)
         title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        row = Row(dot, title, muted(entry.words), stretch_after=-1, wide=1)
-        row.setToolTip(entry.sentence)
+        title.setMinimumWidth(min(title.sizeHint().width(), _TITLE_PX))
+        where = Elided(entry.words, role="muted")
+        row = Row(dot, title, where, stretch_after=-1, wide=1)
+        row.setToolTip(f"{entry.sentence}\n{entry.words}".strip())
         row.setAccessibleName(f"{entry.title}, {entry.words}")
         row.clicked.connect(partial(self.choose, entry))
         row.stepped.connect(partial(self._step, entry))
