@@ -23,6 +23,8 @@ from .allowed import TAPPING
 from .near_arcs import near_arcs
 from .sheet import Sheet
 
+LARGEST_RADIUS = 10_000.0
+"""mm; flatter arcs of a spline are lines."""
 _ARC_STEPS = 2.0
 """A written arc may be so many steps of the last decimal from the meant one."""
 _SAME = 1e-9
@@ -155,7 +157,8 @@ class Mover:
         sheet, state = self._sheet, self._sheet.modal
         feed = sheet.feed_word(step, self._feed)
         own = replace(state, arc_absolute=sheet.post.arcs.centre is ArcCentre.ABSOLUTE)
-        motions = near_arcs(self._motions.splines[row], 10.0 ** -self._digits("X") * self._unit)
+        largest = min(sheet.post.arcs.largest_radius_mm, LARGEST_RADIUS)
+        motions = near_arcs(self._motions.splines[row], 10.0 ** -self._digits("X") * self._unit, largest)
         if not state.absolute:
             sheet.emit("G90")
         for block in curve_blocks(motions, Spelling(sheet.post, own, feed.removeprefix("F"), resumed=True)):

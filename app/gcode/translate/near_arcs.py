@@ -16,11 +16,12 @@ _FIRST, _MOST = 64, 1 << 17
 """Points that are begun with, and never more."""
 
 
-def near_arcs(spline: Nurbs, step: float) -> Motions:
+def near_arcs(spline: Nurbs, step: float, largest: float) -> Motions:
     """Return lines and arcs along a spline.
 
     Args:
         step: the last decimal, mm; what is made is proven when it is read back.
+        largest: radius of an arc of the control, mm; what is flatter is a line.
     """
     count = _FIRST
     points = spline_points(spline, 2 * count + 1)
@@ -28,7 +29,7 @@ def near_arcs(spline: Nurbs, step: float) -> Motions:
         count *= 2
         points = spline_points(spline, 2 * count + 1)
     far = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
-    return fit_arcs(points[far], ArcOptions(_NEAR * step, math.pi / 6)).motions
+    return fit_arcs(points[far], ArcOptions(_NEAR * step, math.pi / 6, largest)).motions
 
 
 def _sag(points: np.ndarray) -> float:

@@ -86,6 +86,8 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
     optional = _optional(source)
     written = replace(read, block_delete=read.block_delete and not optional)
     program, steps = read_steps(data, written, progress.part(0.0, 0.3))
+    if program.error is not None:
+        raise InputError(f"{program.error.told(name)} Mend it there; check tells more.")
     made = _written(source, program, steps, (optional, progress.part(0.3, 0.5)))
     own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits)
     after = read_program(made, own, progress.part(0.5, 0.6))
