@@ -19,6 +19,7 @@ from app.ui.shell.wiring import Wiring
 from app.ui.views.canvas.modes import CanvasTool, ColourBy
 from app.ui.views.canvas.view import View as CanvasView
 from app.ui.views.cut.colouring import CutColour
+from app.usecases.smooth import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)
@@ -114,11 +115,11 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     window.worker.finish(20.0)
     _forget_changes(wiring)
     window.canvas.cancel()
+    window.document.load(empty.job)
+    wiring.computation.forget()
     if wiring.nc.foreign:
         wiring.nc.back()
     wiring.cutting.back()
-    window.document.load(empty.job)
-    wiring.computation.forget()
     window.notice.ask("")
     window.notice.hide()
     window.command_line.edit.clear()
@@ -151,12 +152,14 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
 def _prepared_when_shown(wiring: Wiring) -> tuple[object, ...]:
     """Return what nobody sees in a new window, and what is filled with what is shown before anybody does."""
     window, views = wiring.window_, wiring.window_.views
-    cut, reading = views.cut, window.drawing_page.reading
+    cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
     return (
         *(views.nc.path, views.curves.path),
         *(cut, cut.model, cut.painting, cut.playing, cut.overlay, cut.legend.key, window.cut_panel.histogram),
         *(reading.per_inch, reading.only, reading.layers, reading.types),
-        wiring.files,
+        *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing),
+        *window.cut_form.stock,
+        *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
     )
 
 
@@ -166,11 +169,16 @@ def _empty_what_is_hidden(wiring: Wiring) -> None:
     window.drawing_page.reading.units.set_choices([])
     window.drawing_page.reading.layout_.set_choices([("", MODEL_SPACE)])
     window.views.cut.legend.colour.set_choices(_COLOURS)
-    histogram = window.cut_panel.histogram
-    if histogram._plot is not None:
-        histogram._plot.setParent(None)
-        histogram._plot.deleteLater()
-        histogram._plot = None
+    window.curves_panel.show_options(SmoothOptions(), {})
+    window.curves_panel.points._fill()
+    window.views.curves.comb.setChecked(False)
+    window.curves_panel.figures.clear()
+    window.views.curves.deviation._cursor = None
+    for holder in (window.cut_panel.histogram, window.views.curves.deviation):
+        if holder._plot is not None:
+            holder._plot.setParent(None)
+            holder._plot.deleteLater()
+            holder._plot = None
     window.findings_list._clear()
     window.findings_list._layers = frozenset()
     card = window.card

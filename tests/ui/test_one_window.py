@@ -44,7 +44,7 @@ def hide_the_menus(wiring: Wiring) -> None:
 
 
 def remember_something(wiring: Wiring) -> None:
-    wiring.files._given_up = "whatever"
+    wiring.unit_choice._told_of = "whatever"
 
 
 def change_a_label(wiring: Wiring) -> None:

@@ -106,6 +106,8 @@ def _walk(wiring: Wiring) -> Iterator[tuple[str, object]]:
             seen.add(id(value))
             if isinstance(value, QWidget) and value.parent() is None:
                 yield from _shown(way, value)
+            if isinstance(value, QAbstractButton) and value.isCheckable():  # a form's choice is none of its attributes
+                yield f"{way} checked", value.isChecked()
             waiting.extend((way + step, part) for step, part in _parts(value))
 
 
@@ -134,7 +136,7 @@ def _parts(value: object) -> Iterator[tuple[str, object]]:
     if sort is _Sort.MAPPING:
         yield ".len", len(value)
         for key, part in value.items():
-            name = key if isinstance(key, str | int | enum.Enum) else type(key).__name__
+            name = key if isinstance(key, str | int | float | enum.Enum) else type(key).__name__
             yield f"[{name}]", part
     elif sort is _Sort.LIST or isinstance(value, tuple):
         yield ".len", len(value)
