@@ -1,5 +1,6 @@
 """What all tests share: no screen, folders of their own, and where the data is."""
 
+import gc
 import itertools
 import math
 import os
@@ -21,6 +22,14 @@ pytest_plugins = ("tests.parallel", "tests.exhaustive")
 settings.register_profile("quick", derandomize=True, max_examples=examples(100), deadline=None)
 settings.register_profile("full", derandomize=True, deadline=None)
 settings.load_profile(PROFILE)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish() -> None:
+    """Take what is there now, which is there until the end, from what is looked through for garbage again and again."""
+    gc.collect()
+    gc.freeze()
+
 
 ROOT = Path(__file__).resolve().parent.parent
 

@@ -4,7 +4,8 @@ import ast
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -30,9 +31,32 @@ _Spelling _Spoken _Wish _Work _Writer
 """Names that two classes or more still have; one that is freed goes from here, and none comes in."""
 
 
+@dataclass(frozen=True)
+class Declared:
+    """What a file declares: all its classes, wherever they stand, and what of its public things has no docstring."""
+
+    classes: frozenset[str]
+    silent: tuple[str, ...]
+
+
 @cache
-def tree_of(path: Path) -> ast.Module:
-    return ast.parse(path.read_text("utf-8"), str(path))
+def declared(path: Path) -> Declared:
+    """Read a file; its tree is let go of, since all trees together would make every collection of garbage slow."""
+    tree = ast.parse(path.read_text("utf-8"), str(path))
+    public = (
+        node for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_")
+    )
+    said = [("the module", ast.get_docstring(tree)), *((node.name, ast.get_docstring(node)) for node in public)]
+    classes = frozenset(each.name for each in statements(tree) if isinstance(each, ast.ClassDef))
+    return Declared(classes, tuple(name for name, doc in said if not doc))
+
+
+def statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the statements within a node, at any depth, without their expressions."""
+    for part in ("body", "orelse", "handlers", "finalbody", "cases"):
+        for each in getattr(node, part, ()) if not isinstance(node, ast.expr) else ():
+            yield each
+            yield from statements(each)
 
 
 def offenders(paths: list[Path], rule: Callable[[Path], object]) -> dict[str, object]:
@@ -74,30 +98,14 @@ def test_only_kernel_files_make_kernels() -> None:
 
 
 def test_public_things_say_what_they_are() -> None:
-    def silent(path: Path) -> list[str]:
-        public = (
-            node
-            for node in tree_of(path).body
-            if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_")
-        )
-        return [
-            name
-            for name, doc in [
-                ("the module", ast.get_docstring(tree_of(path))),
-                *((n.name, ast.get_docstring(n)) for n in public),
-            ]
-            if not doc
-        ]
-
-    assert not offenders(FILES, silent)
+    assert not offenders(FILES, lambda path: declared(path).silent)
 
 
 def test_no_two_classes_have_one_name() -> None:
     places: dict[str, set[Path]] = {}
     for path in FILES:
-        for node in ast.walk(tree_of(path)):
-            if isinstance(node, ast.ClassDef):
-                places.setdefault(node.name, set()).add(path)
+        for name in declared(path).classes:
+            places.setdefault(name, set()).add(path)
     twice = {name for name, found in places.items() if len(found) > 1}
     assert not {name: places[name] for name in twice - set(TWICE.split())}, "one word, one class: choose another name"
     assert not set(TWICE.split()) - twice, "these are freed: take them out of TWICE"

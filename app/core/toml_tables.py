@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from difflib import get_close_matches
 from enum import Enum
+from functools import cache
 from typing import Any, TypeVar
 
 from .errors import HitofudeError, InputError
@@ -203,7 +204,7 @@ def tables_of(kind: type[Kind], tree: dict[str, Any], source: tuple[str, bytes],
 
 def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, Range]) -> Any:
     """Make a dataclass of a table, key by key."""
-    hints = typing.get_type_hints(kind)
+    hints = _types_of(kind)
     if typing.get_origin(hints.get("kind")) is typing.ClassVar:
         data = {key: value for key, value in data.items() if key != "kind"}
     for key in data:
@@ -219,6 +220,12 @@ def _table(kind: Any, data: dict[str, Any], place: _Place, ranges: Mapping[str, 
         raise
     except HitofudeError as error:
         raise InputError(f"{place.begin()}: {error}") from error
+
+
+@cache
+def _types_of(kind: Any) -> dict[str, Any]:
+    """Return the type of each field of a dataclass by its name."""
+    return typing.get_type_hints(kind)
 
 
 def _required(each: Field[Any]) -> bool:

@@ -259,7 +259,9 @@ def test_a_program_tells_how_its_drawing_was_read(options: list[str], units: int
     ever was.
     """
     drawing = with_notes(tmp_path / "part.dxf", units, layout)
-    (program,) = made(drawing, tmp_path, *options, "--contour-tool", "4", "--pocket-tool", "6")
+    size = 25 if "in" in options else 1  # tools as large beside the part in any unit
+    tools = ["--contour-tool", f"{4 * size}", "--pocket-tool", f"{6 * size}"]
+    (program,) = made(drawing, tmp_path, *options, *tools)
     assert main(["cut", str(program), "--against", str(drawing), "--quiet", "--grid", "128"]) == 0
     lines = program.read_text().splitlines(keepends=True)
     keys = ("skip_", "to_zero", "layout", "overrule", "drawing_units")

@@ -72,9 +72,14 @@ def written(folder: Path, text: str = BALLS, *options: str, status: int = 1) -> 
     return {"scene": scene, **out}
 
 
-def test_the_table_of_points_has_the_crossings_in_closed_form(tmp_path: Path) -> None:
-    files = written(tmp_path)
-    rows = list(csv.DictReader(io.StringIO(files["csv"].read_text())))
+@pytest.fixture(scope="module")
+def balls(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """The files of the scene as it stands above, which nobody changes."""
+    return written(tmp_path_factory.mktemp("balls"))
+
+
+def test_the_table_of_points_has_the_crossings_in_closed_form(balls: dict[str, Path]) -> None:
+    rows = list(csv.DictReader(io.StringIO(balls["csv"].read_text())))
     on_middle = [row for row in rows if row["kind"] == "crossing" and float(row["y"]) == 10.0]
     between = 14 + (13**2 + 8**2 - 6**2) / 26  # where the spheres' circles meet
     assert [float(row["x"]) for row in on_middle] == pytest.approx([6.0, between, 33.0], abs=1e-9)
@@ -87,8 +92,8 @@ def test_the_table_of_points_has_the_crossings_in_closed_form(tmp_path: Path) ->
     assert {row["kind"] for row in rows} <= {"point", "crossing", "edge", "jump", "tangent"}
 
 
-def test_the_report_tells_what_the_cutter_met_in_closed_form(tmp_path: Path) -> None:
-    data = json.loads(written(tmp_path)["json"].read_text())
+def test_the_report_tells_what_the_cutter_met_in_closed_form(balls: dict[str, Path]) -> None:
+    data = json.loads(balls["json"].read_text())
     assert data["gouge"]["count"] == 0 and data["gouge"]["max_mm"] <= 1e-4
     assert data["rapids_in_material"] == []
     assert [(finding["kind"], finding["counts"]) for finding in data["findings"]] == [
@@ -104,11 +109,10 @@ def test_the_report_tells_what_the_cutter_met_in_closed_form(tmp_path: Path) -> 
     assert sum(surface["moves"] for surface in data["surfaces"]) > 1000
 
 
-def test_the_program_says_where_it_comes_to_another_surface(tmp_path: Path) -> None:
-    files = written(tmp_path)
-    text = files["ngc"].read_text()
+def test_the_program_says_where_it_comes_to_another_surface(balls: dict[str, Path]) -> None:
+    text = balls["ngc"].read_text()
     marks = re.findall(r"\(Surface (\d) (\w+), CR(\d)(\d) crossing at ([-\d.]+) ([-\d.]+) ([-\d.]+)\)", text)
-    told = json.loads(files["json"].read_text())["passes"][0]["path"]["boundary_points"]["crossing"]
+    told = json.loads(balls["json"].read_text())["passes"][0]["path"]["boundary_points"]["crossing"]
     assert len(marks) == told
     for number, name, i, j, *_ in marks:
         assert name == {"1": "table", "2": "large", "3": "small"}[number] and number in (i, j)
@@ -165,9 +169,8 @@ def test_a_loop_without_a_report_is_refused(tmp_path: Path, capsys: pytest.Captu
 
 
 @pytest.mark.exhaustive
-def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(tmp_path: Path) -> None:
-    files = written(tmp_path)
-    lines = files["ngc"].read_text().splitlines()
+def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(balls: dict[str, Path], tmp_path: Path) -> None:
+    lines = balls["ngc"].read_text().splitlines()
     deeper = tmp_path / "deeper.ngc"
     lowered = [
         re.sub(r"Z(-?[\d.]+)", lambda match: f"Z{float(match[1]) - 0.2:.4f}", line)
@@ -179,7 +182,7 @@ def test_a_cut_too_deep_into_a_surface_is_a_gouge_of_that_depth(tmp_path: Path) 
     report = tmp_path / "r.json"
     assert (
         main(
-            ["cut", str(deeper), "--against", str(files["scene"]), "--grid", "300", "--report", str(report), "--quiet"]
+            ["cut", str(deeper), "--against", str(balls["scene"]), "--grid", "300", "--report", str(report), "--quiet"]
         )
         == 1
     )
@@ -218,10 +221,10 @@ def test_the_samples_are_computed_and_proven(tmp_path: Path, name: str) -> None:
     assert read_program(out.read_bytes()).error is None
 
 
-def test_the_same_scene_is_written_the_same_again(tmp_path: Path) -> None:
-    one, other = written(tmp_path / "a" if (tmp_path / "a").mkdir() is None else tmp_path), written(tmp_path)
+def test_the_same_scene_is_written_the_same_again(balls: dict[str, Path], tmp_path: Path) -> None:
+    other = written(tmp_path)
     for name in ("ngc", "csv", "svg"):
-        assert one[name].read_bytes() == other[name].read_bytes()
+        assert balls[name].read_bytes() == other[name].read_bytes()
 
 
 def test_bad_input_is_told_in_a_line_and_nothing_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

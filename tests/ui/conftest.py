@@ -31,12 +31,19 @@ def workspace(qtbot):
     activity.ended.emit()
 
 
-@pytest.fixture(scope="module")
-def one_window(qapp):
-    """The window that a module's tests share as long as none leaves anything behind."""
+@pytest.fixture(scope="session")
+def run_window(qapp):
+    """The window that a run's tests share as long as none leaves anything behind."""
     shared = OneWindow()
     yield shared
     shared.close()
+
+
+@pytest.fixture(scope="module")
+def one_window(run_window):
+    """The shared window, hidden while other modules have theirs."""
+    yield run_window
+    run_window.hide()
 
 
 @pytest.fixture

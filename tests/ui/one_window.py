@@ -1,4 +1,4 @@
-"""One window for the tests of a module: made new after a test that left something behind, used again after one that did
+"""One window for many tests: made new after a test that left something behind, used again after one that did
 not.
 """
 
@@ -12,13 +12,18 @@ from app.core.settings import Settings, ThemeChoice
 from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
 from app.ui.framework.view import View
+from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.panels.reading_section import MODEL_SPACE
 from app.ui.shell.start import build
 from app.ui.shell.wiring import Wiring
-from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.canvas.modes import CanvasTool, ColourBy
 from app.ui.views.canvas.view import View as CanvasView
-from tests.ui.traces import differences, traces
+from app.ui.views.cut.colouring import CutColour
+from app.usecases.smooth import SmoothOptions
+from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)
+_COLOURS = [(colour, colour.value) for colour in CutColour]
 
 
 class OneWindow:
@@ -33,19 +38,24 @@ class OneWindow:
         self.made = 0
         self.left: list[str] = []
         self._wiring: Wiring | None = None
-        self._new: dict[str, object] = {}
+        self._new: dict[str, object] | None = None
         self._view = CanvasView()
+        self._kept: list[tuple[object, dict[str, object]]] = []
 
     def lend(self, qtbot: QtBot) -> Wiring:
         """Return a window as it is when the program starts, shown and active."""
         if self._wiring is None:
+            _undress()
             window, self._wiring = build()
             self.made += 1
             window.resize(*SIZE)
             _activate(qtbot, self._wiring)
-            self._view = window.canvas.view
+            if self._new is None:
+                self._view = window.canvas.view
             reset(self._wiring, self._view)
-            self._new = traces(self._wiring)
+            self._kept = [(owner, fixed_values(owner)) for owner in _prepared_when_shown(self._wiring)]
+            if self._new is None:  # all new windows are alike
+                self._new = traces(self._wiring)
         else:
             _activate(qtbot, self._wiring)
         return self._wiring
@@ -53,18 +63,40 @@ class OneWindow:
     def take_back(self) -> None:
         """Make the window as new for the next test, or else let go of it."""
         wiring = self._wiring
-        if wiring is None:
+        if wiring is None or self._new is None:
             return
         reset(wiring, self._view)
-        self.left = differences(self._new, traces(wiring))
+        self._put_back()
+        self.left = left_in(wiring, self._new)
         if self.left:
             self.close()
+
+    def _put_back(self) -> None:
+        """Let what is prepared anew whenever it is shown hold what it did in the beginning."""
+        for owner, values in self._kept:
+            for name, value in values.items():
+                if getattr(owner, name) is not value:
+                    setattr(owner, name, value)
+
+    def hide(self) -> None:
+        """Take the window out of the way of tests that have none, or one of their own."""
+        if self._wiring is not None:
+            self._wiring.window_.hide()
 
     def close(self) -> None:
         """Let go of the window."""
         wiring, self._wiring = self._wiring, None
         if wiring is not None:
             end(wiring)
+
+
+def _undress() -> None:
+    """Take off the style sheet, as there is none yet when the program builds its window: every widget that is put into
+    another one would have it worked out once more.
+    """
+    application = QApplication.instance()
+    if isinstance(application, QApplication):
+        application.setStyleSheet("")
 
 
 def _activate(qtbot: QtBot, wiring: Wiring) -> None:
@@ -79,15 +111,15 @@ def _activate(qtbot: QtBot, wiring: Wiring) -> None:
 def reset(wiring: Wiring, view: CanvasView) -> None:
     """Leave everything that was opened, drawn, chosen, typed and computed, and look at the canvas as before."""
     window, empty = wiring.window_, Document()
+    wiring.cancel()
     window.worker.finish(20.0)
     _forget_changes(wiring)
-    wiring.cancel()
     window.canvas.cancel()
+    window.document.load(empty.job)
+    wiring.computation.forget()
     if wiring.nc.foreign:
         wiring.nc.back()
     wiring.cutting.back()
-    window.document.load(empty.job)
-    wiring.computation.forget()
     window.notice.ask("")
     window.notice.hide()
     window.command_line.edit.clear()
@@ -98,17 +130,62 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     window.findings_list.hide()
     if window.preferences.settings.theme is not ThemeChoice.SYSTEM:
         window.set_theme_choice(ThemeChoice.SYSTEM)
+    if window.preferences.settings.language is not Settings().language:
+        wiring.translating.choose(Settings().language)
     window.preferences.settings = Settings()
     window.status.show_place(0.0, 0.0)
     wiring.log.lines.clear()
     window.command_line.log.show_lines(wiring.log.lines)
+    window.canvas.set_colour_by(ColourBy.TOOL)
     wiring.showing.show_view(View.DRAW)
+    window.side.show_page("Job")
+    window.panel.choose(Subject(SubjectKind.OPERATION, 0))
     window.views.fade._run.setCurrentTime(FADE_MS)
     window.resize(*SIZE)
     window.status.show_message("Not computed")
+    _empty_what_is_hidden(wiring)
     _settle()
     window.canvas.set_view(view)
     _forget_habits(wiring)
+
+
+def _prepared_when_shown(wiring: Wiring) -> tuple[object, ...]:
+    """Return what nobody sees in a new window, and what is filled with what is shown before anybody does."""
+    window, views = wiring.window_, wiring.window_.views
+    cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
+    return (
+        *(views.nc.path, views.curves.path),
+        *(cut, cut.model, cut.painting, cut.playing, cut.overlay, cut.legend.key, window.cut_panel.histogram),
+        *(reading.per_inch, reading.only, reading.layers, reading.types),
+        *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing),
+        *window.cut_form.stock,
+        *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
+    )
+
+
+def _empty_what_is_hidden(wiring: Wiring) -> None:
+    """Take away what forms and plots that are not seen any more were filled with."""
+    window = wiring.window_
+    window.drawing_page.reading.units.set_choices([])
+    window.drawing_page.reading.layout_.set_choices([("", MODEL_SPACE)])
+    window.views.cut.legend.colour.set_choices(_COLOURS)
+    window.curves_panel.show_options(SmoothOptions(), {})
+    window.curves_panel.points._fill()
+    window.views.curves.comb.setChecked(False)
+    window.curves_panel.figures.clear()
+    window.views.curves.deviation._cursor = None
+    for holder in (window.cut_panel.histogram, window.views.curves.deviation):
+        if holder._plot is not None:
+            holder._plot.setParent(None)
+            holder._plot.deleteLater()
+            holder._plot = None
+    window.findings_list._clear()
+    window.findings_list._layers = frozenset()
+    card = window.card
+    card.hide()
+    card._clear()
+    card.title.setText("")
+    card.text.setText("")
 
 
 def _settle() -> None:

@@ -7,15 +7,18 @@ test.
 
 from __future__ import annotations
 
+import dataclasses
 import enum
 from collections import Counter, deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from itertools import islice
 from pathlib import Path
 from types import FunctionType, MethodType
 
 import numpy as np
 from PySide6.QtCore import QObject
-from PySide6.QtGui import QAction, QColor, QFont
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QAbstractButton,
     QComboBox,
@@ -28,9 +31,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.toml_tables import Worded
 from app.ui.shell.wiring import Wiring
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
+_CODE = {FunctionType, MethodType, type}
 _UNTOLD = {
     "next_id",
     "_next_id",
@@ -43,6 +48,7 @@ _UNTOLD = {
     "_since",
     "job_id",
     "_job_id",
+    "_job",
     "_generation",
     "_taken",
     "_last",  # counters that only ever go on: nothing is decided by where they start
@@ -55,52 +61,110 @@ _UNTOLD = {
 }
 
 
+class _Sort(enum.Enum):
+    """What is looked at of a value, by its type."""
+
+    SIMPLE = "itself"
+    GROUP = "its parts, if any of them can change"
+    MAPPING = "what it holds by keys"
+    LIST = "what it holds in order"
+    SET = "how many it holds"
+    OURS = "its attributes"
+    OTHER = "what Qt shows of it"
+
+
+@cache
+def _sort_of(kind: type) -> _Sort:
+    dataclass = getattr(kind, "__dataclass_params__", None)
+    if issubclass(
+        kind, (*_SIMPLE, Worded, np.ndarray)
+    ):  # arrays are made anew, never written into, once they are shown
+        return _Sort.SIMPLE
+    if issubclass(kind, tuple) or (dataclass is not None and dataclass.frozen and dataclass.eq):
+        return _Sort.GROUP
+    for base, sort in ((Mapping, _Sort.MAPPING), ((list, deque), _Sort.LIST), ((set, frozenset), _Sort.SET)):
+        if issubclass(kind, base):
+            return sort
+    ours = kind.__module__.startswith("app.") and not issubclass(kind, type)
+    return _Sort.OURS if ours else _Sort.OTHER
+
+
 def traces(wiring: Wiring) -> dict[str, object]:
     """Return every value by the way that leads to it, from the wiring and from the window."""
-    seen: dict[int, str] = {}
-    found: dict[str, object] = {}
+    return dict(_walk(wiring))
+
+
+def _walk(wiring: Wiring) -> Iterator[tuple[str, object]]:
+    seen: set[int] = set()
+    fixed: dict[int, bool] = {}
     waiting: deque[tuple[str, object]] = deque([("wiring", wiring), ("window", wiring.window_)])
     while waiting:
         way, value = waiting.popleft()
-        if isinstance(value, _SIMPLE):
-            found[way] = value
+        if _is_fixed(value, fixed):
+            yield way, value
         elif id(value) not in seen:
-            seen[id(value)] = way
-            found.update(_shown(way, value))
-            waiting.extend((f"{way}{step}", part) for step, part in _parts(value))
-    return found
+            seen.add(id(value))
+            if isinstance(value, QWidget) and value.parent() is None:
+                yield from _shown(way, value)
+            if isinstance(value, QAbstractButton) and value.isCheckable():  # a form's choice is none of its attributes
+                yield f"{way} checked", value.isChecked()
+            waiting.extend((way + step, part) for step, part in _parts(value))
+
+
+def fixed_values(owner: object) -> dict[str, object]:
+    """Return those attributes of an object that hold what cannot change, by their names."""
+    known: dict[int, bool] = {}
+    return {name: value for name, value in vars(owner).items() if _is_fixed(value, known)}
+
+
+def _is_fixed(value: object, known: dict[int, bool]) -> bool:
+    """Tell whether nothing about a value can change, so that whoever holds it holds another one or the same; `known`
+    are answers given before.
+    """
+    sort = _sort_of(type(value))
+    if sort is _Sort.SIMPLE:
+        return True
+    if sort is not _Sort.GROUP:
+        return False
+    if id(value) not in known:
+        known[id(value)] = all(_is_fixed(part, known) for _, part in _parts(value))
+    return known[id(value)]
 
 
 def _parts(value: object) -> Iterator[tuple[str, object]]:
-    if isinstance(value, Mapping):
+    sort = _sort_of(type(value))
+    if sort is _Sort.MAPPING:
         yield ".len", len(value)
         for key, part in value.items():
-            name = key if isinstance(key, str | int | enum.Enum) else type(key).__name__
+            name = key if isinstance(key, str | int | float | enum.Enum) else type(key).__name__
             yield f"[{name}]", part
-    elif isinstance(value, list | tuple | set | frozenset | deque):
+    elif sort is _Sort.LIST or isinstance(value, tuple):
         yield ".len", len(value)
-        for k, part in enumerate(value if not isinstance(value, set | frozenset) else ()):
+        for k, part in enumerate(value):
             yield f"[{k}]", part
-    elif isinstance(value, np.ndarray):
-        yield ".shape", str(value.shape)
-    elif type(value).__module__.startswith("app.") and not isinstance(value, FunctionType | MethodType | type):
+    elif sort is _Sort.SET:
+        yield ".len", len(value)
+    elif sort is _Sort.GROUP or sort is _Sort.OURS:
         for name in _names(value):
             part = getattr(value, name, None)
-            if name not in _UNTOLD and not isinstance(part, FunctionType | MethodType | type):
+            if name not in _UNTOLD and type(part) not in _CODE:
                 yield f".{name}", part
 
 
 def _names(value: object) -> list[str]:
-    slots = (name for kind in type(value).__mro__ for name in getattr(kind, "__slots__", ()))
-    return list(dict.fromkeys([*getattr(value, "__dict__", {}), *slots]))
+    return list(dict.fromkeys([*getattr(value, "__dict__", {}), *_slots(type(value))]))
 
 
-def _shown(way: str, value: object) -> Iterator[tuple[str, object]]:
-    """Yield what a Qt object shows; of objects below it too, as many of them have no name in Python."""
-    if not isinstance(value, QWidget) or value.parent() is not None:
-        return
-    for each, place in _below(value, way):
-        yield from ((f"{place} {what}", state) for what, state in _states(each))
+@cache
+def _slots(kind: type) -> tuple[str, ...]:
+    return tuple(name for base in kind.__mro__ for name in getattr(base, "__slots__", ()))
+
+
+def _shown(way: str, root: QWidget) -> Iterator[tuple[str, object]]:
+    """Yield what a window shows; of objects below it too, as many of them have no name in Python."""
+    for each, place in _below(root, way):
+        for what, state in _states(each):
+            yield f"{place} {what}", state
 
 
 def _below(root: QObject, way: str) -> Iterator[tuple[QObject, str]]:
@@ -142,11 +206,21 @@ def _states(each: QObject) -> Iterator[tuple[str, object]]:
 
 def differences(before: dict[str, object], after: dict[str, object]) -> list[str]:
     """Return a line for each value that is not what it was."""
-    return [
-        f"{way}: {before.get(way, '—')!r} -> {after.get(way, '—')!r}"
-        for way in sorted(before.keys() | after.keys())
-        if not _alike(before.get(way, _MISSING), after.get(way, _MISSING))
-    ]
+    return list(_differing(before, after.items()))
+
+
+def left_in(wiring: Wiring, before: dict[str, object], most: int = 100) -> list[str]:
+    """Return a line for each value of a window that is not what it was; after so many nobody looks for more."""
+    return list(islice(_differing(before, _walk(wiring)), most))
+
+
+def _differing(before: dict[str, object], after: Iterable[tuple[str, object]]) -> Iterator[str]:
+    met = set()
+    for way, value in after:
+        met.add(way)
+        if not _alike(before.get(way, _MISSING), value):
+            yield f"{way}: {before.get(way, '—')!r} -> {value!r}"
+    yield from (f"{way}: {value!r} -> '—'" for way, value in before.items() if way not in met)
 
 
 _MISSING = object()
@@ -155,6 +229,14 @@ _MISSING = object()
 def _alike(a: object, b: object) -> bool:
     if isinstance(a, float) and isinstance(b, float):
         return a == b or (a != a and b != b)
-    if isinstance(a, QColor | QFont):
-        return bool(a == b)
-    return type(a) is type(b) and a == b
+    if type(a) is not type(b):
+        return False
+    if a is b:
+        return True
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return a.shape == b.shape and a.dtype == b.dtype and a.tobytes() == b.tobytes()
+    if isinstance(a, tuple) and isinstance(b, tuple):
+        return len(a) == len(b) and all(map(_alike, a, b))
+    if dataclasses.is_dataclass(a) and dataclasses.is_dataclass(b):
+        return all(_alike(getattr(a, each.name), getattr(b, each.name)) for each in dataclasses.fields(a))
+    return bool(a == b)

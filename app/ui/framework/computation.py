@@ -167,23 +167,28 @@ class Computation(QObject):
     def _on_done(self, answer: Answer) -> None:
         if answer.job_id != self._job_id:
             return
-        self._job_id = None
+        job = self._end()
         if answer.revision == self._document.revision:
             assert isinstance(answer.value, Computed)
-            self.made, self.picture, self._made_for = answer.value.made, answer.value.picture, self._snapshot
+            self.made, self.picture, self._made_for = answer.value.made, answer.value.picture, job
             self.changed.emit()
             self.finished.emit()
         else:
             self.changed.emit()
 
+    def _end(self) -> Job | None:
+        """Let go of the job that was computed, and return it."""
+        job, self._job_id, self._snapshot = self._snapshot, None, None
+        return job
+
     def _on_failed(self, answer: Answer) -> None:
         if answer.job_id == self._job_id:
-            self._job_id = None
+            self._end()
             self.error = answer.error or ""
             self.changed.emit()
             self.failed.emit(self.error)
 
     def _on_cancelled(self, job_id: int) -> None:
         if job_id == self._job_id:
-            self._job_id = None
+            self._end()
             self.changed.emit()

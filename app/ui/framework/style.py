@@ -179,17 +179,23 @@ def palette(theme: Theme) -> QPalette:
     return made
 
 
-def apply(app: QApplication, theme: Theme, arrow: str = "") -> None:
-    """Give the whole program the theme's type, palette and style sheet; where it has them already, nothing is done
-    anew.
-
-    A style sheet is worked out for every widget that there is, so it is cheapest before there are any.
-    """
-    sheet = style_sheet(theme, arrow)
-    if app.styleSheet() == sheet:
-        return
+def prepare(app: QApplication, theme: Theme) -> None:
+    """Give the whole program the theme's type and palette: what widgets measure themselves with while they are made."""
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")
     app.setFont(text_font())
     app.setPalette(palette(theme))
+
+
+def apply(app: QApplication, theme: Theme, arrow: str = "") -> None:
+    """Give the whole program the theme's type, palette and style sheet; where it has them already, nothing is done
+    anew.
+
+    A style sheet is worked out again for all that a widget holds whenever that is put into something else, so it is
+    cheapest when everything has found its place.
+    """
+    sheet = style_sheet(theme, arrow)
+    if app.styleSheet() == sheet:
+        return
+    prepare(app, theme)
     app.setStyleSheet(sheet)

@@ -60,7 +60,7 @@ def picture_of(made: Made) -> ProgramPicture:
 
 
 class MainWindow(QMainWindow):
-    """Menu, bars, views, panel, log, command line, status.
+    """Menu, bars, views, panel, log, command line, status; `set_theme_choice` gives it its looks when all is there.
 
     Signals:
         dropped(path): a drawing, a scene, a picture or an NC program was dropped on the window.
@@ -75,7 +75,8 @@ class MainWindow(QMainWindow):
         self.document, self.preferences = document, Preferences(settings, self)
         self.preferences.saving.connect(lambda: remember_geometry(self, self.preferences))
         self.theme = self._theme_for(settings.theme)
-        self._apply_style()
+        if isinstance(application := QApplication.instance(), QApplication):
+            style.prepare(application, self.theme)
         self.may_close = True
         self.worker = Worker(self)
         self.activity = Activity(self)
@@ -115,7 +116,6 @@ class MainWindow(QMainWindow):
             self.notice,
         )
         self._lay_out()
-        self.set_theme_choice(settings.theme)
         QGuiApplication.styleHints().colorSchemeChanged.connect(
             lambda _: self.set_theme_choice(self.preferences.settings.theme)
         )
@@ -162,7 +162,6 @@ class MainWindow(QMainWindow):
                 self.sides.append(side)
                 self._middle.addWidget(side)
                 side.hide()
-        self.set_theme_choice(self.preferences.settings.theme)
 
     def lay_out_now(self) -> None:
         """Give every part its place at once, so that what is fitted into it fits."""

@@ -38,7 +38,7 @@ class QuestionCard(QWidget):
         self.title.setStyleSheet(f"font-size: {HEADING_PX}px; font-weight: 600;")
         self.text.setWordWrap(True)
         self.buttons: list[QPushButton] = []
-        self.cancel = QPushButton("Do not open it")
+        self.cancel = QPushButton("Do not open it", self)
         self.cancel.setProperty("role", "link")
         self.cancel.clicked.connect(self.hide)
         self._close = IconButton("cancel", "Close the question (Esc)")

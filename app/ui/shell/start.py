@@ -62,6 +62,7 @@ def build() -> tuple[MainWindow, Wiring]:
     """Return a window with an empty document, not shown yet, and its wiring."""
     window = MainWindow(Document(), load_settings())
     wiring = Wiring(window)
+    window.set_theme_choice(window.preferences.settings.theme)
     window.setWindowIcon(pixmap("app", window.theme.accent_text, 3))
     return window, wiring
 

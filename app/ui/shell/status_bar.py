@@ -40,7 +40,7 @@ class StatusBar(QWidget):
         self.message = Elided(role="muted")
         self.waiting = muted()
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.bar, self.step = QProgressBar(), Elided(role="muted")
+        self.bar, self.step = QProgressBar(), Elided(role="muted")  # a job may name a file of any length
         self.cancel = IconButton("cancel", "Cancel the job (Esc)")
         self.badge = Badge()
         self._lay_out()
