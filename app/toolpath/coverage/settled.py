@@ -121,7 +121,9 @@ def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[Cutter]) -> tuple[S
     return gathered(floors), united([gathered(each) for each in reached])
 
 
-def _reached(cutter: Cutter, pieces: Shapes, floors: Shapes) -> Shapes:
-    """Return what a cutter reaches of floors (n,) that stays in pieces (n,) of an area."""
+def _reached(cutter: Cutter, pieces: Shapes, floors: Shapes, grid_size: float | None = None) -> Shapes:
+    """Return what a cutter reaches of floors (n,) that stays in pieces (n,) of an area; on a grid where it is asked for
+    so.
+    """
     opened = grown(grown(pieces, FITS - cutter.wall, CHORD), cutter.radius - FITS, CHORD)
-    return np.asarray(shapely.intersection(opened, floors), dtype=object)
+    return np.asarray(shapely.intersection(opened, floors, grid_size=grid_size), dtype=object)
