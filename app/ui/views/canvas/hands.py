@@ -64,7 +64,7 @@ class Hands(Viewport):
         edited = QLineEdit(self)
         edited.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         edited.hide()
-        self.entry = ValueEntry(self.runner, edited)
+        self.entry = ValueEntry(self.runner, edited, self._size)
         self.mouse: QPointF | None = None
         self.aim: Aim | None = None
         self.band_from: QPointF | None = None
@@ -350,10 +350,8 @@ class Hands(Viewport):
             if self.aim is not None:
                 self.runner.aim_at(self.aim.point, under)
         self.entry.pointer = self.aim.point if self.aim is not None else None
-        self.entry.size = self._size
         self.update()
 
-    @property
     def _size(self) -> float:
         """How large what is drawn or in view is, mm."""
         x0, y0, x1, y1 = self.view.world_box(self.area)

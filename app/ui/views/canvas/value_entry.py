@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt
@@ -50,16 +51,17 @@ class ValueEntry:
     Attributes:
         row: the box that is typed in, None while none is. wrong: why its text is no value. doubt: what is unlikely
             about the values, which Enter takes nevertheless.
-        pointer: where the mouse aims, mm; None while it is elsewhere. size: of what is drawn or in view, mm.
+        pointer: where the mouse aims, mm; None while it is elsewhere.
     """
 
-    def __init__(self, runner: ToolRunner, line: QLineEdit) -> None:
-        """Begin with nothing typed; `line` edits the text and is never shown."""
-        self._runner, self._line = runner, line
+    def __init__(self, runner: ToolRunner, line: QLineEdit, size: Callable[[], float]) -> None:
+        """Begin with nothing typed; `line` edits the text and is never shown, `size` is how large what is drawn or in
+        view is, mm.
+        """
+        self._runner, self._line, self._size = runner, line, size
         self.row: ValueRow | None = None
         self.wrong = self.doubt = ""
         self.pointer: Point | None = None
-        self.size = 0.0
         self._before: dict[str, float] = {}
         self._question: tuple[object, ...] = ()
 
@@ -281,7 +283,7 @@ class ValueEntry:
             if value is not None and row.is_length:
                 lengths.append(abs(value))
         largest = max(lengths, default=0.0)
-        if self.size <= 0 or largest <= _IMPLAUSIBLE * self.size:
+        if largest <= _IMPLAUSIBLE * self._size():
             return ""
         unit = self._runner.unit
         return f"{grouped(largest / unit, 0)} {'mm' if unit == 1.0 else 'in'}? Enter again takes it."
