@@ -264,6 +264,21 @@ def test_splines_are_written_as_arcs_within_the_last_decimals(control: str, step
     assert len(motions) < 120
 
 
+@pytest.mark.parametrize("milliseconds", [119, 351, 407, 348, 18, 773, 103])
+def test_a_dwell_in_thousandths_is_the_same_in_seconds(milliseconds: int) -> None:
+    """351 x 0.001 is not 0.351 to the last bit."""
+    assert f"G4 P{milliseconds / 1000:g}" in blocks("linuxcnc", f"G0 X1.\nG4 P{milliseconds}\nG0 X2.\nM30\n", "fanuc")
+
+
+def test_p_of_a_call_behind_an_arc_counts_no_turns() -> None:
+    text = "G21 G90 F100.\nG0 X0. Y0.\nG2 X4. R3.\nM98 P7\nM30\nO7\nG1 X9.\nM99\n"
+    assert blocks("linuxcnc", text, "fanuc")[-1] == "G1 X9.0000"
+
+
+def test_what_is_wrong_behind_a_slash_is_found_whichever_way_the_switch_stands() -> None:
+    assert "a.ngc:3:" in told("fanuc", "F100\nG1 X1\n/G1 X[1/0]\nG0 X2\nM2\n")
+
+
 SWITCHED = (
     "G21 G90 G17\nF100\nG0 X0 Y0 Z5\nG1 Z-1\nX10\n/G1 X20 F50\n/G2 X30 I5\nG1 X40 F100\nY5\n/M8\n/G81 X1 Z-2 R1\n/G80\n"
     "G0 Z11\nM2\n"

@@ -24,6 +24,8 @@ from .align import Run, Table, align
 
 FEED = 0.1
 """mm/min; feeds that differ by less are the same: F words have one decimal."""
+TIME_DIGITS = 9
+"""Of a dwell, s; 351 thousandths are not the last bit of 0.351."""
 CHORD = 1 / 20
 """Chords that stand for arcs keep to them within this part of the tolerance."""
 
@@ -160,7 +162,7 @@ class _Side:
         events: dict[int, Pauses] = {}
         for event in program.events:
             if event.kind not in (EventKind.TOOL_CHANGE, EventKind.END):
-                events[event.before] = (*events.get(event.before, ()), (event.kind, event.value))
+                events[event.before] = (*events.get(event.before, ()), (event.kind, round(event.value, TIME_DIGITS)))
         return _Side(program, Paths(program.motions, chord), lengths(program.motions), events)
 
     def span(self, first: int, stop: int) -> Span:

@@ -211,7 +211,7 @@ def _odd_words(step: Step) -> Iterator[tuple[str, str]]:
         elif (
             letter == "p"
             and step.motion in ("G2", "G3")
-            and not block.codes.keys() & {Group.ONCE, Group.PATH}
+            and not block.codes.keys() & {Group.ONCE, Group.PATH, Group.CALL}
             and value != 1
         ):
             yield letter, "several turns in one block have no counterpart on {}"
