@@ -19,6 +19,7 @@ from app.ui.shell.wiring import Wiring
 from app.ui.views.canvas.modes import CanvasTool, ColourBy
 from app.ui.views.canvas.view import View as CanvasView
 from app.ui.views.cut.colouring import CutColour
+from app.ui.views.nc.motion_shapes import Side
 from app.usecases.smooth import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
@@ -117,8 +118,10 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     window.canvas.cancel()
     window.document.load(empty.job)
     wiring.computation.forget()
+    wiring.nc.stop_comparing()
     if wiring.nc.foreign:
         wiring.nc.back()
+    window.views.nc.set_side(Side.XY)
     wiring.cutting.back()
     window.notice.ask("")
     window.notice.hide()
@@ -138,6 +141,7 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     window.command_line.log.show_lines(wiring.log.lines)
     window.canvas.set_colour_by(ColourBy.TOOL)
     wiring.showing.show_view(View.DRAW)
+    window.side.show_page("Drawing")  # it is filled while it is seen
     window.side.show_page("Job")
     window.panel.choose(Subject(SubjectKind.OPERATION, 0))
     window.views.fade._run.setCurrentTime(FADE_MS)
@@ -153,12 +157,14 @@ def _prepared_when_shown(wiring: Wiring) -> tuple[object, ...]:
     """Return what nobody sees in a new window, and what is filled with what is shown before anybody does."""
     window, views = wiring.window_, wiring.window_.views
     cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
+    form = window.panel.operation_form
     return (
         *(views.nc.path, views.curves.path),
         *(cut, cut.model, cut.painting, cut.playing, cut.overlay, cut.legend.key, window.cut_panel.histogram),
         *(reading.per_inch, reading.only, reading.layers, reading.types),
         *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing),
-        *window.cut_form.stock,
+        *(each.field for each in form.fields.values()),
+        *(form.peck_picture, form.side_picture, *window.cut_form.stock),
         *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
     )
 
@@ -167,6 +173,7 @@ def _empty_what_is_hidden(wiring: Wiring) -> None:
     """Take away what forms and plots that are not seen any more were filled with."""
     window = wiring.window_
     window.drawing_page.reading.units.set_choices([])
+    window.drawing_page.reading.to_zero.show_value(False)
     window.drawing_page.reading.layout_.set_choices([("", MODEL_SPACE)])
     window.views.cut.legend.colour.set_choices(_COLOURS)
     window.curves_panel.show_options(SmoothOptions(), {})
