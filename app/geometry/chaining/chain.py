@@ -9,7 +9,7 @@ from ...core import tolerances
 from ...model.finding import Finding
 from ...model.part import Contour, Entity
 from .crossings import crossings
-from .findings import Shared, branch_findings, gap_findings, overlap_findings, repeat_findings
+from .findings import Shared, junction_findings, gap_findings, overlap_findings, repeat_findings
 from .join import Nodes, brought_together, nodes_of
 from .open import open_findings
 from .overlap import Overlap, covered, repeated, shared_stretches, twin_contours
@@ -60,7 +60,7 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
         *overlap_findings(overlaps, contours, join_tolerance),
         *repeat_findings(doubles),
         *gap_findings(gaps),
-        *branch_findings(branches),
+        *junction_findings(branches),
         *open_findings(contours, join_tolerance),
         *crossings(contours, odd),
     ]

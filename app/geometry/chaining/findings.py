@@ -14,7 +14,7 @@ from ...model.part import Contour
 from ..primitives import boxes, contour_rows
 from .overlap import Overlap
 from .pieces import Piece, length_of
-from .trace import Branch
+from .trace import Junction
 
 LIMIT = 20
 """So many places of one kind are named one by one; the rest is counted."""
@@ -157,7 +157,7 @@ def gap_findings(gaps: Sequence[tuple[float, Point]]) -> list[Finding]:
     ]
 
 
-def branch_findings(branches: Sequence[Branch]) -> list[Finding]:
+def junction_findings(branches: Sequence[Junction]) -> list[Finding]:
     """Return a finding for each point where an odd number of ends meet; where an even number does, outlines only
     touch.
     """

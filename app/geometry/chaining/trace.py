@@ -18,7 +18,7 @@ Step = tuple[int, bool]
 
 
 @dataclass(frozen=True)
-class Branch:
+class Junction:
     """A point where more than two ends meet.
 
     Attributes:
@@ -35,7 +35,7 @@ class Branch:
         return len(self.entity_ids) % 2 == 1
 
 
-def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[Branch]]:
+def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[Junction]]:
     """Return ((steps, closed) for every chain, by its first piece) and every branch.
 
     End 2 k is the start of piece k and end 2 k + 1 its end.
@@ -56,9 +56,9 @@ def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step],
     return sorted(found, key=lambda path: min(path[0])), [_branch(pieces, ends) for ends in crowded]
 
 
-def _branch(pieces: Sequence[Piece], ends: Sequence[int]) -> Branch:
+def _branch(pieces: Sequence[Piece], ends: Sequence[int]) -> Junction:
     first = pieces[ends[0] // 2]
-    return Branch(first.start if ends[0] % 2 == 0 else first.end, tuple(pieces[end // 2].entity for end in ends))
+    return Junction(first.start if ends[0] % 2 == 0 else first.end, tuple(pieces[end // 2].entity for end in ends))
 
 
 def _walks(count: int, partner: dict[int, int], done: set[int]) -> list[tuple[list[Step], bool]]:
