@@ -20,13 +20,9 @@ COMPILER = {"numba"}
 CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
 FILES = sorted(APP.rglob("*.py"))
 TWICE = """
-Answer Ask Asked Block By Cells Chain Choice Chunk Chunks Cleared ColourBy Columns Computed Curve Cut Cutter
-Difference Drawn Edges Entry Facets Fault Field Form Frame Ground Group Hands Highlighter History Hole Ink Inks
-Judgement Kind Layer Led Level Listed Look Mark Measure Metal Move Net Offsets Outline Page Palette Part Patch
-PathStyle Paths Picture Piece Pieces Place Places Player Playing Polyline Preview Problem Ray Reach Reading Ready Reel
-Run Section Select Session Sheet Shown Side SmoothOptions Smoothed Source Span Spec Spot Stage Standing State Step
-Still Stock Stretch Stroke Swatch Text Tree Trial Tube Units Verdict View Wanted Way Window Wish _Exported _Path
-_Spelling _Spoken _Wish _Work _Writer
+Ask Asked Chunk ColourBy Entry Hands Highlighter Inks Kind Layer Listed Look Mark Page Palette Part Picture Player
+Playing Preview Ray Reading Reel Section Shown Side Spec Spot Step Still Swatch Trial Verdict View Wish _Exported
+_Wish
 """
 """Names that two classes or more still have; one that is freed goes from here, and none comes in."""
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.errors import InputError
 from ..raster.frame import POINTS
-from ..raster.picture_options import PictureOptions, Shows
+from ..raster.picture_options import InkMeaning, PictureOptions
 from ..usecases.bitmap_options import BitmapOptions, BitmapSize, is_picture
 from .values import number
 
@@ -46,7 +46,7 @@ def add_bitmap_options(group: argparse._ArgumentGroup, bitmap_help: str) -> None
     )
     group.add_argument(
         "--ink",
-        choices=[each.value for each in Shows],
+        choices=[each.value for each in InkMeaning],
         help="of a picture: its ink is lines round what is machined, or the areas themselves (default: by how thin it "
         "is)",
     )
@@ -74,15 +74,15 @@ def _or(value: Any, default: Any) -> Any:
     return default if value is None else value
 
 
-def asked_bitmap(arguments: argparse.Namespace) -> BitmapOptions | None:
+def requested_bitmap(arguments: argparse.Namespace) -> BitmapOptions | None:
     """Return how to compute on pixels where that was asked for, or the file is a picture; None = exactly.
 
     Raises:
         HitofudeError: as `bitmap_options`.
     """
     options = bitmap_options(arguments)
-    asked = arguments.bitmap is not None or arguments.pitch is not None or is_picture(arguments.drawing.name)
-    return options if asked else None
+    requested = arguments.bitmap is not None or arguments.pitch is not None or is_picture(arguments.drawing.name)
+    return options if requested else None
 
 
 def bitmap_options(arguments: argparse.Namespace) -> BitmapOptions:
@@ -98,8 +98,8 @@ def bitmap_options(arguments: argparse.Namespace) -> BitmapOptions:
             "--bitmap: a picture has its own pixels; leave the option away, and give their size by --pitch or --dpi"
         )
     for name in ("dpi", "threshold", "invert", "despeckle", "ink"):
-        asked = getattr(arguments, name)
-        if not picture and asked is not None and asked is not False:
+        requested = getattr(arguments, name)
+        if not picture and requested is not None and requested is not False:
             raise InputError(f"--{name}: {arguments.drawing.name} is no picture; leave the option away")
     size = BitmapSize(arguments.bitmap or (16 if arguments.pitch else POINTS), None if picture else arguments.pitch)
     read = PictureOptions(
@@ -108,6 +108,6 @@ def bitmap_options(arguments: argparse.Namespace) -> BitmapOptions:
         _or(arguments.despeckle, PictureOptions().despeckle),
         arguments.pitch,
         arguments.dpi,
-        Shows(_or(arguments.ink, Shows.AUTO)),
+        InkMeaning(_or(arguments.ink, InkMeaning.AUTO)),
     )
     return BitmapOptions(size, read)

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 from ..core.errors import InputError
 from ..core.memory import read_size
-from .signals import Stopping
+from .signals import StopFlag
 from .values import typed
 
 MEMORY_HELP = (
@@ -42,7 +42,7 @@ class CliCommand:
     about: str
     epilog: str
     add_options: Callable[[OptionParser], None]
-    run: Callable[[argparse.Namespace, Stopping], int]
+    run: Callable[[argparse.Namespace, StopFlag], int]
     intermixed: bool = False
     check: Callable[[argparse.Namespace], None] = lambda arguments: None
 

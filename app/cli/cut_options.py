@@ -20,7 +20,7 @@ from ..model.tool_kind import ToolKind, tool_kinds
 from ..usecases.cut import CELLS, Engine
 from ..usecases.examine import CONTROLS
 from ..usecases.setup_stock import FINEST, box_stock
-from ..usecases.setup_tools import Held
+from ..usecases.setup_tools import ToolHolding
 from .command import OptionParser
 from .reading_options import NAMES, add_reading_options
 from .values import join_tolerance, number, typed
@@ -80,14 +80,14 @@ def tool_given(text: str) -> tuple[int, Tool]:
 
 
 def _shaped(tool: int, kind: ToolKind, values: list[str]) -> Tool:
-    told: dict[str, Any] = {
+    reported: dict[str, Any] = {
         key: math.radians(angle(value)) if key == "tip_angle" else length(value)
         for key, value in zip(kind.given, values, strict=False)
     }
-    return Tool(tool, told.pop("diameter"), kind, **told)
+    return Tool(tool, reported.pop("diameter"), kind, **reported)
 
 
-def holder_given(text: str) -> tuple[int, Held]:
+def holder_given(text: str) -> tuple[int, ToolHolding]:
     """Return how a tool is held by a text such as `1=ER20:35`, holder and stick-out, or `1=0,10;25,15:35` by its
     outline.
 
@@ -111,7 +111,7 @@ def holder_given(text: str) -> tuple[int, Held]:
         raise InputError(f"'{text}': {error}") from error
     if not tool.stick_out:
         raise InputError(f"'{text}' has a stick-out of 0; tell how far the tool sticks out of the holder: {HELD}")
-    return int(match[1]), Held(tool.stick_out, tool.holder)
+    return int(match[1]), ToolHolding(tool.stick_out, tool.holder)
 
 
 def _point(text: str, whole: str) -> HolderPoint:

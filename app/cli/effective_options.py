@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from ..core.errors import InputError
-from ..fitting.point_curves.correction import CorrectionOptions, Move, Select
+from ..fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ..fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
-from ..fitting.point_curves.effective_points import EffectiveOptions, Ends
+from ..fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
 from .command import OptionParser
 from .values import number
 
@@ -42,7 +42,7 @@ def add_effective_options(parser: OptionParser) -> None:
     group.add_argument(
         "--ends",
         metavar="ratio:K|distance:D",
-        type=_pair({"ratio": Ends.RATIO, "distance": Ends.DISTANCE}),
+        type=_pair({"ratio": RangeEnds.RATIO, "distance": RangeEnds.DISTANCE}),
         help="points so near to the ends of a range are effective too: a share of it, or a length (default: the ends "
         "alone)",
     )
@@ -65,7 +65,7 @@ def add_effective_options(parser: OptionParser) -> None:
     group.add_argument(
         "--select",
         metavar="kr:R|ei:D",
-        type=_pair({"kr": Select.RATIO, "ei": Select.DISTANCE}),
+        type=_pair({"kr": CorrectionScope.RATIO, "ei": CorrectionScope.DISTANCE}),
         help="which points are corrected: within a share of an end, or moving no farther than a length (default all)",
     )
 
@@ -85,13 +85,13 @@ def effective_method(arguments: argparse.Namespace) -> EffectiveMethod | None:
         raise InputError(
             "--method effective-points needs --epsilon E; half of the tolerance that the points were made with is usual"
         )
-    ends, limit = arguments.ends or (Ends.OUTER, 0.0)
+    ends, limit = arguments.ends or (RangeEnds.OUTER, 0.0)
     choose = EffectiveOptions(arguments.epsilon, ends, limit)
     if arguments.embodiment != 2:
         if late := [name for name in ("before", "after", "move", "select") if name in given]:
             raise InputError(f"--{late[0]} belongs to --embodiment 2; give that too, or leave it out")
         return EffectiveMethod(choose, nearness=arguments.nearness)
-    move = Move.PERPENDICULAR if arguments.move == "perpendicular" else Move.NEAREST
+    move = CorrectionMove.PERPENDICULAR if arguments.move == "perpendicular" else CorrectionMove.NEAREST
     correct = second_embodiment(arguments.select, arguments.before, arguments.after, move)
     return EffectiveMethod(choose, correct, arguments.nearness)
 

@@ -11,7 +11,7 @@ from ..core.atomic import read_whole, sweep
 from ..core.errors import InputError
 from ..core.progress import Progress
 from .output import on_terminal, say, show
-from .signals import Stopping
+from .signals import StopFlag
 
 EVERY = 5.0
 """Seconds between lines that tell how far a job is, where they are no terminal's."""
@@ -76,7 +76,7 @@ def identity(path: Path) -> object:
     return (status.st_dev, status.st_ino)
 
 
-def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
+def shown_progress(quiet: bool, stopped: StopFlag) -> Progress:
     """Return a progress that shows itself on stderr: on a terminal all the time, elsewhere in a line every EVERY
     seconds.
 
@@ -88,7 +88,7 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
     def told(fraction: float, text: str) -> None:
         stopped.stage = text or stopped.stage
         if not quiet:
-            shown.told(fraction, text)
+            shown.report(fraction, text)
 
     stopped.tick = None if quiet else shown.tick
     return Progress(told, stopped, remarks=None if quiet else shown.remark)
@@ -97,11 +97,11 @@ def shown_progress(quiet: bool, stopped: Stopping) -> Progress:
 class _ProgressLine:
     """How far a job is, as its user is told."""
 
-    def __init__(self, alone: bool, stopped: Stopping) -> None:
+    def __init__(self, alone: bool, stopped: StopFlag) -> None:
         self._alone, self._stopped = alone, stopped
         self._fraction, self._text, self._at = 0.0, "", 0.0 if alone else time.monotonic()
 
-    def told(self, fraction: float, text: str) -> None:
+    def report(self, fraction: float, text: str) -> None:
         """Show it, if it is time to."""
         self._fraction, self._text = fraction, text
         if self._is_time() or (self._alone and fraction >= 1):

@@ -10,8 +10,8 @@ from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import length
 from ..model.job import Copies
 from ..model.operation import parameters
-from ..usecases.machining import Machining, option_of
-from .parameter_options import add_parameter_options, asked_values
+from ..usecases.machining import MachiningOptions, option_of
+from .parameter_options import add_parameter_options, requested_values
 from .values import number
 
 
@@ -49,7 +49,7 @@ def add_machining_options(group: argparse._ArgumentGroup, holding: argparse._Arg
     )
 
 
-def machining(arguments: argparse.Namespace, on_pixels: bool) -> Machining:
+def machining(arguments: argparse.Namespace, on_pixels: bool) -> MachiningOptions:
     """Return what was asked for.
 
     Args:
@@ -59,21 +59,21 @@ def machining(arguments: argparse.Namespace, on_pixels: bool) -> Machining:
         InputError: an option does not go with pixels.
     """
     direction = {"direction": arguments.direction} if arguments.direction else {}
-    asked = Machining(
-        asked_values(arguments) | direction,
+    requested = MachiningOptions(
+        requested_values(arguments) | direction,
         tuple(arguments.drill),
         arguments.copies,
         tuple(arguments.keep_out),
         arguments.keep_out_height,
     )
     on_bitmap = {"copies", *(option_of(key) for key, (placed, _) in parameters().items() if placed.parameter.on_pixels)}
-    beyond = [option for option in asked.asked if on_pixels and option not in on_bitmap]
+    beyond = [option for option in requested.requested if on_pixels and option not in on_bitmap]
     if beyond:
         raise InputError(
             f"--{beyond[0]} has no effect on pixels, where only pockets and the contours inside the walls are cut; "
             "leave the option away, or compute a drawing exactly, without --bitmap"
         )
-    return asked
+    return requested
 
 
 def _copies(text: str) -> Copies:

@@ -11,12 +11,12 @@ from functools import partial
 from .. import __version__
 from ..core.atomic import sweep
 from ..core.errors import Cancelled, HitofudeError, shortened
-from ..core.progress import told_waits
+from ..core.progress import waits_reported_to
 from ..core.settings import config_folder, state_folder
 from .memory import budgeted, out_of_memory
 from .output import WaitLine, say, tell
 from .program import SUMMARIES, listed, run_command
-from .signals import Stopped, Stopping, stoppable
+from .signals import StopFlag, Stopped, stoppable
 
 DONE, WITH_FINDINGS, BAD_INPUT, CANCELLED = 0, 1, 2, 130
 HELP = f"""\
@@ -45,7 +45,7 @@ def main(argv: Sequence[str]) -> int:
             budgeted(argv),
             stoppable() as stopped,
             WaitLine("--quiet" in argv) as line,
-            told_waits(partial(_wait, stopped, line), everywhere=True),
+            waits_reported_to(partial(_wait, stopped, line), everywhere=True),
         ):
             try:
                 return _command(list(argv), stopped)
@@ -75,12 +75,12 @@ def main(argv: Sequence[str]) -> int:
         return BAD_INPUT
 
 
-def _wait(stopped: Stopping, line: WaitLine, text: str) -> None:
+def _wait(stopped: StopFlag, line: WaitLine, text: str) -> None:
     stopped.waited = time.monotonic()
     line.show(text)
 
 
-def _command(argv: list[str], stopped: Stopping) -> int:
+def _command(argv: list[str], stopped: StopFlag) -> int:
     name = argv[0] if argv else ""
     if name in ("", "-h", "--help", "help"):
         tell(HELP.rstrip())

@@ -12,7 +12,7 @@ from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
-from ..usecases.proposal.propose import Proposing
+from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
 from .reading_options import add_reading_options, reading
 from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
@@ -28,18 +28,18 @@ def stepover(text: str) -> Stepover:
     """Return a distance between rings, in mm or per cent of the diameter, for argparse."""
     percent = text.strip().endswith("%")
     try:
-        asked = Stepover(float(text.strip()[:-1]) if percent else length(text), percent)
+        requested = Stepover(float(text.strip()[:-1]) if percent else length(text), percent)
     except (InputError, ValueError) as error:
         raise argparse.ArgumentTypeError(
             f"is wrong: '{text}' is neither a length nor per cent; write one such as 1.5mm or 40%"
         ) from error
     least, unit = (LEAST_PER_CENT, "%") if percent else (LEAST_LENGTH, "mm")
-    if not least <= asked.value <= (100 if percent else 1e5):
+    if not least <= requested.value <= (100 if percent else 1e5):
         raise argparse.ArgumentTypeError(
-            f"is {asked.value:g} {unit}; it must be {least:g} {unit} or more and not more than "
+            f"is {requested.value:g} {unit}; it must be {least:g} {unit} or more and not more than "
             "the tool's diameter (100 %)"
         )
-    return asked
+    return requested
 
 
 def add_make_options(parser: OptionParser) -> None:
@@ -213,10 +213,10 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         HitofudeError: options of the bitmap that go neither with one another nor with the drawing, or an option without
             the one that it belongs to.
     """
-    from .bitmap_options import asked_bitmap
+    from .bitmap_options import requested_bitmap
     from .machining_options import machining
 
-    bitmap = asked_bitmap(arguments)
+    bitmap = requested_bitmap(arguments)
     if not arguments.propose and (arguments.tools is not None or arguments.thickness is not None):
         option = "tools" if arguments.tools is not None else "thickness"
         raise InputError(f"--{option} has no effect without --propose; add that, or leave it away")
@@ -245,5 +245,5 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         bitmap=bitmap,
         machining=machining(arguments, bitmap is not None),
         reading=reading(arguments),
-        propose=Proposing(thickness=arguments.thickness) if arguments.propose else None,
+        propose=ProposalOptions(thickness=arguments.thickness) if arguments.propose else None,
     )

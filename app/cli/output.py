@@ -68,9 +68,9 @@ def finding_lines(findings: Sequence[Finding]) -> list[str]:
             lines.append(f"  {'!' if finding.counts else '-'} {finding.text}")
     for kind, count in shown.items():
         counting = sum(1 for finding in findings if finding.kind is kind and finding.counts)
-        told = max(min(counting, COUNTED), min(count, REMARKS))
-        if count > told:
-            lines.append(f"  - {count - told} more of this kind ({kind.words}); --report R.json lists them all")
+        reported = max(min(counting, COUNTED), min(count, REMARKS))
+        if count > reported:
+            lines.append(f"  - {count - reported} more of this kind ({kind.words}); --report R.json lists them all")
     return lines
 
 

@@ -12,7 +12,7 @@ from ..core.errors import HitofudeError
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
 from ..model.curve_selectors import HELP, Selector, read_selector
-from ..model.fields import Parameter, Placed, Unit
+from ..model.fields import Parameter, ParameterPlace, Unit
 from ..model.operation import parameters
 
 _METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N"}
@@ -25,7 +25,7 @@ def add_parameter_options(group: argparse._ArgumentGroup, groups: tuple[str, ...
             _add(group, key, placed)
 
 
-def _add(group: argparse._ArgumentGroup, key: str, placed: Placed) -> None:
+def _add(group: argparse._ArgumentGroup, key: str, placed: ParameterPlace) -> None:
     declared, option = placed.parameter, f"--{placed.parameter.option}"
     if declared.unit is Unit.FLAG:
         group.add_argument(option, dest=key, action="store_true", default=None, help=declared.help.replace("%", "%%"))
@@ -51,7 +51,7 @@ def _add(group: argparse._ArgumentGroup, key: str, placed: Placed) -> None:
         )
 
 
-def _help(placed: Placed) -> str:
+def _help(placed: ParameterPlace) -> str:
     declared = placed.parameter
     usual = (
         declared.auto
@@ -64,7 +64,7 @@ def _help(placed: Placed) -> str:
     )
 
 
-def asked_values(arguments: argparse.Namespace) -> dict[str, Any]:
+def requested_values(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the values of parameters that were asked for, by key."""
     given = {
         key: (placed, getattr(arguments, key, None))

@@ -10,14 +10,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from .output import tell
-from .signals import Stopping
+from .signals import StopFlag
 
 if TYPE_CHECKING:
     from .command import CliCommand
 
 
 @dataclass(frozen=True)
-class Summary:
+class CommandSummary:
     """A command as the list of all has it.
 
     Attributes:
@@ -30,14 +30,16 @@ class Summary:
 
 
 SUMMARIES = {
-    "make": Summary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
-    "tools": Summary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
-    "cut": Summary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
-    "check": Summary("check PROGRAM.ngc", "any NC program: what is wrong, how far it goes, how long it takes"),
-    "smooth": Summary("smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"),
-    "surface": Summary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
-    "stages": Summary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
-    "figure11": Summary("figure11", "how long software and depth buffer take for the cuts of 1999"),
+    "make": CommandSummary("make DRAWING -o OUT.ngc", "a drawing into tool paths for pockets, contours and holes"),
+    "tools": CommandSummary("tools DRAWING", "which tools a drawing wants: what passes, what clears, how long"),
+    "cut": CommandSummary("cut PROGRAM.ngc", "any NC program cut out of its stock: what is left, gouges, rapids"),
+    "check": CommandSummary("check PROGRAM.ngc", "any NC program: what is wrong, how far it goes, how long it takes"),
+    "smooth": CommandSummary(
+        "smooth PROGRAM.ngc -o OUT", "any NC program's chords into lines, arcs or splines, proven"
+    ),
+    "surface": CommandSummary("surface SCENE.toml -o OUT", "tool paths over compound surfaces, each move proven"),
+    "stages": CommandSummary("stages DRAWING -o DIR", "the bitmap way of 1986, step by step, as pictures and codes"),
+    "figure11": CommandSummary("figure11", "how long software and depth buffer take for the cuts of 1999"),
 }
 """In the order of the help. A command is the `COMMAND` of the module of its name in `commands`."""
 
@@ -53,7 +55,7 @@ def program_parser() -> argparse.ArgumentParser:
     return parser
 
 
-def run_command(argv: Sequence[str], stopped: Stopping) -> int:
+def run_command(argv: Sequence[str], stopped: StopFlag) -> int:
     """Run the command that arguments begin with, or print its help where they ask for it; return the exit status.
 
     Args:

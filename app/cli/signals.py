@@ -36,7 +36,7 @@ class Stopped(KeyboardInterrupt):
         self.status = 128 + number
 
 
-class Stopping(threading.Event):
+class StopFlag(threading.Event):
     """Is set when the user wants a command to stop.
 
     Attributes:
@@ -58,11 +58,11 @@ _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") 
 
 
 @contextmanager
-def stoppable() -> Iterator[Stopping]:
+def stoppable() -> Iterator[StopFlag]:
     """Let a signal raise Stopped, and set the event, for the case that a library swallows the exception; end what hears
     neither.
     """
-    stopped = Stopping()
+    stopped = StopFlag()
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
         stopped.number = number
@@ -76,7 +76,7 @@ def stoppable() -> Iterator[Stopping]:
 class _Watch:
     """A thread that hears signals while the interpreter does not."""
 
-    def __init__(self, stopped: Stopping) -> None:
+    def __init__(self, stopped: StopFlag) -> None:
         self._stopped = stopped
         self._hears, self._told = os.pipe()
         os.set_blocking(self._told, False)
@@ -127,7 +127,7 @@ _LOOK_S, _TICK_S = 0.02, 1.0
 
 
 @contextmanager
-def _ended_where_deaf(stopped: Stopping) -> Iterator[None]:
+def _ended_where_deaf(stopped: StopFlag) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread() or sys.platform == "win32":
         yield
         return
@@ -145,9 +145,9 @@ def _silent_where_unheard() -> Iterator[None]:
     """
     before = sys.unraisablehook
 
-    def hook(told: Any) -> None:
-        if told.exc_type is not Stopped:
-            before(told)
+    def hook(reported: Any) -> None:
+        if reported.exc_type is not Stopped:
+            before(reported)
 
     sys.unraisablehook = hook
     try:

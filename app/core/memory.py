@@ -51,8 +51,8 @@ class MemoryShortError(ParameterError):
     @property
     def limit(self) -> int:
         """What would have to be allowed, bytes; 0 where the machine has not as much."""
-        wanted = math.ceil((self.needed + _BUDGET.get().taken()) * 1.05)
-        return wanted if wanted <= 0.9 * machine_memory() else 0
+        needed = math.ceil((self.needed + _BUDGET.get().taken()) * 1.05)
+        return needed if needed <= 0.9 * machine_memory() else 0
 
     def in_window(self) -> str:
         """Return the sentence for somebody who has menus instead of options."""

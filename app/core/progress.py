@@ -58,25 +58,25 @@ NO_PROGRESS = Progress()
 Waiter = Callable[[str], None]
 
 
-class _Waits(threading.local):
+class _WaitListeners(threading.local):
     """Who is told what a job waits for: on this thread, or else on all."""
 
     everywhere: Waiter | None = None
     here: Waiter | None = None
 
 
-_WAITS = _Waits()
+_WAITS = _WaitListeners()
 
 
 @contextmanager
-def told_waits(waiter: Waiter, everywhere: bool = False) -> Iterator[None]:
+def waits_reported_to(waiter: Waiter, everywhere: bool = False) -> Iterator[None]:
     """Have `waiter` told, again and again, what work waits for that can say no fraction of its own.
 
     Args:
         waiter: called on the thread that waits; it may raise Cancelled.
         everywhere: on all threads that have no waiter of their own, instead of on this one.
     """
-    holder, name = (_Waits, "everywhere") if everywhere else (_WAITS, "here")
+    holder, name = (_WaitListeners, "everywhere") if everywhere else (_WAITS, "here")
     before = getattr(holder, name)
     setattr(holder, name, waiter)
     try:
@@ -85,12 +85,12 @@ def told_waits(waiter: Waiter, everywhere: bool = False) -> Iterator[None]:
         setattr(holder, name, before)
 
 
-def waited_for(text: str) -> None:
+def report_wait(text: str) -> None:
     """Tell whoever wants to know that this thread waits.
 
     Raises:
         Cancelled: there is no need to wait any longer.
     """
-    waiter = _WAITS.here or _Waits.everywhere
+    waiter = _WAITS.here or _WaitListeners.everywhere
     if waiter is not None:
         waiter(text)

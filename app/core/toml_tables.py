@@ -20,7 +20,7 @@ from .errors import HitofudeError, InputError
 Kind = TypeVar("Kind")
 
 
-class Worded:
+class Keyword:
     """A thing that stands as a word in a file, one of some that may grow: unlike an Enum, others can be added.
 
     Attributes:
@@ -330,12 +330,12 @@ def _expected(kind: Any) -> str:
 def _is_table(thing: Any) -> bool:
     """Tell whether a value, or all of a kind, stand as a table."""
     kind = thing if isinstance(thing, type) else type(thing)
-    return is_dataclass(kind) and not issubclass(kind, Worded)
+    return is_dataclass(kind) and not issubclass(kind, Keyword)
 
 
 def _words(kind: Any) -> Mapping[Any, Any]:
     """Return what the words of an Enum, or of another kind of worded things, stand for; nothing of other kinds."""
-    if isinstance(kind, type) and issubclass(kind, Worded):
+    if isinstance(kind, type) and issubclass(kind, Keyword):
         return kind.words()
     return {choice.value: choice for choice in kind} if isinstance(kind, type) and issubclass(kind, Enum) else {}
 
@@ -364,7 +364,7 @@ def _lines(value: Any, table: str) -> list[str]:
 
 def spelled(item: Any) -> str:
     """Return a number, a flag, a text, an Enum by its value or a tuple of such as TOML spells it."""
-    if isinstance(item, Enum | Worded):
+    if isinstance(item, Enum | Keyword):
         return spelled(item.value)
     if isinstance(item, bool):
         return "true" if item else "false"

@@ -11,20 +11,20 @@ from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.job import Job
 from ..model.part import Part
-from ..model.reading import Source
-from .commands.command import Session, counted
+from ..model.reading import DrawingSource
+from .commands.command import DraftingSession, counted
 from .commands.layers import with_layer_renamed
 from .expressions.errors import CommandError
 from .expressions.grammar import read_script
 from .expressions.syntax import Command, Quantity, Statement
 from .expressions.values import Curves, wrong
-from .history import History, State
+from .history import HistoryState, UndoHistory
 from .language.interpret import Interpreter, Outcome
 from .language.language import command_word
-from .recorded import Recorded
+from .recorded_lines import RecordedLine
 
 
-class Change(Flag):
+class DocumentChange(Flag):
     """What listeners should look at again; LOADED says that it is another document."""
 
     PART = auto()
@@ -49,7 +49,7 @@ class LogLine:
     error: bool = False
 
 
-Listener = Callable[[Change], None]
+Listener = Callable[[DocumentChange], None]
 
 
 class Document:
@@ -64,8 +64,8 @@ class Document:
 
     def __init__(self, job: Job | None = None) -> None:
         """Open a job, or an empty drawing."""
-        self._history = History(_first_state(job or Job(Part())))
-        self._saved: State | None = self._history.state
+        self._history = UndoHistory(_first_state(job or Job(Part())))
+        self._saved: HistoryState | None = self._history.state
         self._listeners: list[Listener] = []
         self.revision = 0
         self.selection: frozenset[int] = frozenset()
@@ -98,7 +98,7 @@ class Document:
         return self._history.state is not self._saved
 
     @property
-    def state(self) -> State:
+    def state(self) -> HistoryState:
         """Everything that a project file holds of the document."""
         return self._history.state
 
@@ -123,13 +123,13 @@ class Document:
         return lambda: self._listeners.remove(listener) if listener in self._listeners else None
 
     @property
-    def session(self) -> Session:
+    def session(self) -> DraftingSession:
         """What the next line may refer to."""
         state = self._history.state
-        return Session(state.job.part, state.last, state.layer, self.selection, state.names, state.commands)
+        return DraftingSession(state.job.part, state.last, state.layer, self.selection, state.names, state.commands)
 
     @property
-    def recorded(self) -> Recorded:
+    def recorded(self) -> RecordedLine:
         """The lines that drew the part as it is now."""
         return self._history.state.recorded
 
@@ -154,7 +154,7 @@ class Document:
             self.refuse(line, str(error))
             raise
         self.log.append(LogLine(line, reply))
-        self._tell(change | Change.LOG)
+        self._tell(change | DocumentChange.LOG)
         return reply
 
     def accept(self, line: str, outcome: Outcome) -> str:
@@ -164,15 +164,15 @@ class Document:
         """
         reply, change = self._take(outcome, line.strip())
         self.log.append(LogLine(line.strip(), reply))
-        self._tell(change | Change.LOG)
+        self._tell(change | DocumentChange.LOG)
         return reply
 
     def refuse(self, line: str, reason: str) -> None:
         """Log that a line could not be carried out, and why."""
         self.log.append(LogLine(line, reason, error=True))
-        self._tell(Change.LOG)
+        self._tell(DocumentChange.LOG)
 
-    def tried(self, text: str, progress: Progress = NO_PROGRESS) -> Session:
+    def tried(self, text: str, progress: Progress = NO_PROGRESS) -> DraftingSession:
         """Return what a text of the shape language would make of the drawing; nothing changes, nothing is logged.
 
         Raises:
@@ -198,7 +198,7 @@ class Document:
                     self._step(*step) if step else self._take(_evaluated((statement,), self.session, interpreter), line)
                 )
                 self.log.append(LogLine(line, reply))
-                self._tell(change | Change.LOG)
+                self._tell(change | DocumentChange.LOG)
         except CommandError as error:
             raise InputError(f"{name}:{error.line}: column {error.column}: {error.reason}") from error
 
@@ -212,11 +212,11 @@ class Document:
         if job == self.job:
             return
         part_changed, state = job.part is not self.part, self._history.state
-        recorded = Recorded(job.part) if part_changed else state.recorded
+        recorded = RecordedLine(job.part) if part_changed else state.recorded
         self._history.change(name, replace(state, job=job, recorded=recorded), merge)
-        self._tell(self._after(part_changed) | Change.JOB)
+        self._tell(self._after(part_changed) | DocumentChange.JOB)
 
-    def read_again(self, name: str, job: Job, source: Source) -> None:
+    def read_again(self, name: str, job: Job, source: DrawingSource) -> None:
         """Replace the drawing by what its file holds when it is read in another way; undone as one step.
 
         What the shape language has named stays, but for curves, whose numbers are others now.
@@ -231,11 +231,11 @@ class Document:
         layer = state.layer if any(each.name == state.layer for each in part.layers) else part.layers[0].name
         self.selection = frozenset()
         self._history.change(
-            name, replace(state, job=job, layer=layer, names=names, recorded=Recorded(part), source=source)
+            name, replace(state, job=job, layer=layer, names=names, recorded=RecordedLine(part), source=source)
         )
-        self._tell(self._after(part_changed=True) | Change.JOB | Change.SELECTION)
+        self._tell(self._after(part_changed=True) | DocumentChange.JOB | DocumentChange.SELECTION)
 
-    def load(self, job: Job, path: Path | None = None, source: Source | None = None) -> None:
+    def load(self, job: Job, path: Path | None = None, source: DrawingSource | None = None) -> None:
         """Begin a new document with this job; history, log and selection start afresh.
 
         Args:
@@ -243,7 +243,7 @@ class Document:
         """
         self.load_state(replace(_first_state(job), source=source), path)
 
-    def load_state(self, state: State, path: Path | None = None, saved: bool = True) -> None:
+    def load_state(self, state: HistoryState, path: Path | None = None, saved: bool = True) -> None:
         """Begin a new document as `load` does, with the names and commands of its drawing.
 
         Args:
@@ -251,21 +251,21 @@ class Document:
             path: where it was loaded from.
             saved: False: what it holds lies in no file that the user knows.
         """
-        state = replace(state, recorded=Recorded(state.job.part))
-        self._history = History(state)
+        state = replace(state, recorded=RecordedLine(state.job.part))
+        self._history = UndoHistory(state)
         self._saved, self.path = state if saved else None, path
         self.selection, self.log = frozenset(), []
         self.revision += 1
-        self._tell(Change.ALL)
+        self._tell(DocumentChange.ALL)
 
-    def mark_saved(self, path: Path, state: State | None = None) -> None:
+    def mark_saved(self, path: Path, state: HistoryState | None = None) -> None:
         """Remember that a state, by default that of now, lies in this file; the part is named after it."""
         self._saved, self.path = state or self._history.state, path
         if self.part.name == path.stem:
-            self._tell(Change.HISTORY)
+            self._tell(DocumentChange.HISTORY)
             return
         self._saved = self._history.rename(path.stem, self._saved)
-        self._tell(Change.HISTORY | Change.JOB)
+        self._tell(DocumentChange.HISTORY | DocumentChange.JOB)
 
     def undo(self) -> None:
         """Take the last change back; logged as the line `undo`."""
@@ -289,13 +289,13 @@ class Document:
         chosen = frozenset(ids) & self.part.ids()
         if chosen != self.selection:
             self.selection = chosen
-            self._tell(Change.SELECTION)
+            self._tell(DocumentChange.SELECTION)
 
-    def _take(self, outcome: Outcome, line: str) -> tuple[str, Change]:
+    def _take(self, outcome: Outcome, line: str) -> tuple[str, DocumentChange]:
         before, after, state = self.session, outcome.session, self._history.state
         if after == replace(before, selection=after.selection):
             self.selection = after.selection
-            return outcome.reply, Change.SELECTION
+            return outcome.reply, DocumentChange.SELECTION
         part_changed = after.part is not before.part
         job = replace(self.job, part=after.part) if part_changed else self.job
         for old, new in after.renamed:
@@ -315,35 +315,39 @@ class Document:
         )
         selected, self.selection = self.selection, after.selection
         change = self._after(part_changed)
-        return outcome.reply, change | (Change.SELECTION if selected != self.selection else Change(0))
+        return outcome.reply, change | (DocumentChange.SELECTION if selected != self.selection else DocumentChange(0))
 
-    def _step(self, back: bool, times: int) -> tuple[str, Change]:
+    def _step(self, back: bool, times: int) -> tuple[str, DocumentChange]:
         before = self.job
         names: list[str] = []
         while len(names) < times and (name := self._history.undo() if back else self._history.redo()) is not None:
             names.append(name)
         if not names:
-            return ("Nothing to undo." if back else "Nothing to redo."), Change.HISTORY
+            return ("Nothing to undo." if back else "Nothing to redo."), DocumentChange.HISTORY
         change = self._after(part_changed=self.part is not before.part)
         what = names[0] if len(names) == 1 else f"{len(names)} steps"
-        return f"{what} {'undone' if back else 'done again'}.", change | Change.JOB
+        return f"{what} {'undone' if back else 'done again'}.", change | DocumentChange.JOB
 
-    def _after(self, part_changed: bool) -> Change:
+    def _after(self, part_changed: bool) -> DocumentChange:
         """Bring revision and selection in step with a new state; return what changed."""
         self.revision += 1
         if not part_changed:
-            return Change.HISTORY
+            return DocumentChange.HISTORY
         kept = self.selection & self.part.ids() if self.selection else self.selection
-        change = Change.PART | Change.HISTORY | (Change.SELECTION if kept != self.selection else Change(0))
+        change = (
+            DocumentChange.PART
+            | DocumentChange.HISTORY
+            | (DocumentChange.SELECTION if kept != self.selection else DocumentChange(0))
+        )
         self.selection = kept
         return change
 
-    def _tell(self, change: Change) -> None:
+    def _tell(self, change: DocumentChange) -> None:
         for listener in tuple(self._listeners):
             listener(change)
 
 
-def evaluated(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Outcome:
+def evaluated(text: str, session: DraftingSession, progress: Progress = NO_PROGRESS) -> Outcome:
     """Return what a text of the shape language makes of a session, on whatever thread; `Document.accept` takes it.
 
     Raises:
@@ -352,7 +356,7 @@ def evaluated(text: str, session: Session, progress: Progress = NO_PROGRESS) -> 
     return _evaluated(_statements(text.strip()), session, Interpreter(progress))
 
 
-def tried(text: str, session: Session, progress: Progress = NO_PROGRESS) -> Session:
+def tried(text: str, session: DraftingSession, progress: Progress = NO_PROGRESS) -> DraftingSession:
     """Return what a text of the shape language makes of a session; a text without a statement makes nothing of it.
 
     Raises:
@@ -386,7 +390,7 @@ def _statements(line: str) -> tuple[Statement, ...]:
     return statements
 
 
-def _evaluated(statements: tuple[Statement, ...], session: Session, interpreter: Interpreter) -> Outcome:
+def _evaluated(statements: tuple[Statement, ...], session: DraftingSession, interpreter: Interpreter) -> Outcome:
     outcome, alone = Outcome(session, "", ""), len(statements) == 1
     for number, statement in enumerate(statements):
         interpreter.fraction = interpreter.fraction if alone else number / len(statements)
@@ -412,5 +416,5 @@ def _step_of(statements: tuple[Statement, ...]) -> tuple[bool, int] | None:
     raise wrong(f"Write {word}, or {word} 3 for three steps.", statement.place)
 
 
-def _first_state(job: Job) -> State:
-    return State(job, layer=job.part.layers[0].name if job.part.layers else "0", recorded=Recorded(job.part))
+def _first_state(job: Job) -> HistoryState:
+    return HistoryState(job, layer=job.part.layers[0].name if job.part.layers else "0", recorded=RecordedLine(job.part))

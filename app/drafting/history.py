@@ -11,10 +11,10 @@ from typing import Any, TypeVar
 from ..model.curves import Curve, Point, Spline
 from ..model.job import Job
 from ..model.part import Entity, Part
-from ..model.reading import Source
-from .expressions.syntax import Define
+from ..model.reading import DrawingSource
+from .expressions.syntax import CommandDefinition
 from .expressions.values import Value
-from .recorded import Recorded
+from .recorded_lines import RecordedLine
 
 MOST_BYTES = 256 * 2**20
 """What steps may hold together; beyond that the oldest go."""
@@ -26,7 +26,7 @@ Kind = TypeVar("Kind")
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class HistoryState:
     """Everything that undo brings back.
 
     Attributes:
@@ -41,11 +41,11 @@ class State:
     layer: str = "0"
     last: Point = (0.0, 0.0)
     names: Mapping[str, Value] = field(default_factory=dict)
-    commands: Mapping[str, Define] = field(default_factory=dict)
-    recorded: Recorded = field(default_factory=lambda: Recorded(Part()))
-    source: Source | None = None
+    commands: Mapping[str, CommandDefinition] = field(default_factory=dict)
+    recorded: RecordedLine = field(default_factory=lambda: RecordedLine(Part()))
+    source: DrawingSource | None = None
 
-    def named(self, name: str) -> State:
+    def named(self, name: str) -> HistoryState:
         """Return it with another name of the part."""
         return replace(self, job=replace(self.job, part=replace(self.job.part, name=name)))
 
@@ -55,18 +55,18 @@ class _Step:
     """A change: its name, the state at its other end, and about how many bytes the two states do not share."""
 
     name: str
-    other: State
+    other: HistoryState
     size: int
 
 
-class History:
+class UndoHistory:
     """Changes done and those taken back, each by name, as many as `most_bytes` hold; the latest one always.
 
     Attributes:
         state: what is now.
     """
 
-    def __init__(self, state: State, most_bytes: int = MOST_BYTES) -> None:
+    def __init__(self, state: HistoryState, most_bytes: int = MOST_BYTES) -> None:
         """Begin with a state that cannot be undone."""
         self.state = state
         self._undo: list[_Step] = []
@@ -89,7 +89,7 @@ class History:
         """Names of all changes, the oldest first, and how many of them are done; the rest is what redo brings."""
         return tuple(step.name for step in (*self._undo, *reversed(self._redo))), len(self._undo)
 
-    def change(self, name: str, state: State, merge: bool = False) -> None:
+    def change(self, name: str, state: HistoryState, merge: bool = False) -> None:
         """Go to a new state.
 
         Args:
@@ -116,7 +116,7 @@ class History:
         """Go forward one step and return its name, or None when there is none."""
         return self._swap(self._redo, self._undo)
 
-    def rename(self, name: str, kept: State) -> State:
+    def rename(self, name: str, kept: HistoryState) -> HistoryState:
         """Let the part have this name in all that was, is and will be again, which is no step; return what becomes of
         the state `kept`.
         """
@@ -128,7 +128,7 @@ class History:
         def job(old: Job) -> Job:
             return replace(old, part=once(old.part, part))
 
-        def state(old: State) -> State:
+        def state(old: HistoryState) -> HistoryState:
             return replace(old, job=once(old.job, job))
 
         def once(old: Kind, change: Callable[[Kind], Kind]) -> Kind:
@@ -163,7 +163,7 @@ class History:
         del self._undo[:gone]
 
 
-def _unshared(one: State, other: State) -> int:
+def _unshared(one: HistoryState, other: HistoryState) -> int:
     """Return about how many bytes the first state holds beside what it shares with the other."""
     mine, theirs = one.job.part.entities, other.job.part.entities
     if mine is theirs:

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.errors import Cancelled, HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
 from ..simulation.engines import Graphics
-from ..simulation.field.differences import Apart, apart
+from ..simulation.field.differences import HeightDifference, height_difference
 from ..simulation.field.workpiece import Heights, Workpiece
 from ..simulation.gpu.depth_buffer import DepthBuffer, published
 from ..simulation.gpu.graphics import is_software, renderer_of
@@ -41,7 +41,7 @@ PRINTED = (
 )
 
 
-class Method(Enum):
+class HeightMethod(Enum):
     """A way to compute heights; the value is its key in reports."""
 
     PLAIN = "plain"
@@ -51,10 +51,10 @@ class Method(Enum):
 
 
 WAYS = {
-    Method.PLAIN: "plain software: one thread, every cell of each move's box",
-    Method.PUBLISHED: "as published: cylinders and wedges in facets of two cells, drawn into the depth buffer",
-    Method.QUADS: "a quad a move, the exact height in each cell, the least stays",
-    Method.RECORD: "the engine of record, on the processor",
+    HeightMethod.PLAIN: "plain software: one thread, every cell of each move's box",
+    HeightMethod.PUBLISHED: "as published: cylinders and wedges in facets of two cells, drawn into the depth buffer",
+    HeightMethod.QUADS: "a quad a move, the exact height in each cell, the least stays",
+    HeightMethod.RECORD: "the engine of record, on the processor",
 }
 
 
@@ -85,12 +85,12 @@ class FigureRow:
 
     name: str
     program: DieProgram
-    seconds: dict[Method, float]
-    apart: dict[Method, Apart]
+    seconds: dict[HeightMethod, float]
+    apart: dict[HeightMethod, HeightDifference]
     polygons: PolygonCounts
     error: float
 
-    def ratio(self, slower: Method, faster: Method) -> float | None:
+    def ratio(self, slower: HeightMethod, faster: HeightMethod) -> float | None:
         """Return how many times as long one way takes as another; None where one is missing."""
         if slower not in self.seconds or faster not in self.seconds:
             return None
@@ -180,14 +180,16 @@ def _row(
             except (HitofudeError, Cancelled):
                 raise
             except Exception as trouble:  # whatever a driver comes up with; the other ways are worth telling
-                if way not in (Method.QUADS, Method.PUBLISHED):
+                if way not in (HeightMethod.QUADS, HeightMethod.PUBLISHED):
                     raise
                 faults.append(
                     f"{way.value} fails on program {name}: "
                     f"{' '.join(str(trouble).split())[:200] or type(trouble).__name__}"
                 )
-    found: dict[Method, Apart] = {
-        way: apart(heights[Method.RECORD], other) for way, other in heights.items() if way is not Method.RECORD
+    found: dict[HeightMethod, HeightDifference] = {
+        way: height_difference(heights[HeightMethod.RECORD], other)
+        for way, other in heights.items()
+        if way is not HeightMethod.RECORD
     }
     facet = published(piece.grid).facet
     return FigureRow(
@@ -197,20 +199,20 @@ def _row(
 
 def _ways(
     program: DieProgram, piece: Workpiece, context: moderngl.Context | None, stack: ExitStack
-) -> dict[Method, Run]:
+) -> dict[HeightMethod, Run]:
     """Return what computes heights, by way; the stack gives back what they hold."""
     course, cutters, cells = program.course(), program.cutters, piece.grid.cols
-    ways: dict[Method, Run] = {
-        Method.RECORD: lambda told: trim(piece, course, cutters, progress=told).heights,
-        Method.PLAIN: lambda told: plain_heights(program, cells, told),
+    ways: dict[HeightMethod, Run] = {
+        HeightMethod.RECORD: lambda reported: trim(piece, course, cutters, progress=reported).heights,
+        HeightMethod.PLAIN: lambda reported: plain_heights(program, cells, reported),
     }
     if context is None:
         return ways
     engine = DepthBuffer(context, published(piece.grid))
     stack.callback(engine.release)
     return ways | {
-        Method.QUADS: lambda told: quad_heights(context, piece, course, cutters, told),
-        Method.PUBLISHED: lambda told: engine.heights(piece, course, cutters, told),
+        HeightMethod.QUADS: lambda reported: quad_heights(context, piece, course, cutters, reported),
+        HeightMethod.PUBLISHED: lambda reported: engine.heights(piece, course, cutters, reported),
     }
 
 
@@ -254,7 +256,7 @@ def _plain(row: FigureRow) -> dict[str, Any]:
         "program": row.name,
         "moves": row.program.moves,
         "radius_mm": row.program.radius,
-        "seconds": {way.value: row.seconds.get(way) for way in Method},
+        "seconds": {way.value: row.seconds.get(way) for way in HeightMethod},
         "ratios": ratios,
         "apart_from_record_mm": {way.value: _finite(found.largest) for way, found in row.apart.items()},
         "published_error_mm": row.error,
@@ -268,10 +270,10 @@ def _plain(row: FigureRow) -> dict[str, Any]:
 
 
 _RATIOS = (
-    (Method.PLAIN, Method.PUBLISHED),
-    (Method.PLAIN, Method.RECORD),
-    (Method.PUBLISHED, Method.QUADS),
-    (Method.PUBLISHED, Method.RECORD),
+    (HeightMethod.PLAIN, HeightMethod.PUBLISHED),
+    (HeightMethod.PLAIN, HeightMethod.RECORD),
+    (HeightMethod.PUBLISHED, HeightMethod.QUADS),
+    (HeightMethod.PUBLISHED, HeightMethod.RECORD),
 )
 
 
@@ -285,12 +287,12 @@ def _lines(figure: FigureEleven) -> Iterator[str]:
         f"Figure 11: {options.cells} x {options.cells} cells of {SIZE / options.cells:.4g} mm, best of "
         f"{options.repeat}, {WORKERS} threads; {drawn}"
     )
-    columns = [f"{way.value:>12}" for way in Method] + [
+    columns = [f"{way.value:>12}" for way in HeightMethod] + [
         f"{slower.value + '/' + faster.value:>18}" for slower, faster in _RATIOS
     ]
     yield f"{'':2}{'moves':>8}{'radius':>8}" + "".join(columns)
     for row in figure.rows:
-        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in Method)
+        times = "".join(f"{row.seconds[way]:>10.3f} s" if way in row.seconds else f"{'-':>12}" for way in HeightMethod)
         ratios = "".join(
             f"{ratio:>17.1f}x" if (ratio := row.ratio(*pair)) is not None else f"{'-':>18}" for pair in _RATIOS
         )

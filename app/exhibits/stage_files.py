@@ -16,7 +16,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..model.finding import Finding, worst_first
 from ..raster.codes import PixelCode, Plane
 from ..raster.frame import STAGES_BYTES
-from ..raster.steps import STEPS, Stage, StageObserver
+from ..raster.steps import STEPS, StageObserver, StepState
 from ..usecases.bitmap_job import BitmapJob, bitmap_job
 from ..usecases.bitmap_options import is_picture
 from ..usecases.bitmap_way import BitmapProgram, compute_on_bitmap
@@ -62,7 +62,7 @@ class StepTurn:
     """One time that a step was done.
 
     Attributes:
-        number, region, turn: as of the `Stage`.
+        number, region, turn: as of the `StepState`.
         text: its chain codes, a line each. picture: its codes, as `indexed_png`; b"" = not kept.
     """
 
@@ -87,7 +87,7 @@ class StagesRun:
     ready: BitmapJob
     made: BitmapProgram
     variant: Variant
-    last: tuple[Stage, ...]
+    last: tuple[StepState, ...]
     turns: tuple[StepTurn, ...]
 
     @property
@@ -130,7 +130,7 @@ class StagesRun:
         }
 
 
-def _step(run: StagesRun, stage: Stage, file: str) -> Json:
+def _step(run: StagesRun, stage: StepState, file: str) -> Json:
     values, counts = np.unique(stage.plane, return_counts=True)
     pixels = {PixelCode(int(v)).name.lower(): int(n) for v, n in zip(values, counts, strict=True)}
     return {
@@ -147,7 +147,7 @@ def _step(run: StagesRun, stage: Stage, file: str) -> Json:
 def run_stages(
     name: str,
     data: bytes,
-    asked: tuple[MakeOptions, Variant],
+    requested: tuple[MakeOptions, Variant],
     progress: Progress = NO_PROGRESS,
     observer: StageObserver | None = None,
 ) -> StagesRun:
@@ -156,19 +156,19 @@ def run_stages(
     Args:
         name: of the file; its suffix tells the format.
         data: its bytes.
-        asked: tools, operations and bitmap; the rules of the fill.
+        requested: tools, operations and bitmap; the rules of the fill.
         observer: is shown every stage, also those that `StagesRun` keeps only the last of.
 
     Raises:
         HitofudeError: it cannot be used, or nothing in it can be cut.
         Cancelled: the job was asked to stop.
     """
-    options, variant = asked
+    options, variant = requested
     progress.step(0.0, f"Reading {name}")
     ready = bitmap_job(name, data, options)
     ready.part.frame.ask_memory(STAGES_BYTES, is_picture(name))
     made = compute_on_bitmap(ready.job, ready.part, progress.part(0.1, 0.8))
-    last: dict[int, Stage] = {}
+    last: dict[int, StepState] = {}
     turns: list[StepTurn] = []
     for stage in stages(ready.job, ready.part, made.paths, variant):
         progress.step(0.9, stage.name)
@@ -182,7 +182,7 @@ def run_stages(
     return StagesRun(ready, made, variant, tuple(last[number] for number in STEPS if number in last), tuple(turns))
 
 
-def names(last: tuple[Stage, ...]) -> list[str]:
+def names(last: tuple[StepState, ...]) -> list[str]:
     """Return the files' names without suffix, so that they sort in the text's order."""
     return [f"{k:02d}_{stage.number}" for k, stage in enumerate(last, 1)]
 
@@ -225,7 +225,7 @@ def _chunk(name: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
 
-def png(stage: Stage) -> bytes:
+def png(stage: StepState) -> bytes:
     """Return the stage as a PNG picture, pixels as squares."""
     import cv2
 

@@ -10,7 +10,7 @@ from enum import Enum
 
 import numpy as np
 
-from ..fitting.corner_smoothing.smoothed import PieceKind
+from ..fitting.corner_smoothing.smoothed_path import PieceKind
 from ..geometry.primitives import Rows
 from ..model.job import Job
 from ..raster.border import borders_of, mark
@@ -18,8 +18,8 @@ from ..raster.codes import PixelCode, Plane
 from ..raster.fill import fill
 from ..raster.peel import correct_by_circles, peels
 from ..raster.published import published_marks, published_scan, wrong_pixels
-from ..raster.steps import Stage
-from ..raster.trace import Chain, chain_rows
+from ..raster.steps import StepState
+from ..raster.trace import PixelChain, chain_rows
 from ..raster.walls import Mask
 from ..usecases.bitmap_part import BitmapPart
 from ..usecases.bitmap_way import OperationPaths, PixelPath
@@ -50,7 +50,7 @@ class _Scene:
 
 def stages(
     job: Job, part: BitmapPart, paths: Sequence[OperationPaths], variant: Variant = Variant.SETTLED
-) -> Iterator[Stage]:
+) -> Iterator[StepState]:
     """Yield the display memory after every step, in the text's order; each is made when it is asked for.
 
     Args:
@@ -64,30 +64,30 @@ def stages(
     pocket = next(
         (each for each in paths if each is not contour and not job.operations[each.index].FOLLOWS_WALLS), None
     )
-    yield Stage(110, (part.drawn != PixelCode.EMPTY).astype(np.uint8))
+    yield StepState(110, (part.drawn != PixelCode.EMPTY).astype(np.uint8))
     shown = contour or pocket
     if shown is None:
         return
     outline = tuple(border.chain for border in borders_of(shown.area))
     plane = np.zeros_like(part.drawn)
     _put(plane, outline, PixelCode.CONTOUR)
-    yield Stage(120, plane, outline)
+    yield StepState(120, plane, outline)
     yield from _fill(scene, outline)
     if pocket is not None:
         yield from _frames(scene, pocket)
         yield from _inner_paths(scene, pocket)
-    yield Stage(140, _all_paths(part, contour, pocket))
+    yield StepState(140, _all_paths(part, contour, pocket))
     yield from _smoothing(
         part, [path for each in (contour, pocket) if each is not None for level in each.levels[:1] for path in level]
     )
 
 
-def _put(plane: Plane, chains: Sequence[Chain], code: PixelCode) -> None:
+def _put(plane: Plane, chains: Sequence[PixelChain], code: PixelCode) -> None:
     for chain in chains:
         plane[tuple(chain.pixels().T)] = code
 
 
-def _fill(scene: _Scene, outline: tuple[Chain, ...]) -> Iterator[Stage]:
+def _fill(scene: _Scene, outline: tuple[PixelChain, ...]) -> Iterator[StepState]:
     """Steps 201-208 and 130."""
     frame = scene.part.frame
     seen: dict[int, Plane] = {}
@@ -99,18 +99,18 @@ def _fill(scene: _Scene, outline: tuple[Chain, ...]) -> Iterator[Stage]:
         seen[130] = (seen[208] != PixelCode.EMPTY).astype(np.uint8)
         wrong = wrong_pixels(seen[208], settled)
     found = np.where(seen[206] == PixelCode.R, PixelCode.VERTEX, seen[203]).astype(np.uint8)
-    yield Stage(201, seen[201])
-    yield Stage(202, seen[202])
-    yield Stage(203, seen[203], chains)
-    yield Stage(204, seen[203].copy())
-    yield Stage(205, found)
-    yield Stage(206, seen[206])
-    yield Stage(207, seen[206].copy())
-    yield Stage(208, seen[208], wrong=wrong)
-    yield Stage(130, seen[130], wrong=wrong)
+    yield StepState(201, seen[201])
+    yield StepState(202, seen[202])
+    yield StepState(203, seen[203], chains)
+    yield StepState(204, seen[203].copy())
+    yield StepState(205, found)
+    yield StepState(206, seen[206])
+    yield StepState(207, seen[206].copy())
+    yield StepState(208, seen[208], wrong=wrong)
+    yield StepState(130, seen[130], wrong=wrong)
 
 
-def _frames(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
+def _frames(scene: _Scene, pocket: OperationPaths) -> Iterator[StepState]:
     """Steps 141-144: the outermost frames of all regions, one region after the other."""
     plane = pocket.area.astype(np.uint8)
     for region in scene.part.regions:
@@ -119,10 +119,10 @@ def _frames(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
             yield from _shrink(plane, area, (region.number, pocket.steps.first, scene.variant is Variant.PUBLISHED))
             yield from _frame(plane, area, pocket, region.number)
     frames = [path for level in pocket.levels[:1] for path in level]
-    yield Stage(144, plane.copy(), tuple(path.chain for path in frames), _rows(frames))
+    yield StepState(144, plane.copy(), tuple(path.chain for path in frames), _rows(frames))
 
 
-def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterator[Stage]:
+def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterator[StepState]:
     """Steps 301-307 on one region; the plane goes along."""
     region, radius, keep_ends = about
     left, first = area, borders_of(area)
@@ -130,31 +130,31 @@ def _shrink(plane: Plane, area: Mask, about: tuple[int, float, bool]) -> Iterato
         traced = plane.copy()
         mark(traced, borders, PixelCode.TRACED)
         chains = tuple(border.chain for border in borders)
-        yield Stage(301, traced, chains, region=region, turn=turn)
-        yield Stage(302, traced.copy(), region=region, turn=turn)
+        yield StepState(301, traced, chains, region=region, turn=turn)
+        yield StepState(302, traced.copy(), region=region, turn=turn)
         if turn == 1:
-            yield Stage(303, traced.copy(), chains, region=region)
+            yield StepState(303, traced.copy(), chains, region=region)
         plane[area & ~left] = PixelCode.PROCESSED
-        yield Stage(304, plane.copy(), region=region, turn=turn)
-        yield Stage(305, plane.copy(), region=region, turn=turn)
+        yield StepState(304, plane.copy(), region=region, turn=turn)
+        yield StepState(305, plane.copy(), region=region, turn=turn)
     read = plane.copy()
     mark(read, first, PixelCode.FRAME)
-    yield Stage(306, read, tuple(border.chain for border in first), region=region)
+    yield StepState(306, read, tuple(border.chain for border in first), region=region)
     plane[area & ~correct_by_circles(left, area, radius)] = PixelCode.PROCESSED
-    yield Stage(307, plane.copy(), region=region)
+    yield StepState(307, plane.copy(), region=region)
 
 
-def _frame(plane: Plane, area: Mask, pocket: OperationPaths, region: int) -> Iterator[Stage]:
+def _frame(plane: Plane, area: Mask, pocket: OperationPaths, region: int) -> Iterator[StepState]:
     """Steps 141-143 on one region: what is left, its border, and the overlap."""
     inside = area & (pocket.pixels >= 1)
     plane[area & ~inside] = PixelCode.PROCESSED
-    yield Stage(141, plane.copy(), region=region)
+    yield StepState(141, plane.copy(), region=region)
     frames = [path for level in pocket.levels[:1] for path in level if area[path.chain.start]]
     chains = tuple(path.chain for path in frames)
     _put(plane, chains, PixelCode.FRAME)
-    yield Stage(142, plane.copy(), chains, _rows(frames), region)
+    yield StepState(142, plane.copy(), chains, _rows(frames), region)
     _mark_overlap(plane, area & (pocket.pixels == 1))
-    yield Stage(143, plane.copy(), region=region)
+    yield StepState(143, plane.copy(), region=region)
 
 
 def _mark_overlap(plane: Plane, band: Mask) -> None:
@@ -162,7 +162,7 @@ def _mark_overlap(plane: Plane, band: Mask) -> None:
     plane[band & (plane == PixelCode.CONTOUR)] = PixelCode.PROCESSED
 
 
-def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
+def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[StepState]:
     """Steps 145-148: path after path, in all regions."""
     plane = np.where(
         pocket.area, np.where(pocket.pixels >= 1, PixelCode.CONTOUR, PixelCode.PROCESSED), PixelCode.EMPTY
@@ -172,13 +172,13 @@ def _inner_paths(scene: _Scene, pocket: OperationPaths) -> Iterator[Stage]:
     for level in range(2, len(pocket.levels) + 1):
         chains = tuple(path.chain for path in pocket.levels[level - 1])
         _put(plane, chains, PixelCode.TRACED)
-        yield Stage(145, plane.copy(), chains, turn=level - 1)
+        yield StepState(145, plane.copy(), chains, turn=level - 1)
         _put(plane, chains, PixelCode.RING)
-        yield Stage(146, plane.copy(), chains, _rows(pocket.levels[level - 1]), turn=level - 1)
+        yield StepState(146, plane.copy(), chains, _rows(pocket.levels[level - 1]), turn=level - 1)
         _mark_overlap(plane, pocket.pixels == level)
-        yield Stage(147, plane.copy(), turn=level - 1)
+        yield StepState(147, plane.copy(), turn=level - 1)
     plane[plane == PixelCode.CONTOUR] = PixelCode.PROCESSED
-    yield Stage(148, plane.copy())
+    yield StepState(148, plane.copy())
 
 
 def _rows(paths: Sequence[PixelPath]) -> Rows:
@@ -193,7 +193,7 @@ def _all_paths(part: BitmapPart, contour: OperationPaths | None, pocket: Operati
     return plane
 
 
-def _smoothing(part: BitmapPart, paths: Sequence[PixelPath]) -> Iterator[Stage]:
+def _smoothing(part: BitmapPart, paths: Sequence[PixelPath]) -> Iterator[StepState]:
     """Steps 401-407 on some paths."""
     plane = np.zeros_like(part.drawn)
     _put(plane, [path.chain for path in paths], PixelCode.CONTOUR)
@@ -205,7 +205,7 @@ def _smoothing(part: BitmapPart, paths: Sequence[PixelPath]) -> Iterator[Stage]:
             chosen = path.smoothed.kinds == number
             _mark_pieces(plane, path, chosen)
             done.append(path.rows[chosen])
-        yield Stage(number, plane.copy(), rows=np.concatenate(done))
+        yield StepState(number, plane.copy(), rows=np.concatenate(done))
 
 
 def _mark_pieces(plane: Plane, path: PixelPath, chosen: Mask) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..model.finding import Finding
 from ..model.part import Part
-from .reading_question import NO_CHOICE, Contents, Question
+from .reading_question import NO_CHOICE, FileContents, ReadingQuestion
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,12 @@ class Drawing:
     findings: tuple[Finding, ...] = ()
     left_out: tuple[tuple[str, int], ...] = ()
     units_named: bool = True
-    contents: Contents = NO_CHOICE
-    question: Question | None = None
+    contents: FileContents = NO_CHOICE
+    question: ReadingQuestion | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Converted:
+class ConvertedCurves:
     """Curves that the format cannot hold and that became lines and arcs.
 
     Attributes:
@@ -46,7 +46,7 @@ class Converted:
 
 
 @dataclass(frozen=True)
-class Written:
+class WrittenDrawing:
     """A drawing as it was written.
 
     Attributes:
@@ -58,7 +58,7 @@ class Written:
     """
 
     data: bytes
-    converted: tuple[Converted, ...] = ()
+    converted: tuple[ConvertedCurves, ...] = ()
     renamed: tuple[tuple[str, str], ...] = ()
     too_small: int = 0
     notes_left_out: int = 0

@@ -17,8 +17,8 @@ from ..geometry.sample import bounds, union
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ..model.finding import Finding, FindingKind
 from ..model.part import Entity, Part, Units
-from ..model.reading import Reading
-from .reading_question import Question, Size, about_strays
+from ..model.reading import ReadingOptions
+from .reading_question import ReadingQuestion, Size, strays_question
 
 MOST_CURVES = 500_000
 """A drawing that unfolds to more curves than this is refused before it fills the memory."""
@@ -34,7 +34,7 @@ _COUNTABLE = 1e10
 
 
 @dataclass(frozen=True)
-class Taken:
+class UsableCurves:
     """What of some curves can be machined.
 
     Attributes:
@@ -56,12 +56,12 @@ class Taken:
         return +Counter({BEYOND: len(self.far) + self.placeless})
 
 
-def taken(
+def usable_curves(
     curves: Iterable[tuple[Curve, str]],
     to_mm: Affine | None,
     anchors: Callable[[str], bool] | None = None,
     strokes: int = 0,
-) -> Taken:
+) -> UsableCurves:
     """Return all curves that have a length, in mm.
 
     Args:
@@ -75,7 +75,7 @@ def taken(
         None if anchors is None else _shift([curve for curve, layer in placed if curve is not None and anchors(layer)])
     )
     shift = None if moved is None else Affine(x0=moved[0], y0=moved[1])
-    found = Taken((), [], [], 0, moved)
+    found = UsableCurves((), [], [], 0, moved)
     entities: list[Entity] = []
     lost = 0
     for left, (curve, layer) in zip(range(len(placed), 0, -1), placed, strict=True):
@@ -93,7 +93,9 @@ def taken(
     return replace(found, entities=tuple(entities), placeless=lost)
 
 
-def strays_or_none(found: Taken, reading: Reading, placed: Callable[[bool], Taken]) -> Question | None:
+def strays_or_none(
+    found: UsableCurves, reading: ReadingOptions, placed: Callable[[bool], UsableCurves]
+) -> ReadingQuestion | None:
     """Return what to ask where some curves lie beyond 1 km that would not when the drawing is moved to zero.
 
     Args:
@@ -101,15 +103,17 @@ def strays_or_none(found: Taken, reading: Reading, placed: Callable[[bool], Take
     """
     if not found.far or found.moved is not None or placed(True).missing:
         return None
-    return about_strays(len(found.far), reading)
+    return strays_question(len(found.far), reading)
 
 
 def size_of(part: Part, layers: tuple[str, ...] = ()) -> Size:
     """Return width and height of what is machined of a part, mm: what is on some layers, or else on all that are
     shown.
     """
-    wanted = {layer.casefold() for layer in layers} or {layer.name.casefold() for layer in part.layers if layer.visible}
-    box = union([bounds(entity.curve) for entity in part.entities if entity.layer.casefold() in wanted])
+    requested = {layer.casefold() for layer in layers} or {
+        layer.name.casefold() for layer in part.layers if layer.visible
+    }
+    box = union([bounds(entity.curve) for entity in part.entities if entity.layer.casefold() in requested])
     return (0.0, 0.0) if box is None else (box[2] - box[0], box[3] - box[1])
 
 
@@ -144,7 +148,7 @@ def _numbers(curve: Curve) -> Iterator[float]:
         yield from point
 
 
-def about_place(found: Taken) -> Iterator[Finding]:
+def placement_findings(found: UsableCurves) -> Iterator[Finding]:
     """Say that the drawing was moved, and what of it is lost because it lies nowhere or too far away."""
     if found.moved is not None:
         x, y = found.moved
@@ -202,8 +206,8 @@ def on_layers(part: Part, layers: tuple[str, ...], name: str) -> Part:
         raise InputError(
             f"{name}: there is no layer {missing[0]}; the drawing has {', '.join(layer.name for layer in part.layers)}."
         )
-    wanted = {layer.casefold() for layer in layers}
-    kept = tuple(entity for entity in part.entities if entity.layer.casefold() in wanted)
+    requested = {layer.casefold() for layer in layers}
+    kept = tuple(entity for entity in part.entities if entity.layer.casefold() in requested)
     if not kept:
         raise InputError(f"{name}: layer {', '.join(layers)} has no lines, arcs or curves; choose another.")
     return Part(kept, part.layers, part.units, part.name)
@@ -235,11 +239,11 @@ def without_length(places: list[Point | None]) -> Iterator[Finding]:
         )
 
 
-def switched_off(part: Part, asked: tuple[str, ...]) -> Iterator[Finding]:
+def switched_off(part: Part, requested: tuple[str, ...]) -> Iterator[Finding]:
     """Name the layers that have curves but are not shown, unless layers were asked for by name."""
     hidden = {layer.name for layer in part.layers if not layer.visible}
     curves = Counter(entity.layer for entity in part.entities if entity.layer in hidden)
-    if asked or not curves:
+    if requested or not curves:
         return
     count = curves.total()
     who = f"Layers {', '.join(curves)} are" if len(curves) > 1 else f"Layer {next(iter(curves))} is"

@@ -8,8 +8,8 @@ from pathlib import PurePath
 from ..core.errors import InputError
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, OPTION_OF, DrawingOptions
-from ..model.reading import Reading
-from . import known  # noqa: F401 (registers what comes with the program)
+from ..model.reading import ReadingOptions
+from . import builtin  # noqa: F401 (registers what comes with the program)
 from .drawing import Drawing
 from .registry import FORMATS, DrawingFormat
 
@@ -36,7 +36,7 @@ def read_drawing(
     name = PurePath(path_name).name
     format_ = format_of(name)
     check_options(how, name)
-    drawing = _without_layers(format_.read(name, data, Reading(units, layers, how)), how, name)
+    drawing = _without_layers(format_.read(name, data, ReadingOptions(units, layers, how)), how, name)
     return drawing if format_.scaled_page else replace(drawing, part=replace(drawing.part, reading=how))
 
 

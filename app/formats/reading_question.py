@@ -14,7 +14,7 @@ from ..core.errors import InputError
 from ..geometry.chaining.pieces import FARTHEST
 from ..model.curves import Point
 from ..model.part import Units
-from ..model.reading import Reading
+from ..model.reading import ReadingOptions
 
 UNIT_WORDS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Units.FOOT: "foot", Units.MICRON: "µm"}
 _OFFERED = (Units.MM, Units.INCH, Units.M)
@@ -28,7 +28,7 @@ Size = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class ReadingChoice:
     """One answer.
 
     Attributes:
@@ -40,31 +40,31 @@ class Choice:
     """
 
     words: str
-    reading: Reading
+    reading: ReadingOptions
     outcome: str = ""
     likely: bool = False
     now: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class ReadingQuestion:
     """What there is to ask about a drawing: a sentence of facts, and the answers."""
 
     text: str
-    choices: tuple[Choice, ...]
+    choices: tuple[ReadingChoice, ...]
 
 
 class UndecidedError(InputError):
     """A drawing cannot be read before somebody has said how; the text says by which options of the command line."""
 
-    def __init__(self, text: str, question: Question | None) -> None:
+    def __init__(self, text: str, question: ReadingQuestion | None) -> None:
         """Make an error whose `question` can be asked; None where no answer would help."""
         super().__init__(text)
         self.question = question
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
+class FileContents:
     """What a file holds that can be chosen from.
 
     Attributes:
@@ -83,7 +83,7 @@ class Contents:
     editor: str = ""
 
 
-NO_CHOICE = Contents()
+NO_CHOICE = FileContents()
 """Of a file in which there is nothing to choose."""
 
 
@@ -107,49 +107,49 @@ def _place(x: float, y: float) -> str:
     return f"({x:.3f}, {y:.3f})"
 
 
-def about_far(first: Point, reading: Reading, units: Units) -> Question:
+def far_question(first: Point, reading: ReadingOptions, units: Units) -> ReadingQuestion:
     """Ask what to do with a drawing all of which lies beyond 1 km.
 
     Args:
         first: place of its first curve, mm. reading: by which it lies there. units: in which it was read.
     """
     moved = replace(reading, how=replace(reading.how, to_zero=True))
-    choices = [Choice("Move it to zero", moved, "its lower left corner becomes zero", likely=True)]
+    choices = [ReadingChoice("Move it to zero", moved, "its lower left corner becomes zero", likely=True)]
     for other in _OFFERED[:2]:
         x, y = _scaled(first, other.value / units.value)
         if other.value < units.value and max(abs(x), abs(y)) < FARTHEST:
             choices.append(
-                Choice(
+                ReadingChoice(
                     f"Take it as {UNIT_WORDS[other]}", reading.in_units(other), f"it then begins at {_place(x, y)} mm"
                 )
             )
     away = math.hypot(*first) / 1e6
-    return Question(
+    return ReadingQuestion(
         f"All of it stands more than 1 km from zero: its first curve, at {_place(*first)} mm, {away:,.1f} km away.",
         tuple(choices),
     )
 
 
-def about_strays(count: int, reading: Reading) -> Question:
+def strays_question(count: int, reading: ReadingOptions) -> ReadingQuestion:
     """Ask what to do with a drawing of which some curves lie beyond 1 km and none does when it is moved to zero."""
     moved = replace(reading, how=replace(reading.how, to_zero=True))
     what = (
         "1 curve lies beyond 1 km and is missing." if count == 1 else f"{count} curves lie beyond 1 km and are missing."
     )
-    return Question(
+    return ReadingQuestion(
         what,
         (
-            Choice("Move it to zero", moved, "nothing is missing then", likely=True),
-            Choice("Keep it where it is", reading, "what lies beyond is left out", now=True),
+            ReadingChoice("Move it to zero", moved, "nothing is missing then", likely=True),
+            ReadingChoice("Keep it where it is", reading, "what lies beyond is left out", now=True),
         ),
     )
 
 
-def about_layouts(layouts: Mapping[str, int], reading: Reading) -> Question:
+def layouts_question(layouts: Mapping[str, int], reading: ReadingOptions) -> ReadingQuestion:
     """Ask which layout to take of a drawing whose model space is empty; `layouts` has how many entities each holds."""
     ranked = sorted(layouts.items(), key=lambda each: -each[1])
     choices = tuple(
-        Choice(
+        ReadingChoice(
             f"Take layout {_short(name)}",
             replace(reading, how=replace(reading.how, layout=name)),
             _entities(count),
@@ -158,10 +158,10 @@ def about_layouts(layouts: Mapping[str, int], reading: Reading) -> Question:
         for name, count in ranked[:_MOST_LAYOUTS]
     )
     if len(ranked) == 1:
-        return Question(
+        return ReadingQuestion(
             f"Model space holds no curve; all that is drawn stands on the layout {_short(ranked[0][0])}.", choices
         )
-    return Question(f"Model space holds no curve; what is drawn stands on {len(ranked)} layouts.", choices)
+    return ReadingQuestion(f"Model space holds no curve; what is drawn stands on {len(ranked)} layouts.", choices)
 
 
 def _short(name: str) -> str:
@@ -172,21 +172,21 @@ def _entities(count: int) -> str:
     return "1 entity" if count == 1 else f"{count} entities"
 
 
-def about_frozen(layers: tuple[str, ...], curves: int, reading: Reading) -> Question:
+def frozen_question(layers: tuple[str, ...], curves: int, reading: ReadingOptions) -> ReadingQuestion:
     """Ask whether to read what stands on frozen layers, where nothing else is drawn."""
     words = f"Read layer {_short(layers[0])}" if len(layers) == 1 else f"Read {len(layers)} layers"
-    read = Choice(
+    read = ReadingChoice(
         words,
         replace(reading, layers=layers),
         f"{curves} curve{'s' * (curves != 1)} on {', '.join(layers)}",
         likely=True,
     )
-    return Question("Nothing of it is shown: all blocks are inserted on layers that are frozen.", (read,))
+    return ReadingQuestion("Nothing of it is shown: all blocks are inserted on layers that are frozen.", (read,))
 
 
-def about_size(
-    size: Size, whence: str, keep: Choice, others: Iterable[tuple[Units, Size]], tools: tuple[float, ...]
-) -> Question:
+def size_question(
+    size: Size, whence: str, keep: ReadingChoice, others: Iterable[tuple[Units, Size]], tools: tuple[float, ...]
+) -> ReadingQuestion:
     """Ask for the units of a drawing whose size cannot be meant.
 
     Args:
@@ -198,12 +198,14 @@ def about_size(
     offered = list(others)
     likely = min(offered, key=lambda each: _oddness(each[1], tools), default=(None,))[0]
     choices = [
-        Choice(f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely)
+        ReadingChoice(
+            f"Take it as {UNIT_WORDS[each]}", keep.reading.in_units(each), size_words(found), likely=each is likely
+        )
         for each, found in offered
     ]
     choices.sort(key=lambda choice: not choice.likely)
     tool, extreme = (max(tools), "largest") if max(size) > max(tools) else (min(tools), "smallest")
-    return Question(
+    return ReadingQuestion(
         f"It is {size_words(size)}, and the {extreme} tool {tool:g} mm. {whence}; which unit is meant?",
         (*choices, keep),
     )
@@ -214,21 +216,26 @@ def _oddness(size: Size, tools: tuple[float, ...]) -> float:
     return abs(math.log(max(*size, 1e-9) / (20 * max(tools))))
 
 
-def about_units(units: Units, size: Size, reading: Reading) -> Question:
+def units_question(units: Units, size: Size, reading: ReadingOptions) -> ReadingQuestion:
     """Ask for the units of a drawing that names none and was read in some."""
-    choices = [Choice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size), now=True)]
+    choices = [ReadingChoice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size), now=True)]
     for other in _OFFERED[:2]:
         if other is not units:
             factor = other.value / units.value
             choices.append(
-                Choice(f"Read in {UNIT_WORDS[other]}", replace(reading, units=other), size_words(_scaled(size, factor)))
+                ReadingChoice(
+                    f"Read in {UNIT_WORDS[other]}", replace(reading, units=other), size_words(_scaled(size, factor))
+                )
             )
-    return Question(f"It names no units. It was read in {UNIT_WORDS[units]}.", tuple(choices))
+    return ReadingQuestion(f"It names no units. It was read in {UNIT_WORDS[units]}.", tuple(choices))
 
 
-def about_pixels(
-    assumed: tuple[float, str], others: Iterable[float], size_of: Callable[[Reading], Size], reading: Reading
-) -> Question:
+def pixels_question(
+    assumed: tuple[float, str],
+    others: Iterable[float],
+    size_of: Callable[[ReadingOptions], Size],
+    reading: ReadingOptions,
+) -> ReadingQuestion:
     """Ask how large the units of an SVG without a real size are.
 
     Args:
@@ -238,13 +245,15 @@ def about_pixels(
         reading: by which it was read.
     """
     per_inch, editor = assumed
-    ways: Iterator[tuple[str, Reading]] = iter(
+    ways: Iterator[tuple[str, ReadingOptions]] = iter(
         [
             (f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch)),
             *((f"Read {each:g} to the inch", reading.with_pixels(each)) for each in others if each != per_inch),
             *((f"Read in {UNIT_WORDS[each]}", replace(reading.with_pixels(None), units=each)) for each in _OFFERED[:2]),
         ]
     )
-    choices = tuple(Choice(words, way, size_words(size_of(way)), now=k == 0) for k, (words, way) in enumerate(ways))
+    choices = tuple(
+        ReadingChoice(words, way, size_words(size_of(way)), now=k == 0) for k, (words, way) in enumerate(ways)
+    )
     who = f"It was written by {editor}" if editor else "It names no editor"
-    return Question(f"It has no real size. {who} and was read with {per_inch:g} units to the inch.", choices)
+    return ReadingQuestion(f"It has no real size. {who} and was read with {per_inch:g} units to the inch.", choices)

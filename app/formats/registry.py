@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 from ..model.job import Job
 from ..model.part import Part
-from ..model.reading import Reading
-from .drawing import Drawing, Written
+from ..model.reading import ReadingOptions
+from .drawing import Drawing, WrittenDrawing
 
 
 @dataclass(frozen=True)
-class Writer:
+class FormatWriter:
     """One way to write a format.
 
     Attributes:
@@ -27,7 +27,7 @@ class Writer:
 
     key: str
     words: str
-    write: Callable[[Part], Written]
+    write: Callable[[Part], WrittenDrawing]
 
 
 @dataclass(frozen=True)
@@ -48,15 +48,15 @@ class DrawingFormat:
     """
 
     suffixes: tuple[str, ...]
-    read: Callable[[str, bytes, Reading], Drawing]
+    read: Callable[[str, bytes, ReadingOptions], Drawing]
     takes: frozenset[str] = frozenset()
     foreign: bool = False
     scaled_page: bool = False
     job: Callable[[str, bytes], Job] | None = None
     hidden: tuple[str, ...] = ()
-    writers: tuple[Writer, ...] = ()
+    writers: tuple[FormatWriter, ...] = ()
 
-    def writer(self, key: str) -> Writer:
+    def writer(self, key: str) -> FormatWriter:
         """Return the way to write of a key, else the usual one."""
         return next((each for each in self.writers if each.key == key), self.writers[0])
 

@@ -17,7 +17,7 @@ from typing import Any
 
 from ..core.errors import ParameterError
 from ..model.curve_selectors import Selector, on_layers, read_selectors
-from ..model.fields import Placed, Unit, parameters_of
+from ..model.fields import ParameterPlace, Unit, parameters_of
 from ..model.operation import Operation
 from .note_texts import ALLOWED, plain_numbers, spelled, unspelled
 
@@ -56,7 +56,7 @@ def read(kind: type[Operation], items: Sequence[str]) -> dict[str, Any] | None:
 _IN_LISTS = ALLOWED - {",", "/"}
 
 
-def _text(placed: Placed, value: Any) -> str:
+def _text(placed: ParameterPlace, value: Any) -> str:
     unit = placed.parameter.unit
     if isinstance(value, Enum):
         return str(value.value)
@@ -69,43 +69,43 @@ def _text(placed: Placed, value: Any) -> str:
     return plain_numbers(math.degrees(value) if unit is Unit.ANGLE else value, decimals=_DECIMALS)
 
 
-def _number(text: str, _: Placed) -> float | None:
+def _number(text: str, _: ParameterPlace) -> float | None:
     return float(text) if _NUMBER.fullmatch(text) else None
 
 
-def _angle(text: str, placed: Placed) -> float | None:
+def _angle(text: str, placed: ParameterPlace) -> float | None:
     degrees = _number(text, placed)
     return None if degrees is None else math.radians(degrees)
 
 
-def _count(text: str, _: Placed) -> int | None:
+def _count(text: str, _: ParameterPlace) -> int | None:
     return int(text) if re.fullmatch(r"\d{1,9}", text) else None
 
 
-def _flag(text: str, _: Placed) -> bool | None:
+def _flag(text: str, _: ParameterPlace) -> bool | None:
     return {"0": False, "1": True}.get(text)
 
 
-def _choice(text: str, placed: Placed) -> Enum | None:
+def _choice(text: str, placed: ParameterPlace) -> Enum | None:
     assert placed.enum is not None
     return next((each for each in placed.enum if each.value == text.lower()), None)
 
 
-def _curves(text: str, _: Placed) -> tuple[Selector, ...] | None:
+def _curves(text: str, _: ParameterPlace) -> tuple[Selector, ...] | None:
     try:
         return read_selectors(unspelled(each) for each in text.split("/"))
     except ParameterError:
         return None
 
 
-def _points(text: str, _: Placed) -> tuple[tuple[float, float], ...] | None:
+def _points(text: str, _: ParameterPlace) -> tuple[tuple[float, float], ...] | None:
     pairs = [point.split() for point in text.split("/")]
     if not all(len(pair) == 2 and all(_NUMBER.fullmatch(number) for number in pair) for pair in pairs):
         return None
     return tuple((float(x), float(y)) for x, y in pairs)
 
 
-_READERS: dict[Unit, Callable[[str, Placed], Any]] = {
+_READERS: dict[Unit, Callable[[str, ParameterPlace], Any]] = {
     Unit.LENGTH: _number,
     Unit.SHARE: _number,
     Unit.ANGLE: _angle,

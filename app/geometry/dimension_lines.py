@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from ..model.curves import Arc, Line, Point
-from ..model.notes import Dimension, Measure
+from ..model.notes import Dimension, DimensionKind
 
 Head = tuple[Point, Point, Point]
 """An arrow head: its tip and the two corners behind it, mm."""
@@ -39,20 +39,20 @@ class DimensionLines:
 def measured(dimension: Dimension) -> float:
     """Return what a dimension measures: mm, or degrees in [0, 360) for an angle."""
     a, b = (complex(*point) for point in dimension.points[:2])
-    if dimension.measure is Measure.ANGLE:
+    if dimension.measure is DimensionKind.ANGLE:
         return math.degrees(cmath.phase((complex(*dimension.points[2]) - a) / (b - a)) % math.tau) if b != a else 0.0
-    if dimension.measure is Measure.ACROSS:
+    if dimension.measure is DimensionKind.ACROSS:
         return abs((b - a).real)
-    if dimension.measure is Measure.UP:
+    if dimension.measure is DimensionKind.UP:
         return abs((b - a).imag)
-    return abs(b - a) * (2 if dimension.measure is Measure.DIAMETER else 1)
+    return abs(b - a) * (2 if dimension.measure is DimensionKind.DIAMETER else 1)
 
 
 def figure(dimension: Dimension, mm_per_unit: float = 1.0) -> str:
     """Return what is written: at most 3 decimals for lengths and 2 for degrees, no zeros at the end."""
-    angle = dimension.measure is Measure.ANGLE
+    angle = dimension.measure is DimensionKind.ANGLE
     value = f"{measured(dimension) / (1.0 if angle else mm_per_unit):.{2 if angle else 3}f}".rstrip("0").rstrip(".")
-    sign = {Measure.RADIUS: "R ", Measure.DIAMETER: "\u2300 "}.get(dimension.measure, "")
+    sign = {DimensionKind.RADIUS: "R ", DimensionKind.DIAMETER: "\u2300 "}.get(dimension.measure, "")
     return f"{sign}{value}{'°' if angle else ''}"
 
 
@@ -65,16 +65,16 @@ def dimension_lines(dimension: Dimension, arrow: float, mm_per_unit: float = 1.0
         mm_per_unit: size of the unit that figures are written in.
     """
     words = figure(dimension, mm_per_unit)
-    if dimension.measure is Measure.ANGLE:
+    if dimension.measure is DimensionKind.ANGLE:
         return _angle(dimension, arrow, words)
-    if dimension.measure in (Measure.RADIUS, Measure.DIAMETER):
+    if dimension.measure in (DimensionKind.RADIUS, DimensionKind.DIAMETER):
         return _round(dimension, arrow, words)
     return _straight(dimension, arrow, words)
 
 
 def _straight(dimension: Dimension, arrow: float, words: str) -> DimensionLines:
     a, b, place = (complex(*point) for point in (*dimension.points[:2], dimension.place))
-    along = {Measure.ACROSS: 1 + 0j, Measure.UP: 1j}.get(dimension.measure, b - a)
+    along = {DimensionKind.ACROSS: 1 + 0j, DimensionKind.UP: 1j}.get(dimension.measure, b - a)
     along = along / abs(along) if along else 1 + 0j
     feet = tuple(point + along * 1j * _dot(place - point, along * 1j) for point in (a, b))
     lines = [line for point, foot in zip((a, b), feet, strict=True) for line in _extension(point, foot, arrow)]
@@ -87,7 +87,7 @@ def _round(dimension: Dimension, arrow: float, words: str) -> DimensionLines:
     radius, out = abs(on - centre), place - centre
     out = out / abs(out) if out else 1 + 0j
     tip = centre + radius * out
-    if dimension.measure is Measure.DIAMETER:
+    if dimension.measure is DimensionKind.DIAMETER:
         heads, drawn = _between(centre - radius * out, tip, out, arrow)
     else:
         inside = abs(place - centre) <= radius

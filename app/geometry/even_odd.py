@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Witnessed:
+class EvenOddMeasure:
     """What the witness says of some curves.
 
     Attributes:
@@ -40,7 +40,9 @@ class Witnessed:
 _NO_CHORDS = np.zeros((0, 4))
 
 
-def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = (), chords: Floats = _NO_CHORDS) -> Witnessed:
+def even_odd(
+    contours: Sequence[Contour], outlines: Sequence[Contour] = (), chords: Floats = _NO_CHORDS
+) -> EvenOddMeasure:
     """Return the area where an odd number of closed contours and no outline goes round, exactly.
 
     Args:
@@ -51,7 +53,7 @@ def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = (), chor
     lists = [[p for contour in contours for p in contour.primitives], *([*outline.primitives] for outline in outlines)]
     curves = [p for each in lists for p in each]
     if not curves and not len(chords):
-        return Witnessed(0.0, 0.0)
+        return EvenOddMeasure(0.0, 0.0)
     owner = np.concatenate(
         [np.repeat(np.arange(-1, len(outlines)), [len(each) for each in lists]), np.full(len(chords), -1)]
     )
@@ -62,7 +64,7 @@ def even_odd(contours: Sequence[Contour], outlines: Sequence[Contour] = (), chor
     meeting = even_odd_kernels.meeting_heights(risen, _sides(risen))
     heights = np.unique(np.concatenate([risen[:, 0], risen[:, 1], meeting]))
     area, loose = even_odd_kernels.swept_area(risen, owner, len(outlines), heights)
-    return Witnessed(area, length, loose)
+    return EvenOddMeasure(area, length, loose)
 
 
 def _middle(curves: Sequence[Primitive], chords: Floats) -> Floats:

@@ -13,9 +13,9 @@ from ..core import tolerances
 from ..model.curves import Line, Primitive, reversed_curve
 from ..model.part import Contour, Region
 from .distance import DistanceField
-from .near import near
 from .outlines import Outlines, polygons
 from .primitives import lengths, points_at
+from .tree_queries import near
 
 Floats = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ _ASIDE = (1.0, 0.5, 0.2, 0.05)
 
 
 @dataclass(frozen=True)
-class Nesting:
+class NestingResult:
     """What closed contours bound.
 
     Attributes:
@@ -46,7 +46,7 @@ def nest(contours: Sequence[Contour]) -> tuple[Region, ...]:
     return nested(contours).regions
 
 
-def nested(contours: Sequence[Contour]) -> Nesting:
+def nested(contours: Sequence[Contour]) -> NestingResult:
     """Return the regions that closed contours bound by the even-odd rule.
 
     A contour inside an even number of others bounds an area, one inside an odd number is an island of the
@@ -58,7 +58,7 @@ def nested(contours: Sequence[Contour]) -> Nesting:
     """
     closed = [c for c in contours if c.closed]
     if not closed:
-        return Nesting()
+        return NestingResult()
     outlines = Outlines.of(closed)
     areas = outlines.areas
     holders = _holders(outlines)
@@ -76,7 +76,7 @@ def nested(contours: Sequence[Contour]) -> Nesting:
         Region(number, turned[i], tuple(islands.get(i, ())))
         for number, i in enumerate((i for i in outer if thick[i]), 1)
     )
-    return Nesting(regions, tuple(turned[i] for i in outer if not thick[i]))
+    return NestingResult(regions, tuple(turned[i] for i in outer if not thick[i]))
 
 
 def holders(contours: Sequence[Contour]) -> list[list[int]]:

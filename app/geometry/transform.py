@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from ..core.errors import InputError
 from ..core.tolerances import WELD
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Point
-from ..model.notes import Guide, Mark, Measure, Shape
+from ..model.notes import DimensionKind, Guide, Mark, Shape
 
 _FARTHEST = 1e9
 """From zero, mm: beyond it a double knows no micrometre, and repeated scaling would end in no number at all."""
@@ -112,10 +112,10 @@ def transformed_note(shape: Shape, to: Similarity) -> Shape:
         angle = math.atan2(y, x) % math.pi
         return Guide(to(shape.through), angle if angle < math.pi else 0.0)
     points, measure = tuple(map(to, shape.points)), shape.measure
-    if measure is Measure.ANGLE and to.mirrored:
+    if measure is DimensionKind.ANGLE and to.mirrored:
         points = (points[0], points[2], points[1])
-    if measure in (Measure.ACROSS, Measure.UP) and abs(to.a.imag) > abs(to.a.real):
-        measure = Measure.UP if measure is Measure.ACROSS else Measure.ACROSS
+    if measure in (DimensionKind.ACROSS, DimensionKind.UP) and abs(to.a.imag) > abs(to.a.real):
+        measure = DimensionKind.UP if measure is DimensionKind.ACROSS else DimensionKind.ACROSS
     return replace(shape, measure=measure, points=points, place=to(shape.place))
 
 

@@ -50,8 +50,8 @@ def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
         return np.zeros((0, 3), np.int64)
 
 
-def _number_of(points: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.int64]:
+def _number_of(points: NDArray[np.float64], requested: NDArray[np.float64]) -> NDArray[np.int64]:
     """Return the index of each wanted point, which is one of the points to the last bit; the first of equal ones."""
     place = points.view(np.complex128).ravel()  # ordered by x, then by y
     order = np.argsort(place, kind="stable")
-    return order[np.searchsorted(place[order], np.ascontiguousarray(wanted).view(np.complex128).ravel())]
+    return order[np.searchsorted(place[order], np.ascontiguousarray(requested).view(np.complex128).ravel())]

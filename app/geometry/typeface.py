@@ -20,7 +20,7 @@ from fontTools.ttLib import TTFont
 from ..core.errors import InputError
 from ..core.toml_tables import brief
 from ..model.curves import Curve, Line, Point, Spline
-from .lettering import Face, Glyph, reach_below
+from .stroke_font import Glyph, StrokeFont, reach_below
 
 logging.getLogger("fontTools").addHandler(logging.NullHandler())  # what is wrong with a font is in our own sentence
 _KINDS = (".ttf", ".otf", ".ttc")
@@ -29,7 +29,7 @@ _MOST_PARTS = 1000
 """Of one letter; in fonts that people made it has fewer than ten, and parts of parts can double with each step."""
 
 
-def outlined(name: str, words: str) -> Face:
+def outlined(name: str, words: str) -> StrokeFont:
     """Return a face with the letters of some words, their contours closed.
 
     Args:
@@ -70,7 +70,7 @@ class Typeface:
         """Return the letters of some words that the font does not have, each once."""
         return "".join(dict.fromkeys(letter for letter in words if ord(letter) not in self._letters))
 
-    def face(self, words: str, kerned: bool = True) -> Face:
+    def face(self, words: str, kerned: bool = True) -> StrokeFont:
         """Return a face with those letters of some words that the font has.
 
         Args:
@@ -84,7 +84,7 @@ class Typeface:
         with _readable(self._file):
             glyphs = {letter: self._glyph(letter) for letter in letters}
             kerning = _kerning(self._font, self._letters, words) if kerned else {}
-        return Face(self.name, self._capital, 0.0, glyphs, kerning, max(self._below, 0.0))
+        return StrokeFont(self.name, self._capital, 0.0, glyphs, kerning, max(self._below, 0.0))
 
     def _glyph(self, letter: str) -> Glyph:
         if letter not in self._glyphs:
@@ -177,16 +177,16 @@ def _found(name: str) -> Path:
         if path.is_file():
             return path
         raise InputError(f"There is no font file {name}; give its whole path, or the name of an installed font.")
-    fonts, wanted = _installed(), _plain(name)
-    if wanted not in fonts:
+    fonts, requested = _installed(), _plain(name)
+    if requested not in fonts:
         near = (
-            difflib.get_close_matches(wanted, fonts, 5, 0.5)
-            or [other for other in fonts if wanted and wanted in other][:5]
+            difflib.get_close_matches(requested, fonts, 5, 0.5)
+            or [other for other in fonts if requested and requested in other][:5]
         )
         known = list(dict.fromkeys(fonts[each].stem for each in near))
         hint = f"near it: {', '.join(known)}" if known else "give the path of a .ttf or .otf file"
         raise InputError(f"There is no font '{name}' here; {hint}.")
-    return fonts[wanted]
+    return fonts[requested]
 
 
 def installed(file: str, family: str = "", style: str = "") -> Path | None:

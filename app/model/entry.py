@@ -33,8 +33,8 @@ class EntryKind(Enum):
 
 
 _SLOPED = Condition(lambda operation: operation.cut.entry.sloped, "a slope", 'write entry = "helix" or "ramp"')
-_LED = Condition(lambda operation: operation.lead.wanted, "a lead", 'write lead = "arc" or "line"')
-_HELD = Condition(lambda operation: operation.tabs.wanted, "tabs", "add tabs = 4 or tab_places", "--tabs N makes some")
+_LED = Condition(lambda operation: operation.lead.enabled, "a lead", 'write lead = "arc" or "line"')
+_HELD = Condition(lambda operation: operation.tabs.enabled, "tabs", "add tabs = 4 or tab_places", "--tabs N makes some")
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +138,7 @@ class Lead:
         check_ranges(self)
 
     @property
-    def wanted(self) -> bool:
+    def enabled(self) -> bool:
         """True when there is any."""
         return self.kind is not LeadKind.NONE
 
@@ -199,6 +199,6 @@ class Tabs:
             raise ParameterError("A tab's place is no point of the plane; give X and Y in mm.")
 
     @property
-    def wanted(self) -> bool:
+    def enabled(self) -> bool:
         """True when there is any."""
         return self.count > 0 or bool(self.places)

@@ -166,7 +166,7 @@ def required_part(kind: type[Value]) -> Value:
 
 
 @dataclass(frozen=True)
-class Placed:
+class ParameterPlace:
     """A parameter where it stands.
 
     Attributes:
@@ -200,34 +200,34 @@ class Placed:
         return self.parameter.needs is None or self.parameter.needs.holds(whole)
 
 
-def declared_of(kind: type[Any]) -> Mapping[str, Placed]:
+def declared_of(kind: type[Any]) -> Mapping[str, ParameterPlace]:
     """Return the parameters of a dataclass and its parts by key, in the order of their declaration."""
     return _declared(cast(Any, kind))
 
 
-def parameters_of(kind: type[Any]) -> Mapping[str, Placed]:
+def parameters_of(kind: type[Any]) -> Mapping[str, ParameterPlace]:
     """Return the parameters that have an effect: a kind names keys of its parts that have none in `UNUSED`."""
     return _effective(cast(Any, kind))
 
 
 @cache
-def _declared(kind: Any) -> Mapping[str, Placed]:
+def _declared(kind: Any) -> Mapping[str, ParameterPlace]:
     return {placed.key: placed for placed in _walk(kind, ())}
 
 
 @cache
-def _effective(kind: Any) -> Mapping[str, Placed]:
+def _effective(kind: Any) -> Mapping[str, ParameterPlace]:
     unused: frozenset[str] = getattr(kind, "UNUSED", frozenset())
     return {key: placed for key, placed in _declared(kind).items() if key not in unused}
 
 
-def _walk(kind: type[Any], above: tuple[str, ...]) -> Iterator[Placed]:
+def _walk(kind: type[Any], above: tuple[str, ...]) -> Iterator[ParameterPlace]:
     for field in dataclasses.fields(kind):
         path = (*above, field.name)
         if _PART in field.metadata:
             yield from _walk(field.metadata[_PART], path)
         elif _PARAMETER in field.metadata:
-            yield Placed(path, field.metadata[_PARAMETER], field.default)
+            yield ParameterPlace(path, field.metadata[_PARAMETER], field.default)
 
 
 def with_values(whole: Whole, values: Mapping[str, Any]) -> Whole:

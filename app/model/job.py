@@ -8,7 +8,7 @@ from enum import Enum
 from ..core.errors import ParameterError
 from .fields import Unit, parameter
 from .fields import part as whole
-from .operation import LEAST_LENGTH, ContourOperation, Cut, Operation, Order, PocketOperation, RestOperation
+from .operation import LEAST_LENGTH, ContourOperation, CutParameters, Operation, Order, PocketOperation, RestOperation
 from .part import Part, Units
 from .tool import Tool
 from .tool_kind import ToolKind
@@ -125,9 +125,9 @@ class Job:
     part: Part
     tools: tuple[Tool, ...] = (Tool(1, 6.0), Tool(2, 3.0, spindle_speed=18000.0))
     operations: tuple[Operation, ...] = (
-        PocketOperation(Cut(tool=1)),
-        RestOperation(Cut(tool=2)),
-        ContourOperation(Cut(tool=2)),
+        PocketOperation(CutParameters(tool=1)),
+        RestOperation(CutParameters(tool=2)),
+        ContourOperation(CutParameters(tool=2)),
     )
     stock: Stock = whole(Stock)
     origin_xy: OriginXY = parameter(

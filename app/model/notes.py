@@ -41,7 +41,7 @@ class Guide:
         return Line((x - dx, y - dy), (x + dx, y + dy))
 
 
-class Measure(Enum):
+class DimensionKind(Enum):
     """What a dimension measures."""
 
     ALIGNED = "aligned"
@@ -64,7 +64,7 @@ class Dimension:
         place: where the figure stands, mm; the dimension line goes through it.
     """
 
-    measure: Measure
+    measure: DimensionKind
     points: tuple[Point, ...]
     place: Point
 

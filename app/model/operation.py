@@ -12,7 +12,7 @@ from .curve_selectors import Selector
 from .entry import Entry, Lead, Tabs
 from .fields import (
     Condition,
-    Placed,
+    ParameterPlace,
     Unit,
     check_ranges,
     declared_of,
@@ -59,7 +59,7 @@ class Order(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Cut:
+class CutParameters:
     """Parameters that every operation has. Depths go down from Z 0 = top of stock, in at most 1,000 passes."""
 
     tool: int = required("tool", "Tool", "T number of a tool of the job", Unit.COUNT, high=1e9)
@@ -185,7 +185,7 @@ class Operation:
         CARVES: whether its cutter's cone makes slanted walls that end at the drawn lines, and no floor.
     """
 
-    cut: Cut = required_part(Cut)
+    cut: CutParameters = required_part(CutParameters)
 
     WORD: ClassVar[str]
     UNUSED: ClassVar[frozenset[str]] = frozenset()
@@ -497,14 +497,14 @@ for _kind in (PocketOperation, AdaptiveOperation, RestOperation, ContourOperatio
     register(_kind)
 
 
-def declared() -> dict[str, Placed]:
+def declared() -> dict[str, ParameterPlace]:
     """Return every parameter of every kind by key."""
     return {key: placed for kind in OPERATION_KINDS.values() for key, placed in declared_of(kind).items()}
 
 
-def parameters() -> dict[str, tuple[Placed, tuple[type[Operation], ...]]]:
+def parameters() -> dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]]:
     """Return every parameter of every kind by key, and the kinds that it has an effect on."""
-    found: dict[str, tuple[Placed, tuple[type[Operation], ...]]] = {}
+    found: dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]] = {}
     for kind in OPERATION_KINDS.values():
         for key, placed in parameters_of(kind).items():
             first, kinds = found.get(key, (placed, ()))

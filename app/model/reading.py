@@ -13,7 +13,7 @@ from .read_options import AS_DRAWN, DrawingOptions
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ReadingOptions:
     """Everything that is said about how a drawing is read.
 
     Attributes:
@@ -26,20 +26,20 @@ class Reading:
     layers: tuple[str, ...] = ()
     how: DrawingOptions = AS_DRAWN
 
-    def in_units(self, units: Units) -> Reading:
+    def in_units(self, units: Units) -> ReadingOptions:
         """Return it so that a drawing is in these units, whatever its file names, and pixels have no say."""
         return replace(self, units=units, how=replace(self.how, overrule=True, pixels_per_inch=None))
 
-    def with_pixels(self, per_inch: float | None) -> Reading:
+    def with_pixels(self, per_inch: float | None) -> ReadingOptions:
         """Return it so that an SVG has so many units to the inch; None = as its generator has it."""
         return replace(self, units=None, how=replace(self.how, overrule=False, pixels_per_inch=per_inch))
 
 
-AS_THE_FILE_SAYS = Reading()
+AS_THE_FILE_SAYS = ReadingOptions()
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class DrawingSource:
     """The file that a part was read from, and how, so that it can be read again in another way.
 
     Attributes:
@@ -47,13 +47,13 @@ class Source:
     """
 
     path: str
-    reading: Reading = AS_THE_FILE_SAYS
+    reading: ReadingOptions = AS_THE_FILE_SAYS
 
-    def from_folder(self, folder: Path) -> Source:
+    def from_folder(self, folder: Path) -> DrawingSource:
         """Return it with the path as it is seen from elsewhere, where it is told from this folder."""
         return replace(self, path=os.path.join(folder.absolute(), self.path))
 
-    def in_folder(self, folder: Path) -> Source:
+    def in_folder(self, folder: Path) -> DrawingSource:
         """Return it with the path told from this folder, where the drawing lies in that."""
         path = Path(self.path)
         return (

@@ -38,7 +38,7 @@ class KeptSide(Enum):
     OUTSIDE = "outside"
 
 
-class Centre(Enum):
+class CentreLimit(Enum):
     """How far the cutter's centre goes at a boundary: up to it, or only so far that the whole cutter stays inside."""
 
     ON = "on"
@@ -98,7 +98,7 @@ class Trim(SceneOutline):
 class Boundary(SceneOutline):
     """Where passes go: the inside of an outline."""
 
-    centre: Centre = Centre.ON
+    centre: CentreLimit = CentreLimit.ON
 
 
 @dataclass(frozen=True)

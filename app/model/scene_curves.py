@@ -31,7 +31,7 @@ class Spacing(Enum):
 
 
 @dataclass(frozen=True)
-class Sources:
+class SceneFiles:
     """Where the files come from that a scene names; relative names are the caller's to resolve.
 
     Attributes:

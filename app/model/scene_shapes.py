@@ -19,14 +19,14 @@ upright, else the side towards +X.
 """
 
 
-class Keep(Enum):
+class ProfileOrientation(Enum):
     """How a profile goes along a guide: parallel to itself, or turning with it, but not about it."""
 
     PARALLEL = "parallel"
     FOLLOW = "follow"
 
 
-class _Checked:
+class _CheckedShape:
     """Numbers of a shape are finite, turns are up to a full one."""
 
     kind: ClassVar[str] = ""
@@ -72,7 +72,7 @@ def _check_turn(turn: Turn) -> None:
 
 
 @dataclass(frozen=True)
-class PlaneShape(_Checked):
+class PlaneShape(_CheckedShape):
     """A parallelogram: a corner, and the edges from there."""
 
     kind: ClassVar[str] = "plane"
@@ -88,7 +88,7 @@ class PlaneShape(_Checked):
 
 
 @dataclass(frozen=True)
-class SphereShape(_Checked):
+class SphereShape(_CheckedShape):
     """A sphere."""
 
     kind: ClassVar[str] = "sphere"
@@ -100,7 +100,7 @@ class SphereShape(_Checked):
 
 
 @dataclass(frozen=True)
-class CylinderShape(_Checked):
+class CylinderShape(_CheckedShape):
     """A cylinder without its ends, or a part of its turn."""
 
     kind: ClassVar[str] = "cylinder"
@@ -115,7 +115,7 @@ class CylinderShape(_Checked):
 
 
 @dataclass(frozen=True)
-class ConeShape(_Checked):
+class ConeShape(_CheckedShape):
     """A cone or a frustum without its ends; a radius of 0 is a tip."""
 
     kind: ClassVar[str] = "cone"
@@ -134,7 +134,7 @@ class ConeShape(_Checked):
 
 
 @dataclass(frozen=True)
-class TorusShape(_Checked):
+class TorusShape(_CheckedShape):
     """A torus: the centre line's radius is `major`, that of the tube `minor`, less than it."""
 
     kind: ClassVar[str] = "torus"
@@ -153,7 +153,7 @@ class TorusShape(_Checked):
 
 
 @dataclass(frozen=True)
-class BilinearShape(_Checked):
+class BilinearShape(_CheckedShape):
     """The surface that two pairs of straight lines span: four corners, in order round it."""
 
     kind: ClassVar[str] = "bilinear"
@@ -165,7 +165,7 @@ class BilinearShape(_Checked):
 
 
 @dataclass(frozen=True)
-class BicubicShape(_Checked):
+class BicubicShape(_CheckedShape):
     """A bicubic Bézier patch: 4 rows of 4 control points."""
 
     kind: ClassVar[str] = "bicubic"
@@ -177,7 +177,7 @@ class BicubicShape(_Checked):
 
 
 @dataclass(frozen=True)
-class BsplineShape(_Checked):
+class BsplineShape(_CheckedShape):
     """A B-spline surface: rows along u of control points along v; knots are spread evenly, and weights alike, where not
     given.
     """
@@ -216,7 +216,7 @@ class BsplineShape(_Checked):
 
 
 @dataclass(frozen=True)
-class LoftShape(_Checked):
+class LoftShape(_CheckedShape):
     """A smooth surface through section curves, in their order.
 
     Attributes:
@@ -237,7 +237,7 @@ class LoftShape(_Checked):
 
 
 @dataclass(frozen=True)
-class RuledShape(_Checked):
+class RuledShape(_CheckedShape):
     """Straight lines from one curve to another, between like parameters."""
 
     kind: ClassVar[str] = "ruled"
@@ -246,7 +246,7 @@ class RuledShape(_Checked):
 
 
 @dataclass(frozen=True)
-class RevolvedShape(_Checked):
+class RevolvedShape(_CheckedShape):
     """A profile turned about an axis; the turn begins at the profile."""
 
     kind: ClassVar[str] = "revolved"
@@ -260,17 +260,17 @@ class RevolvedShape(_Checked):
 
 
 @dataclass(frozen=True)
-class SweptShape(_Checked):
+class SweptShape(_CheckedShape):
     """A profile moved along a guide; where the profile is drawn is where it is at the guide's start."""
 
     kind: ClassVar[str] = "swept"
     profile: SectionCurve
     guide: SectionCurve
-    keep: Keep = Keep.PARALLEL
+    keep: ProfileOrientation = ProfileOrientation.PARALLEL
 
 
 @dataclass(frozen=True)
-class MeshShape(_Checked):
+class MeshShape(_CheckedShape):
     """Triangles of an STL, OBJ or PLY file; `scale` is mm for each of its units."""
 
     kind: ClassVar[str] = "mesh"
@@ -284,7 +284,7 @@ class MeshShape(_Checked):
 
 
 @dataclass(frozen=True)
-class StepShape(_Checked):
+class StepShape(_CheckedShape):
     """Faces of a STEP file, in mm whatever its units.
 
     Attributes:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..core.toml_tables import Worded
+from ..core.toml_tables import Keyword
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ class ToolProfile:
 
 
 @dataclass(frozen=True, eq=False)
-class ToolKind(Worded):
+class ToolKind(Keyword):
     """Shape of a cutter's end.
 
     Attributes:

@@ -9,7 +9,7 @@ import shapely
 
 from ..core.effort import announce
 from ..core.progress import NO_PROGRESS, Progress
-from ..geometry.overlay.overlay import Overlaid, without_crossings
+from ..geometry.overlay.overlay import OverlayResult, without_crossings
 from ..geometry.region import nested
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
@@ -19,16 +19,16 @@ from ..model.part import Contour, Region
 from ..raster.fill import Observer
 from ..toolpath.bitmap_check import BitmapCheck
 from ..toolpath.coverage.flat import region_shapes
-from ..toolpath.coverage.wanted import CHORD
-from ..toolpath.drawn import Drawn, drawn
+from ..toolpath.coverage.floor_target import CHORD
+from ..toolpath.drawn_contours import DrawnContours, drawn_contours
 from ..toolpath.drill_holes import across_holes
-from ..toolpath.selected import about_selected, selected
-from ..toolpath.setting import Setting
-from ..toolpath.sheets import Sheets
-from ..toolpath.witness import about_regions
-from . import known  # noqa: F401 (registers the kinds)
+from ..toolpath.machining_areas import MachiningAreas
+from ..toolpath.operation_context import OperationContext
+from ..toolpath.selected import selected, selection_findings
+from ..toolpath.witness import region_findings
+from . import builtin  # noqa: F401 (registers the kinds)
 from .reckoning import job_effort
-from .registry import way_of
+from .registry import method_of
 
 
 def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | None = None) -> Program:
@@ -42,73 +42,73 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
         Cancelled: by progress.
     """
     progress.step(0.0, "Chain contours")
-    parts = drawn(job)
+    parts = drawn_contours(job)
     lines = followed_lines(job, parts)
-    made = machined(parts)
-    about = [*about_drawing(job, parts, lines), *made.findings]
-    setting = Setting(job, made.regions, Sheets(job, parts), findings=about, observer=observer)
-    if not setting.regions and not lines:
-        return Program(setting.builder.moves(), findings=tuple(setting.findings))
-    announce(job_effort(job, setting.regions), progress)
-    setting.findings.extend(under_clamps(job, parts, setting.regions))
+    made = machined_regions(parts)
+    about = [*drawing_findings(job, parts, lines), *made.findings]
+    context = OperationContext(job, made.regions, MachiningAreas(job, parts), findings=about, observer=observer)
+    if not context.regions and not lines:
+        return Program(context.builder.moves(), findings=tuple(context.findings))
+    announce(job_effort(job, context.regions), progress)
+    context.findings.extend(under_clamps(job, parts, context.regions))
     operations = in_order(job)
     for k, index in enumerate(operations):
         begins, ends = (0.05 + 0.95 * at / len(operations) for at in (k, k + 1))
-        way_of(job.operations[index]).paths(setting, index, progress.part(begins, ends))
+        method_of(job.operations[index]).paths(context, index, progress.part(begins, ends))
     if job.order is Order.PATENT_1986:
-        setting.findings.extend(slotting(job))
-    areas = setting.sheets.areas()
-    setting.findings.extend(setting.sheets.findings)
-    seen = setting.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
-    findings = worst_first(setting.findings)
+        context.findings.extend(slotting(job))
+    areas = context.areas.areas()
+    context.findings.extend(context.areas.findings)
+    seen = context.on_bitmap or BitmapCheck(0.0, 0.0, 0, (0.0, 0.0), 0.0)
+    findings = worst_first(context.findings)
     return Program(
-        setting.builder.moves(),
-        setting.regions,
+        context.builder.moves(),
+        context.regions,
         findings,
-        setting.strokes,
-        setting.polyline_rings,
+        context.strokes,
+        context.polyline_rings,
         seen.bitmap_area,
         seen.exact_area,
         seen.pitch,
         areas=areas,
         lines=lines,
         clamps=parts.clamps,
-        tabs=tuple(setting.tabs),
-        dog_bones=tuple(setting.dog_bones),
-        stepovers=setting.stepovers,
+        tabs=tuple(context.tabs),
+        dog_bones=tuple(context.dog_bones),
+        stepovers=context.stepovers,
     )
 
 
 @dataclass(frozen=True)
-class Machined:
+class MachinedRegions:
     """The regions that all closed contours of a drawing bound, and what there is to say of how they came about."""
 
     regions: tuple[Region, ...]
     findings: tuple[Finding, ...] = ()
 
 
-def machined(parts: Drawn) -> Machined:
+def machined_regions(parts: DrawnContours) -> MachinedRegions:
     """Return the regions that all closed contours bound; those that meet count even-odd."""
-    made = without_crossings(parts.closed) if parts.crossing else Overlaid(parts.closed)
+    made = without_crossings(parts.closed) if parts.crossing else OverlayResult(parts.closed)
     nesting = nested(made.contours)
-    return Machined(nesting.regions, (*made.findings, *about_regions(parts.closed, (), nesting)))
+    return MachinedRegions(nesting.regions, (*made.findings, *region_findings(parts.closed, (), nesting)))
 
 
 def regions_of(job: Job) -> tuple[tuple[Region, ...], list[Finding]]:
     """Return (regions, findings about the drawing) of the layers that a job machines."""
-    parts = drawn(job)
-    made = machined(parts)
+    parts = drawn_contours(job)
+    made = machined_regions(parts)
     return made.regions, [*parts.findings, *made.findings]
 
 
-def followed_lines(job: Job, parts: Drawn) -> tuple[Contour, ...]:
+def followed_lines(job: Job, parts: DrawnContours) -> tuple[Contour, ...]:
     """Return the open lines that some operation follows."""
     cuts = [each.cut for each in job.operations if each.wall_side is Side.ON and each.cut.enabled]
     followed = {id(line) for cut in cuts for line in selected(parts, cut.curves).open}
     return tuple(line for line in parts.open if id(line) in followed)
 
 
-def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Finding]:
+def drawing_findings(job: Job, parts: DrawnContours, lines: Sequence[Contour]) -> list[Finding]:
     """Return what is to say of a drawing; that lines are open, or cross, counts for nothing where they are but
     followed.
     """
@@ -126,10 +126,10 @@ def about_drawing(job: Job, parts: Drawn, lines: Sequence[Contour]) -> list[Find
         else each
         for each in kept
     ]
-    return [*kept, *about_selected(job, parts)]
+    return [*kept, *selection_findings(job, parts)]
 
 
-def _only_followed(job: Job, parts: Drawn) -> set[int]:
+def _only_followed(job: Job, parts: DrawnContours) -> set[int]:
     """Return the numbers of the curves that bound no area of any operation, since all that select them follow them."""
     at_work = [each for each in job.operations if each.cut.enabled]
     numbers: dict[bool, set[int]] = {True: set(), False: set()}
@@ -141,7 +141,7 @@ def _only_followed(job: Job, parts: Drawn) -> set[int]:
     return numbers[True] - numbers[False]
 
 
-def under_clamps(job: Job, parts: Drawn, regions: Sequence[Region]) -> list[Finding]:
+def under_clamps(job: Job, parts: DrawnContours, regions: Sequence[Region]) -> list[Finding]:
     """Return how much of what pockets are to clear lies under clamps."""
     if not parts.clamps or not any(each.COARSE and each.cut.enabled for each in job.operations):
         return []

@@ -8,7 +8,7 @@ from ..core.effort import Reckoning, counted
 from ..model.job import Job
 from ..model.part import Region
 from .effort import CONTOUR_S, ISLAND_S, workload_of
-from .registry import way_of
+from .registry import method_of
 
 
 def job_effort(job: Job, regions: Sequence[Region]) -> Reckoning:
@@ -19,7 +19,7 @@ def job_effort(job: Job, regions: Sequence[Region]) -> Reckoning:
     for operation in job.operations:
         if operation.cut.enabled:
             tool = job.tool(operation.cut.tool)
-            own = way_of(operation).effort(extent, operation, tool)
+            own = method_of(operation).effort(extent, operation, tool)
             seconds += own
             if own > most:
                 worst, most = f"{operation.WORD} with {tool.diameter:g} mm", own

@@ -11,13 +11,13 @@ from ..core.progress import Progress
 from ..model.finding import Finding
 from ..model.operation import Operation
 from ..model.tool import Tool
-from ..toolpath.setting import Setting
-from ..toolpath.sheets import Sheet, Sheets
+from ..toolpath.machining_areas import MachiningArea, MachiningAreas
+from ..toolpath.operation_context import OperationContext
 from .effort import Workload, along_walls
 
 
 @dataclass(frozen=True)
-class Way:
+class OperationMethod:
     """How a kind of operation is carried out.
 
     Attributes:
@@ -27,15 +27,17 @@ class Way:
         effort: how long paths and their proof take, s, about, by what the contours come to.
     """
 
-    paths: Callable[[Setting, int, Progress], None]
-    missed: Callable[[Sheets, Operation, Sheet | None], Iterable[Finding]] = lambda sheets, operation, sheet: ()
+    paths: Callable[[OperationContext, int, Progress], None]
+    missed: Callable[[MachiningAreas, Operation, MachiningArea | None], Iterable[Finding]] = (
+        lambda areas, operation, area: ()
+    )
     effort: Callable[[Workload, Operation, Tool], float] = along_walls
 
 
-_WAYS: dict[type[Operation], Way] = {}
+_WAYS: dict[type[Operation], OperationMethod] = {}
 
 
-def register(kind: type[Operation], way: Way) -> None:
+def register(kind: type[Operation], way: OperationMethod) -> None:
     """Make known how a kind of operation is carried out.
 
     Raises:
@@ -45,7 +47,7 @@ def register(kind: type[Operation], way: Way) -> None:
         raise ValueError(f"operations of the kind {kind.WORD} are carried out in two ways")
 
 
-def way_of(operation: Operation) -> Way:
+def method_of(operation: Operation) -> OperationMethod:
     """Return how an operation is carried out.
 
     Raises:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .trace import Chain
+from .trace import PixelChain
 from .walls import Mask
 
 Index = NDArray[np.uint16]
@@ -25,7 +25,7 @@ class Border:
     """
 
     level: int
-    chain: Chain
+    chain: PixelChain
 
 
 def borders_of(index: Index | Mask) -> tuple[Border, ...]:
@@ -46,7 +46,9 @@ def borders_of(index: Index | Mask) -> tuple[Border, ...]:
     if count > len(starts) or used > len(codes):
         starts, codes = np.empty((count, 5), np.int64), np.empty(used, np.uint8)
         border_kernels.borders(plane, np.zeros(plane.shape, np.uint8), starts, codes)
-    return tuple(Border(k, Chain((r, c), codes[first : first + n])) for r, c, k, first, n in starts[:count].tolist())
+    return tuple(
+        Border(k, PixelChain((r, c), codes[first : first + n])) for r, c, k, first, n in starts[:count].tolist()
+    )
 
 
 def mark(plane: NDArray[np.uint8], borders: tuple[Border, ...], code: int) -> None:

@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from .frame import Frame
+from .frame import BitmapFrame
 
 Plane = NDArray[np.uint8]
 """Codes (rows, cols), row 0 = top."""
@@ -50,7 +50,7 @@ class Codes:
         plane: (rows, cols) uint8 of PixelCode, row 0 = top.
     """
 
-    frame: Frame
+    frame: BitmapFrame
     plane: Plane
 
     def __post_init__(self) -> None:

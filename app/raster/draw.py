@@ -9,10 +9,10 @@ import numpy as np
 from ..geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, contour_rows
 from ..model.part import Contour
 from .codes import Plane
-from .frame import Frame
+from .frame import BitmapFrame
 
 
-def draw(frame: Frame, contours: Sequence[Contour] | Rows) -> tuple[Plane, Plane]:
+def draw(frame: BitmapFrame, contours: Sequence[Contour] | Rows) -> tuple[Plane, Plane]:
     """Return the contour pixels of closed contours as codes, and what lies left of the picture.
 
     Every pixel in which a contour crosses its row's centre line is a contour pixel; an edge counts for y0 <= yc < y1,
@@ -40,7 +40,7 @@ def rows_of(contours: Sequence[Contour] | Rows) -> Rows:
     return np.concatenate([np.zeros((0, 8)), *(contour_rows(contour) for contour in contours)])
 
 
-def image_rows(frame: Frame, rows: Rows) -> Rows:
+def image_rows(frame: BitmapFrame, rows: Rows) -> Rows:
     """Return lines and arcs (n, 8) in image coordinates; their sense of turning is mirrored with the y axis."""
     image = np.empty_like(rows)
     for x, y in ((X0, Y0), (X1, Y1), (CX, CY)):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .peel import distance_px
-from .picture_options import Shows
+from .picture_options import InkMeaning
 from .walls import Mask
 
 _THIN = 6.0
@@ -20,20 +20,20 @@ _SLENDER = 20
 """Times a line's width; what lines draw is longer."""
 
 
-def shows(ink: Mask, asked: Shows) -> Shows:
+def ink_meaning(ink: Mask, requested: InkMeaning) -> InkMeaning:
     """Return whether ink is lines or areas, where nobody said.
 
     Lines are thin everywhere, or most of their ink is narrower than a small part of the largest figure it makes and
     they enclose more paper than they cover: a bar is thin too, but encloses nothing.
     """
-    if asked is not Shows.AUTO:
-        return asked
+    if requested is not InkMeaning.AUTO:
+        return requested
     depth = distance_px(ink)
     if 2 * float(depth.max(initial=0.0)) <= _THIN:
-        return Shows.LINES
+        return InkMeaning.LINES
     count = np.count_nonzero(ink)
     slender = 2 * np.count_nonzero(_opened(depth, max(_THIN, _largest(ink) / _SLENDER) / 2)) < count
-    return Shows.LINES if slender and np.count_nonzero(inner_faces(ink)) > count else Shows.AREAS
+    return InkMeaning.LINES if slender and np.count_nonzero(inner_faces(ink)) > count else InkMeaning.AREAS
 
 
 def _largest(ink: Mask) -> int:

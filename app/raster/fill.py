@@ -12,7 +12,7 @@ from ..geometry.primitives import Rows
 from ..model.part import Contour
 from .codes import Codes, PixelCode, Plane
 from .draw import draw
-from .frame import Frame
+from .frame import BitmapFrame
 from .trace import trace
 
 Observer = Callable[[int, Plane], None]
@@ -22,7 +22,7 @@ _BAND = 1 << 20
 """Pixels that are worth a thread's start."""
 
 
-def fill(frame: Frame, contours: Sequence[Contour] | Rows, observer: Observer | None = None) -> Codes:
+def fill(frame: BitmapFrame, contours: Sequence[Contour] | Rows, observer: Observer | None = None) -> Codes:
     """Fill what closed contours enclose, by even-odd counting along the rows.
 
     A pixel that is no contour pixel, and whose centre lies on no contour, is filled exactly when its centre is inside

@@ -23,7 +23,7 @@ with their files.
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class BitmapFrame:
     """A grid of square pixels over the part; image row 0 is the TOP row, part coordinates run upwards.
 
     Attributes:
@@ -45,7 +45,7 @@ class Frame:
             raise ParameterError(f"The pitch is {self.pitch:g} mm; it must be greater than 0.")
 
     @classmethod
-    def around(cls, extent: tuple[float, float, float, float], size: int = POINTS, margin_px: int = 2) -> Frame:
+    def around(cls, extent: tuple[float, float, float, float], size: int = POINTS, margin_px: int = 2) -> BitmapFrame:
         """Return a square frame with the extent in its middle.
 
         Args:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..core.pool import pool
 from .border import Border, borders_of
-from .trace import Chain
+from .trace import PixelChain
 from .walls import Mask
 
 Floats = NDArray[np.float32]
@@ -46,7 +46,7 @@ def peels(area: Mask, count: int, *, keep_ends: bool = False) -> Iterator[tuple[
         yield left, borders
 
 
-def _turns_back(chain: Chain) -> NDArray[np.bool_]:
+def _turns_back(chain: PixelChain) -> NDArray[np.bool_]:
     """Return for each pixel of a chain whether it is left the way it was entered."""
     into = np.roll(chain.directions, 1)
     turns: NDArray[np.bool_] = (into.astype(np.int64) + 4) % 8 == chain.directions

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.errors import InputError, ParameterError
 from ..core.memory import ask, fewer
 from .frame import PATH_BYTES
-from .picture_file import MM_PER_INCH, Density, Gray, decoded, density_of, picture_size
+from .picture_file import MM_PER_INCH, Gray, PictureDensity, decoded, density_of, picture_size
 from .picture_options import PictureOptions
 from .walls import Mask
 
@@ -22,7 +22,7 @@ LARGEST_AREA = 100_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class RasterPicture:
     """A picture read.
 
     Attributes:
@@ -53,7 +53,7 @@ class Picture:
         return square * self.stretched + full * bool(self.ink.all())
 
 
-def read_picture(name: str, data: bytes, options: PictureOptions) -> Picture:
+def read_picture(name: str, data: bytes, options: PictureOptions) -> RasterPicture:
     """Return the picture in a PNG, JPEG or BMP file's bytes.
 
     Args:
@@ -89,7 +89,7 @@ def _ask_memory(name: str, size: tuple[int, int]) -> None:
     )
 
 
-def _squared(name: str, gray: Gray, density: Density) -> Gray:
+def _squared(name: str, gray: Gray, density: PictureDensity) -> Gray:
     """Return the picture with square pixels, as small as its own are where they are smallest."""
     import cv2
 
@@ -100,7 +100,7 @@ def _squared(name: str, gray: Gray, density: Density) -> Gray:
     return np.asarray(cv2.resize(gray, (cols, rows), interpolation=cv2.INTER_LINEAR), np.uint8)
 
 
-def thresholded(gray: Gray, pitch: float, options: PictureOptions) -> Picture:
+def thresholded(gray: Gray, pitch: float, options: PictureOptions) -> RasterPicture:
     """Return the ink of a picture that is decoded already.
 
     Args:
@@ -114,7 +114,7 @@ def thresholded(gray: Gray, pitch: float, options: PictureOptions) -> Picture:
     ink = (gray >= level) if options.invert else (gray < level)
     for paper in (False, True):
         ink = ink ^ _specks(ink ^ paper, options.despeckle)
-    return Picture(gray, ink, level, pitch)
+    return RasterPicture(gray, ink, level, pitch)
 
 
 def _specks(spots: Mask, most: int) -> Mask:
@@ -145,7 +145,7 @@ def pitch_of(first: tuple[float, float], second: tuple[float, float], distance: 
     return distance / apart
 
 
-def _pitch(name: str, density: Density | None, options: PictureOptions) -> float:
+def _pitch(name: str, density: PictureDensity | None, options: PictureOptions) -> float:
     """Return the size of a pixel, mm, as the options or the file say.
 
     Raises:

@@ -32,7 +32,7 @@ _STDERR = Lock()
 
 
 @dataclass(frozen=True, slots=True)
-class Density:
+class PictureDensity:
     """What a file says of the size of its pixels.
 
     Attributes:
@@ -110,19 +110,19 @@ def _jpeg_size(data: bytes) -> tuple[int, int]:
     return _whole((cols, rows))
 
 
-def density_of(data: bytes) -> Density | None:
+def density_of(data: bytes) -> PictureDensity | None:
     """Return how large its pixels are as a picture's file says, once it is turned upright; None = it says nothing that
     is meant.
     """
     exif = _exif(data)
     said = [each for each in (*_own_densities(data), _exif_density(exif)) if each is not None and each.meant]
-    told = next((each for each in said if each.unit), said[0] if said else None)
-    if told is not None and exif.get(_TURN, 1) > 4:
-        return Density(told.down, told.across, told.unit)
-    return told
+    reported = next((each for each in said if each.unit), said[0] if said else None)
+    if reported is not None and exif.get(_TURN, 1) > 4:
+        return PictureDensity(reported.down, reported.across, reported.unit)
+    return reported
 
 
-def _own_densities(data: bytes) -> list[Density]:
+def _own_densities(data: bytes) -> list[PictureDensity]:
     """Return what the format's own header says."""
     if data[:2] == _BMP:
         return [_density(struct.unpack("<ii", data[38:46]), 1000.0)] if len(data) >= 46 else []
@@ -139,10 +139,10 @@ def _own_densities(data: bytes) -> list[Density]:
     ]
 
 
-def _density(pixels: tuple[int, ...], unit: float) -> Density:
+def _density(pixels: tuple[int, ...], unit: float) -> PictureDensity:
     """Return the density of a header, in which a 0 is left out: pixels are square then."""
     across, down = pixels
-    return Density(float(across or down), float(down or across), unit)
+    return PictureDensity(float(across or down), float(down or across), unit)
 
 
 def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
@@ -188,10 +188,10 @@ def _entries(tiff: bytes) -> dict[int, float]:
     return found
 
 
-def _exif_density(exif: dict[int, float]) -> Density | None:
+def _exif_density(exif: dict[int, float]) -> PictureDensity | None:
     if _ACROSS not in exif or _DOWN not in exif:
         return None
-    return Density(exif[_ACROSS], exif[_DOWN], {2: MM_PER_INCH, 3: 10.0}.get(int(exif.get(_UNIT, 2)), 0.0))
+    return PictureDensity(exif[_ACROSS], exif[_DOWN], {2: MM_PER_INCH, 3: 10.0}.get(int(exif.get(_UNIT, 2)), 0.0))
 
 
 def decoded(name: str, data: bytes) -> Gray:

@@ -8,7 +8,7 @@ from enum import Enum
 from ..core.errors import ParameterError
 
 
-class Shows(Enum):
+class InkMeaning(Enum):
     """What the ink of a picture is."""
 
     AUTO = "auto"
@@ -35,7 +35,7 @@ class PictureOptions:
     despeckle: int = 4
     pitch: float | None = None
     dpi: float | None = None
-    shows: Shows = Shows.AUTO
+    shows: InkMeaning = InkMeaning.AUTO
 
     def __post_init__(self) -> None:
         if self.threshold is not None and not 1 <= self.threshold <= 255:

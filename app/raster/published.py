@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .codes import PixelCode, Plane
-from .trace import Chain, trace
+from .trace import PixelChain, trace
 from .walls import Mask
 
 _UP = np.array([0, 1, 1, 1, 0, -1, -1, -1])
 """Rows that each direction climbs."""
 
 
-def published_marks(contour: Plane) -> tuple[Plane, tuple[Chain, ...]]:
+def published_marks(contour: Plane) -> tuple[Plane, tuple[PixelChain, ...]]:
     """Steps 202-206: trace the contour pixels (2) and mark vertices and overlap lines (R); also return the chains.
 
     Args:
@@ -33,13 +33,13 @@ def published_marks(contour: Plane) -> tuple[Plane, tuple[Chain, ...]]:
     return plane, chains
 
 
-def _sharp(chain: Chain) -> NDArray[np.bool_]:
+def _sharp(chain: PixelChain) -> NDArray[np.bool_]:
     """Return for each pixel whether the chain turns by 135 degrees or more there: an acute corner, or the way back."""
     turn = (chain.directions.astype(np.int64) - np.roll(chain.directions, 1)) % 8
     return (turn >= 3) & (turn <= 5)
 
 
-def _turns_over(chain: Chain) -> NDArray[np.bool_]:
+def _turns_over(chain: PixelChain) -> NDArray[np.bool_]:
     """Return for each pixel whether the chain comes from below and leaves downwards, or the reverse, level stretches
     included.
     """

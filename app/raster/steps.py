@@ -9,7 +9,7 @@ import numpy as np
 
 from ..geometry.primitives import Rows
 from .codes import Plane
-from .trace import Chain
+from .trace import PixelChain
 from .walls import Mask
 
 STEPS: dict[int, tuple[str, str]] = {
@@ -106,7 +106,7 @@ STEPS: dict[int, tuple[str, str]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Stage:
+class StepState:
     """The display memory after a step.
 
     Attributes:
@@ -121,7 +121,7 @@ class Stage:
 
     number: int
     plane: Plane
-    chains: tuple[Chain, ...] = ()
+    chains: tuple[PixelChain, ...] = ()
     rows: Rows = field(default_factory=lambda: np.zeros((0, 8)))
     region: int = 0
     turn: int = 1
@@ -147,5 +147,5 @@ class Stage:
         return "".join(f"region {self.region} turn {self.turn} start {chain.text()}\n" for chain in self.chains)
 
 
-StageObserver = Callable[[Stage], None]
+StageObserver = Callable[[StepState], None]
 """Is shown the display memory after every step."""

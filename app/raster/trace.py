@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from ..geometry.primitives import Rows
 from .codes import PixelCode, Plane
-from .frame import Frame
+from .frame import BitmapFrame
 
 STEPS = np.array([(0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0), (1, 1)])
 """(row, column) step of directions 0 ... 7: 0 to the right, then counter-clockwise by 45 degrees."""
 
 
 @dataclass(frozen=True)
-class Chain:
+class PixelChain:
     """One closed border of drawn pixels.
 
     Attributes:
@@ -37,7 +37,7 @@ class Chain:
         return f"{self.start[0]} {self.start[1]}: {''.join(map(str, self.directions))}."
 
 
-def chain_rows(frame: Frame, chains: Sequence[Chain]) -> Rows:
+def chain_rows(frame: BitmapFrame, chains: Sequence[PixelChain]) -> Rows:
     """Return closed lines (n, 8), mm, through the centres of some chains' pixels; a pixel alone is a line without
     length.
     """
@@ -50,7 +50,7 @@ def chain_rows(frame: Frame, chains: Sequence[Chain]) -> Rows:
     return np.concatenate(rows)
 
 
-def trace(plane: Plane) -> tuple[tuple[Chain, ...], Plane]:
+def trace(plane: Plane) -> tuple[tuple[PixelChain, ...], Plane]:
     """Extract all contour lines and mark them.
 
     Args:
@@ -69,5 +69,5 @@ def trace(plane: Plane) -> tuple[tuple[Chain, ...], Plane]:
     drawn = int(np.count_nonzero(traced))
     starts, codes = np.empty((drawn, 4), np.int64), np.empty(9 * drawn, np.uint8)
     count = kernels.trace(traced, starts, codes)
-    chains = (Chain((r, c), codes[first : first + length]) for r, c, first, length in starts[:count].tolist())
+    chains = (PixelChain((r, c), codes[first : first + length]) for r, c, first, length in starts[:count].tolist())
     return tuple(chains), traced

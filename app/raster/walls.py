@@ -11,7 +11,7 @@ from ..geometry.primitives import TURN, Rows
 from ..geometry.region import polygon_contour
 from ..model.part import Contour
 from .draw import image_rows, rows_of
-from .frame import Frame
+from .frame import BitmapFrame
 
 Mask = NDArray[np.bool_]
 """(rows, cols), row 0 = top."""
@@ -20,7 +20,7 @@ _ON_GRID = 1e-6
 """Pixels; a coordinate nearer than this to the grid's line lies on it."""
 
 
-def free_pixels(frame: Frame, contours: Sequence[Contour] | Rows) -> Mask:
+def free_pixels(frame: BitmapFrame, contours: Sequence[Contour] | Rows) -> Mask:
     """Return the pixels whose whole square lies inside closed contours, by even-odd counting.
 
     The squares of all other pixels together hold every contour, so a cutter that keeps clear of these squares keeps
@@ -63,7 +63,7 @@ def _runs(edges: NDArray[np.int8]) -> tuple[NDArray[np.int64], NDArray[np.int64]
     return line, first, stop, edges[line, first] > 0
 
 
-def wall_rows(frame: Frame, free: Mask) -> Rows:
+def wall_rows(frame: BitmapFrame, free: Mask) -> Rows:
     """Return the edges of the walls' squares as lines (n, 8), mm, for distances; in no particular order."""
     sides = outline_px(free).astype(np.float64)
     rows = np.zeros((len(sides), 8))
@@ -71,7 +71,7 @@ def wall_rows(frame: Frame, free: Mask) -> Rows:
     return rows
 
 
-def free_contours(frame: Frame, free: Mask) -> tuple[Contour, ...]:
+def free_contours(frame: BitmapFrame, free: Mask) -> tuple[Contour, ...]:
     """Return the closed contours of free areas along the pixels' edges, mm; areas that meet at a corner stay apart.
 
     The free side lies on the left: outer contours run counter-clockwise, those of islands clockwise.

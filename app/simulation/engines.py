@@ -19,7 +19,7 @@ from ..core.errors import HitofudeError
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from .cutter import Cutter
-from .field.differences import TOLERANCE, Apart, apart, least_beside
+from .field.differences import TOLERANCE, HeightDifference, height_difference, lowest_nearby
 from .field.workpiece import Heights, Workpiece
 from .gpu.graphics import has_device, is_software, renderer_of, standalone_context
 from .sweeps.course import Course
@@ -104,7 +104,7 @@ class Graphics:
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class EngineTrial:
     """How a graphics system has done the small job.
 
     Attributes:
@@ -117,7 +117,7 @@ class Trial:
 
 
 @cache
-def trial_of(graphics: Graphics, engine: Engine) -> Trial:
+def trial_of(graphics: Graphics, engine: Engine) -> EngineTrial:
     """Return how a graphics system does the small job with an engine, GPU or PATENT; each is tried once."""
     renderer, compute = "", graphics.quads
     allowed: float | Floats = TOLERANCE
@@ -132,12 +132,12 @@ def trial_of(graphics: Graphics, engine: Engine) -> Trial:
             renderer = renderer_of(context)
             found = tried(lambda *job: _computed(compute, context, job, NO_PROGRESS), allowed)
     except HitofudeError as error:
-        return Trial(renderer, str(error).rstrip("."))
+        return EngineTrial(renderer, str(error).rstrip("."))
     except Exception as error:  # whatever a driver comes up with
-        return Trial(renderer, f"{renderer or 'the graphics system'} fails ({_words(error)})")
+        return EngineTrial(renderer, f"{renderer or 'the graphics system'} fails ({_words(error)})")
     if found.agrees:
-        return Trial(renderer, "")
-    return Trial(
+        return EngineTrial(renderer, "")
+    return EngineTrial(
         renderer,
         f"{renderer} computes wrong heights, in a trial up to {found.largest:.3g} mm off in {found.cells} cells",
     )
@@ -158,20 +158,20 @@ def hardware(graphics: Graphics) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class EngineReport:
     """What has computed the heights of a cut.
 
     Attributes:
         engine: never AUTO.
         renderer: name of the graphics system; empty for the processor.
-        apart: how far its heights are from those of the engine of record, where that has run as well.
+        difference: how far its heights are from those of the engine of record, where that has run as well.
         error: how far at most, square to the surface, they may be from exact, mm, beside rounding.
         fault: why the engine that was asked for has not computed them; empty: it has.
     """
 
     engine: Engine
     renderer: str = ""
-    apart: Apart | None = None
+    difference: HeightDifference | None = None
     error: float = 0.0
     fault: str = ""
 
@@ -180,7 +180,7 @@ class HeightEngine:
     """Computes heights for one job, program after program; what fails once is not tried again.
 
     Attributes:
-        told: what has computed them so far.
+        report: what has computed them so far.
     """
 
     def __init__(self, engine: Engine, graphics: Graphics) -> None:
@@ -189,15 +189,15 @@ class HeightEngine:
             graphics,
             {Engine.GPU: graphics.quads, Engine.PATENT: graphics.published}.get(engine),
         )
-        self.told = Told(engine)
-        done = trial_of(graphics, engine) if self._compute is not None else Trial("", "")
+        self.report = EngineReport(engine)
+        done = trial_of(graphics, engine) if self._compute is not None else EngineTrial("", "")
         if done.fault:
             self._fall_back(done.fault)
         elif done.renderer:
-            self.told = Told(engine, done.renderer)
+            self.report = EngineReport(engine, done.renderer)
 
     @property
-    def wanted(self) -> bool:
+    def requested(self) -> bool:
         """Whether heights beside those of the engine of record are to be computed."""
         return self._compute is not None
 
@@ -213,14 +213,14 @@ class HeightEngine:
             try:
                 context = stack.enter_context(self._graphics.current())
             except Exception as error:  # whatever a driver comes up with
-                self._fall_back(f"{self.told.renderer} cannot be had again ({_words(error)})")
+                self._fall_back(f"{self.report.renderer} cannot be had again ({_words(error)})")
                 return None
             try:
                 return _computed(self._compute, context, job, progress)
             except HitofudeError:
                 raise
             except Exception as error:
-                self._fall_back(f"{self.told.renderer} fails ({_words(error)})")
+                self._fall_back(f"{self.report.renderer} fails ({_words(error)})")
                 return None
 
     def beside(self, record: Heights, job: Job, progress: Progress = NO_PROGRESS) -> Heights:
@@ -233,19 +233,21 @@ class HeightEngine:
         heights = self.alone(job, progress)
         if heights is None:
             return record
-        error = published_error(*job) if self.told.engine is Engine.PATENT else 0.0
-        found = apart(record, heights, _allowed(record, error, job[0].grid.pitch))
+        error = published_error(*job) if self.report.engine is Engine.PATENT else 0.0
+        found = height_difference(record, heights, _allowed(record, error, job[0].grid.pitch))
         if not found.agrees:
             self._fall_back(
-                f"{self.told.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by "
+                f"{self.report.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by "
                 "more than its stated error"
             )
             return record
-        self.told = replace(self.told, apart=found.joined(self.told.apart), error=max(error, self.told.error))
+        self.report = replace(
+            self.report, difference=found.joined(self.report.difference), error=max(error, self.report.error)
+        )
         return heights
 
     def _fall_back(self, fault: str) -> None:
-        self._compute, self.told = None, Told(Engine.CPU, fault=fault)
+        self._compute, self.report = None, EngineReport(Engine.CPU, fault=fault)
 
 
 def published_error(workpiece: Workpiece, course: Course, cutters: Cutters) -> float:
@@ -264,7 +266,7 @@ def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
     """
     if not error:
         return TOLERANCE
-    low, high = least_beside(record), -least_beside(-record)
+    low, high = lowest_nearby(record), -lowest_nearby(-record)
     steep = np.maximum(high - record, record - low) / pitch
     return np.asarray(TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep)
 

@@ -14,7 +14,7 @@ from ..fitting.fitted import arcs_between
 from ..model.motion import Floats
 from ..model.stock_box import StockBox
 from .cutter import Cutter
-from .field.differences import TOLERANCE, Apart, apart
+from .field.differences import TOLERANCE, HeightDifference, height_difference
 from .field.workpiece import BoxStock, Grid, Heights, Workpiece
 from .sweeps.course import Course
 from .sweeps.trim import trim
@@ -74,14 +74,14 @@ def trial() -> tuple[Workpiece, Course]:
     return piece, Course(motions, np.repeat(np.array(list(CUTTERS), np.int32), len(places[0]))[:-1])
 
 
-def tried(compute: Compute, allowed: float | Floats = TOLERANCE) -> Apart:
+def tried(compute: Compute, allowed: float | Floats = TOLERANCE) -> HeightDifference:
     """Return how far the heights that somebody computes of the trial are from those of the engine of record.
 
     Args:
         compute: computes them. allowed: difference that counts as none, mm; or (rows, cols) of them.
     """
     piece, course = trial()
-    return apart(record(), compute(piece, course, CUTTERS), allowed)
+    return height_difference(record(), compute(piece, course, CUTTERS), allowed)
 
 
 @cache

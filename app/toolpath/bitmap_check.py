@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.distance import DistanceField
-from ..geometry.offset.offset import Level
+from ..geometry.offset.offset import OffsetLevel
 from ..model.finding import Finding, FindingKind
 from ..raster.codes import Codes, PixelCode, area_mm2
 from ..raster.fill import Observer, fill
-from ..raster.frame import Frame
+from ..raster.frame import BitmapFrame
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class BitmapCheck:
         return [Finding(FindingKind.TOLERANCE, text, x, y, amount=float(self.wrong))]
 
 
-def check_on_bitmap(field: DistanceField, level: Level, observer: Observer | None = None) -> BitmapCheck:
+def check_on_bitmap(field: DistanceField, level: OffsetLevel, observer: Observer | None = None) -> BitmapCheck:
     """Fill A' on a 400 x 400 bitmap and compare every pixel with the drawing's distance field.
 
     Args:
@@ -57,7 +57,7 @@ def check_on_bitmap(field: DistanceField, level: Level, observer: Observer | Non
         observer: is shown the numbered steps of the fill of A'.
     """
     extent = (field.boxes[:, 0].min(), field.boxes[:, 1].min(), field.boxes[:, 2].max(), field.boxes[:, 3].max())
-    frame = Frame.around(tuple(float(v) for v in extent))  # type: ignore[arg-type]  # four numbers
+    frame = BitmapFrame.around(tuple(float(v) for v in extent))  # type: ignore[arg-type]  # four numbers
     part = fill(frame, field.rows)
     rows = np.concatenate([np.zeros((0, 8)), *(ring.rows for ring in level.rings)])
     shrunk = fill(frame, rows, observer)

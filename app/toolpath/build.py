@@ -19,7 +19,7 @@ _KIND_BY_TURN = np.array([MoveKind.ARC_CW, MoveKind.LINE, MoveKind.ARC_CCW], np.
 
 
 @dataclass(frozen=True)
-class Label:
+class StrokeLabel:
     """What every move of a stroke has in common.
 
     Attributes:
@@ -34,7 +34,7 @@ class Label:
     plunge_rate: float
 
     @property
-    def fast(self) -> Label:
+    def fast(self) -> StrokeLabel:
         """The same, but it plunges at feed rate: over ground that is cut."""
         return replace(self, plunge_rate=self.feed)
 
@@ -128,7 +128,15 @@ class MovesBuilder:
 
     def __init__(self) -> None:
         self._columns: list[
-            tuple[Rows, Rows, NDArray[np.uint8], Purpose | NDArray[np.uint8], Label, int, float | NDArray[np.float64]]
+            tuple[
+                Rows,
+                Rows,
+                NDArray[np.uint8],
+                Purpose | NDArray[np.uint8],
+                StrokeLabel,
+                int,
+                float | NDArray[np.float64],
+            ]
         ] = []
 
     @property
@@ -139,14 +147,14 @@ class MovesBuilder:
         x, y, z = self._columns[-1][0][-1].tolist()
         return x, y, z
 
-    def straight(self, end: tuple[float, float, float], purpose: Purpose, label: Label, region: int = 0) -> None:
+    def straight(self, end: tuple[float, float, float], purpose: Purpose, label: StrokeLabel, region: int = 0) -> None:
         """Append a rapid, or a plunge at plunge rate."""
         rapid = purpose is Purpose.RAPID
         kind = np.array([MoveKind.RAPID if rapid else MoveKind.LINE], np.uint8)
         feed = 0.0 if rapid else label.plunge_rate
         self._columns.append((np.array([end]), np.array([_NO_CENTRE]), kind, purpose, label, region, feed))
 
-    def cut(self, stroke: Stroke, z: float, label: Label) -> None:
+    def cut(self, stroke: Stroke, z: float, label: StrokeLabel) -> None:
         """Append a whole stroke at height z, mm, at feed rate, over its least heights; the tool is at its beginning."""
         heights = stroke.heights(z)
         if stroke.least_z is None or not np.any(np.diff(heights)):
@@ -163,7 +171,7 @@ class MovesBuilder:
             self._path(stroke.part(first, k), heights[first:k], label, label.feed)
             first = k
 
-    def ramp(self, stroke: Stroke, heights: NDArray[np.float64], label: Label) -> None:
+    def ramp(self, stroke: Stroke, heights: NDArray[np.float64], label: StrokeLabel) -> None:
         """Append a way down along a stroke, each row of it ending at its own height (n,), mm, and no row faster than
         may be.
 
@@ -177,12 +185,14 @@ class MovesBuilder:
         )
         self._path(replace(stroke, purpose=np.full(len(heights), Purpose.PLUNGE, np.uint8)), heights, label, feed)
 
-    def along(self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: NDArray[np.float64]) -> None:
+    def along(
+        self, stroke: Stroke, heights: NDArray[np.float64], label: StrokeLabel, feed: NDArray[np.float64]
+    ) -> None:
         """Append a path whose rows each end at their own height, mm, and have their own feed, mm/min, (n,) each."""
         self._path(stroke, heights, label, feed)
 
     def _path(
-        self, stroke: Stroke, heights: NDArray[np.float64], label: Label, feed: float | NDArray[np.float64]
+        self, stroke: Stroke, heights: NDArray[np.float64], label: StrokeLabel, feed: float | NDArray[np.float64]
     ) -> None:
         rows = stroke.rows
         arcs = rows[:, TURN] != 0

@@ -17,7 +17,7 @@ from ..model.operation import DrillOperation
 from ..model.part import Contour, Region
 from ..model.tool import Tool
 from .coverage.flat import region_shapes
-from .drawn import Drawn
+from .drawn_contours import DrawnContours
 from .selected import selected
 
 ALIKE = 0.1
@@ -27,7 +27,7 @@ _CHORD = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Hole:
+class CircleHole:
     """A circle of the drawing.
 
     Attributes:
@@ -41,7 +41,7 @@ class Hole:
 
 
 @dataclass(frozen=True)
-class Holes:
+class DrillHoles:
     """The circles of a drill operation.
 
     Attributes:
@@ -51,31 +51,31 @@ class Holes:
         others: circles of other diameters.
     """
 
-    drilled: tuple[Hole, ...] = ()
-    narrow: tuple[Hole, ...] = ()
-    held: tuple[Hole, ...] = ()
-    others: tuple[Hole, ...] = ()
+    drilled: tuple[CircleHole, ...] = ()
+    narrow: tuple[CircleHole, ...] = ()
+    held: tuple[CircleHole, ...] = ()
+    others: tuple[CircleHole, ...] = ()
 
 
-def circle_of(contour: Contour) -> Hole | None:
+def circle_of(contour: Contour) -> CircleHole | None:
     """Return the hole that a closed contour is where it is a circle, by whatever it is drawn; None where it is none."""
     circle = as_circle(contour)
-    return None if circle is None else Hole(*circle.centre, 2 * circle.radius)
+    return None if circle is None else CircleHole(*circle.centre, 2 * circle.radius)
 
 
-def holes_of(job: Job, drawn: Drawn, operation: DrillOperation) -> Holes:
+def holes_of(job: Job, drawn: DrawnContours, operation: DrillOperation) -> DrillHoles:
     """Return the circles of a drill operation, in the order of the drawing."""
     tool = job.tool(operation.cut.tool)
     circles = [
         hole for contour in selected(drawn, operation.cut.curves).closed if (hole := circle_of(contour)) is not None
     ]
     least, most = _asked(operation, tool)
-    asked = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
+    requested = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
     others = tuple(hole for hole in circles if not least - 1e-6 <= hole.diameter <= most + 1e-6)
-    fit = [hole for hole in asked if tool.diameter <= hole.diameter + ALIKE + 1e-6]
-    narrow = tuple(hole for hole in asked if tool.diameter > hole.diameter + ALIKE + 1e-6)
+    fit = [hole for hole in requested if tool.diameter <= hole.diameter + ALIKE + 1e-6]
+    narrow = tuple(hole for hole in requested if tool.diameter > hole.diameter + ALIKE + 1e-6)
     free, held = _free(_once_a_place(fit), job, drawn, operation)
-    return Holes(tuple(free), narrow, tuple(held), others)
+    return DrillHoles(tuple(free), narrow, tuple(held), others)
 
 
 def _asked(operation: DrillOperation, tool: Tool) -> tuple[float, float]:
@@ -85,9 +85,9 @@ def _asked(operation: DrillOperation, tool: Tool) -> tuple[float, float]:
     return operation.least or 0.0, math.inf if operation.most is None else operation.most
 
 
-def _once_a_place(holes: Iterable[Hole]) -> list[Hole]:
+def _once_a_place(holes: Iterable[CircleHole]) -> list[CircleHole]:
     """Return of holes round one centre the widest."""
-    widest: dict[tuple[int, int], Hole] = {}
+    widest: dict[tuple[int, int], CircleHole] = {}
     for hole in holes:
         place = round(hole.x / CURVE), round(hole.y / CURVE)
         key = next(
@@ -98,7 +98,9 @@ def _once_a_place(holes: Iterable[Hole]) -> list[Hole]:
     return list(widest.values())
 
 
-def _free(holes: list[Hole], job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[list[Hole], list[Hole]]:
+def _free(
+    holes: list[CircleHole], job: Job, drawn: DrawnContours, operation: DrillOperation
+) -> tuple[list[CircleHole], list[CircleHole]]:
     """Return the holes that no clamp is in the way of, and the others."""
     if not drawn.clamps or not holes:
         return holes, []
@@ -131,7 +133,7 @@ def tip_length(tool: Tool) -> float:
     return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind.drills and tool.tip_angle else 0.0
 
 
-def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Region, ...]:
+def hole_regions(job: Job, drawn: DrawnContours, operation: DrillOperation) -> tuple[Region, ...]:
     """Return the discs that a drill operation's cutter stays in: its circles, or its own width where it is wider by up
     to `ALIKE`.
     """
@@ -142,7 +144,7 @@ def hole_regions(job: Job, drawn: Drawn, operation: DrillOperation) -> tuple[Reg
     )
 
 
-def made_by_drills(job: Job, drawn: Drawn) -> frozenset[Hole]:
+def made_by_drills(job: Job, drawn: DrawnContours) -> frozenset[CircleHole]:
     """Return the circles that drill operations make as wide as they are drawn: for mills these are no walls, and no
     lines to follow.
     """
@@ -155,7 +157,7 @@ def made_by_drills(job: Job, drawn: Drawn) -> frozenset[Hole]:
     )
 
 
-def across_holes(findings: Iterable[Finding], job: Job, drawn: Drawn) -> list[Finding]:
+def across_holes(findings: Iterable[Finding], job: Job, drawn: DrawnContours) -> list[Finding]:
     """Return findings about a drawing, of which those do not count that tell that something crosses a circle which
     drills make.
     """

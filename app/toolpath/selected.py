@@ -11,7 +11,7 @@ from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.operation import Operation, Side
 from ..model.part import Contour
-from .drawn import Drawn
+from .drawn_contours import DrawnContours
 
 SAME_DIAMETER = 0.005
 """mm by which a circle may be wider or narrower than asked for: drawings in inches, and their last digits."""
@@ -32,7 +32,7 @@ class SelectedCurves:
     open: tuple[Contour, ...]
 
 
-def selected(drawn: Drawn, curves: Sequence[Selector]) -> SelectedCurves:
+def selected(drawn: DrawnContours, curves: Sequence[Selector]) -> SelectedCurves:
     """Return the contours that any of some selectors selects; without one all that the job machines."""
     if not curves:
         return SelectedCurves(drawn.closed, drawn.open)
@@ -59,7 +59,7 @@ def _selects(selector: Selector, contour: Contour, is_inner: bool) -> bool:
             return contour.closed and is_inner is (selector is ContourKind.INNER)
 
 
-def about_selected(job: Job, drawn: Drawn) -> list[Finding]:
+def selection_findings(job: Job, drawn: DrawnContours) -> list[Finding]:
     """Return a finding that counts for each selector of an operation that selects nothing which that can machine."""
     return [
         _about(operation, selector, drawn, job)
@@ -81,7 +81,7 @@ def _usable(operation: Operation, found: SelectedCurves) -> bool:
     return bool(found.closed)
 
 
-def _about(operation: Operation, selector: Selector, drawn: Drawn, job: Job) -> Finding:
+def _about(operation: Operation, selector: Selector, drawn: DrawnContours, job: Job) -> Finding:
     who = f"{operation.WORD.capitalize()} T{operation.cut.tool} asks for {selector.text}"
     found = selected(drawn, (selector,))
     x, y = (found.closed or found.open)[0].primitives[0].start if found.closed or found.open else (None, None)
@@ -95,7 +95,7 @@ def _about(operation: Operation, selector: Selector, drawn: Drawn, job: Job) -> 
     return Finding(FindingKind.LEFT_OUT, f"{who}, {why}.", x, y, entity_ids=ids)
 
 
-def _there(selector: Selector, drawn: Drawn, job: Job) -> str:
+def _there(selector: Selector, drawn: DrawnContours, job: Job) -> str:
     """Return what the drawing has in the place of what a selector does not find."""
     match selector:
         case CurveNumber(number):

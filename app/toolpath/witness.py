@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..core import tolerances
 from ..core.errors import GeometryError
 from ..geometry.arcs.bezier import pieces_of
-from ..geometry.chaining.chain import Chaining
+from ..geometry.chaining.chain import ChainingResult
 from ..geometry.chaining.findings import at
 from ..geometry.chaining.pieces import length_of, within_reach
 from ..geometry.distance import DistanceField
@@ -25,7 +25,7 @@ from ..geometry.even_odd import even_odd
 from ..geometry.outlines import Outlines
 from ..geometry.overlay.overlay import differing
 from ..geometry.primitives import points_at
-from ..geometry.region import Nesting
+from ..geometry.region import NestingResult
 from ..model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
 from ..model.finding import Finding, FindingKind
 from ..model.moves import Area
@@ -44,7 +44,7 @@ _NAMED = 5
 """So many curves are named in a sentence."""
 
 
-def about_chaining(entities: Sequence[Entity], chaining: Chaining, join_tolerance: float) -> list[Finding]:
+def chaining_findings(entities: Sequence[Entity], chaining: ChainingResult, join_tolerance: float) -> list[Finding]:
     """Return the findings that contours are not all that was drawn, or have another area than their curves.
 
     Args:
@@ -90,8 +90,8 @@ def _about_outlines(entities: Sequence[Entity], contours: Sequence[Contour]) -> 
     """
     if not contours:
         return []
-    wanted = {number for contour in contours for number in contour.entity_ids}
-    curves = [each.curve for each in entities if each.id in wanted]
+    requested = {number for contour in contours for number in contour.entity_ids}
+    curves = [each.curve for each in entities if each.id in requested]
     plain = [Contour((curve,)) for curve in curves if isinstance(curve, Line | Circle | Arc) and not _is_nothing(curve)]
     bent = [_places(curve) for curve in curves if isinstance(curve, Ellipse | Spline)]
     drawn = even_odd(
@@ -128,7 +128,7 @@ def _places(curve: Ellipse | Spline) -> Floats:
     return places
 
 
-def about_regions(contours: Sequence[Contour], outlines: Sequence[Contour], nesting: Nesting) -> list[Finding]:
+def region_findings(contours: Sequence[Contour], outlines: Sequence[Contour], nesting: NestingResult) -> list[Finding]:
     """Return the findings that regions are not the even-odd area of contours without what outlines hold.
 
     Args:
@@ -170,7 +170,7 @@ def _outlines(regions: Sequence[Region]) -> Outlines:
     return Outlines.of([contour for region in regions for contour in region.contours])
 
 
-def about_floors(areas: Sequence[Area], chord: float) -> list[Finding]:
+def floor_findings(areas: Sequence[Area], chord: float) -> list[Finding]:
     """Return the findings that polygons by which floors are measured are not the areas of the operations.
 
     Args:

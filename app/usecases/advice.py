@@ -11,11 +11,11 @@ from ..model.finding import Finding
 from ..model.job import Job
 from ..model.part import Units
 from ..model.read_options import AS_DRAWN, DrawingOptions
-from ..model.reading import Reading
+from ..model.reading import ReadingOptions
 from ..model.tool import Tool
 from ..operations.compute import regions_of
-from ..toolpath.advice.advise import Advice, Choice, RegionAdvice, advise, standard_tools
-from ..toolpath.advice.time import Plan
+from ..toolpath.advice.advise import Advice, RegionAdvice, ToolChoice, advise, standard_tools
+from ..toolpath.advice.time import CuttingPlan
 from .layers import with_layers_spelled
 from .plausible import read_plausible
 
@@ -35,7 +35,7 @@ class AdviceOptions:
     """
 
     tools: tuple[Tool, ...] = ()
-    plan: Plan = field(default_factory=Plan)
+    plan: CuttingPlan = field(default_factory=CuttingPlan)
     units: Units | None = None
     layers: tuple[str, ...] = ()
     join_tolerance: float | None = None
@@ -43,7 +43,7 @@ class AdviceOptions:
 
 
 @dataclass(frozen=True)
-class Advised:
+class ToolAdvice:
     """What a drawing wants, and what there is to say about it."""
 
     advice: Advice
@@ -63,7 +63,7 @@ class Advised:
         }
 
 
-def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progress = NO_PROGRESS) -> Advised:
+def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progress = NO_PROGRESS) -> ToolAdvice:
     """Return which tools the bytes of a drawing want.
 
     Args:
@@ -75,7 +75,9 @@ def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progres
     """
     progress.step(0.0, f"Reading {name}")
     diameters = [tool.diameter for tool in options.tools or standard_tools()]
-    drawing = read_plausible(name, data, Reading(options.units, options.layers, options.reading), lambda _: diameters)
+    drawing = read_plausible(
+        name, data, ReadingOptions(options.units, options.layers, options.reading), lambda _: diameters
+    )
     job = Job(drawing.part, layer_names=options.layers)
     if options.join_tolerance is not None:
         job = Job(drawing.part, layer_names=options.layers, join_tolerance=options.join_tolerance)
@@ -86,7 +88,7 @@ def advice_for(name: str, data: bytes, options: AdviceOptions, progress: Progres
             f"{name}: there is no closed contour to choose tools for; draw one, or choose other layers. {said}".rstrip()
         )
     advice = advise(regions, options.tools, options.plan, progress.part(0.1, 1.0))
-    return Advised(advice, (*findings, *drawing.findings))
+    return ToolAdvice(advice, (*findings, *drawing.findings))
 
 
 def _region(region: RegionAdvice) -> Json:
@@ -104,7 +106,7 @@ def _region(region: RegionAdvice) -> Json:
     }
 
 
-def _choice(choice: Choice) -> Json:
+def _choice(choice: ToolChoice) -> Json:
     return {
         "number": choice.tool.number,
         "diameter_mm": choice.tool.diameter,

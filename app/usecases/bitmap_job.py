@@ -15,11 +15,11 @@ from ..model.job import Job
 from ..model.part import Entity, Part, Region
 from ..model.read_options import AS_DRAWN
 from ..operations.compute import regions_of
-from ..raster.doubts import Ambiguity, Doubt, Place, ambiguities, pixel_words
-from ..raster.faces import inner_faces, shows
-from ..raster.frame import Frame
-from ..raster.picture import Picture, read_picture
-from ..raster.picture_options import PictureOptions, Shows
+from ..raster.ambiguities import Ambiguity, AmbiguityKind, Place, ambiguities, pixel_words
+from ..raster.faces import ink_meaning, inner_faces
+from ..raster.frame import BitmapFrame
+from ..raster.picture import RasterPicture, read_picture
+from ..raster.picture_options import InkMeaning, PictureOptions
 from ..raster.walls import Mask, free_contours
 from .bitmap_options import BitmapOptions, BitmapSize, is_picture
 from .bitmap_part import BitmapPart, part_of_mask, part_of_regions
@@ -32,8 +32,8 @@ _TOLD = 20
 
 _LOOK = "look at what will be machined there, and draw it clearer if it is wrong"
 _ADVICE = {
-    Doubt.GAP: "close it in the picture, or make it wider if it is meant",
-    Doubt.OPEN: "close it in the picture, or take it out if nothing is to be machined there",
+    AmbiguityKind.GAP: "close it in the picture, or make it wider if it is meant",
+    AmbiguityKind.OPEN: "close it in the picture, or take it out if nothing is to be machined there",
 }
 
 
@@ -102,34 +102,34 @@ def drawn_job(job: Job, size: BitmapSize, findings: tuple[Finding, ...] = ()) ->
     return BitmapJob(job, part_of_regions(regions, size), (*own, *findings))
 
 
-def picture_job(picture: Picture, options: MakeOptions, read: PictureOptions, name: str) -> BitmapJob:
+def picture_job(picture: RasterPicture, options: MakeOptions, read: PictureOptions, name: str) -> BitmapJob:
     """Return the job for a picture: its ink's areas, or what its lines enclose, one pixel of the picture one of the
     bitmap.
 
     Raises:
         GeometryError: nothing in it is to be machined.
     """
-    kind = shows(picture.ink, read.shows)
-    free = picture.ink if kind is Shows.AREAS else inner_faces(picture.ink)
+    kind = ink_meaning(picture.ink, read.shows)
+    free = picture.ink if kind is InkMeaning.AREAS else inner_faces(picture.ink)
     free = np.pad(free, 1)
-    frame = Frame(free.shape[0], free.shape[1], picture.pitch, -picture.pitch, -picture.pitch)
+    frame = BitmapFrame(free.shape[0], free.shape[1], picture.pitch, -picture.pitch, -picture.pitch)
     doubts = _doubts(picture.ink, frame, kind)
     if not free.any():
         raise GeometryError(_nothing_shown(name, kind, doubts))
     regions = nest(free_contours(frame, free))
-    part = part_of_mask(frame, free, regions, np.pad(picture.ink, 1) if kind is Shows.LINES else None)
+    part = part_of_mask(frame, free, regions, np.pad(picture.ink, 1) if kind is InkMeaning.LINES else None)
     job = job_with_options(_as_part(regions, name), options)
     remarks = (Finding(FindingKind.ASSUMED, remark, counts=False) for remark in picture.remarks)
     return BitmapJob(job, part, (*doubts, *remarks))
 
 
-def _nothing_shown(name: str, kind: Shows, doubts: list[Finding]) -> str:
+def _nothing_shown(name: str, kind: InkMeaning, doubts: list[Finding]) -> str:
     """Return why a picture gives no part: where its lines are open, as far as that is known."""
     open_ones = [finding.text for finding in doubts if finding.counts]
     if open_ones:
         more = f" ({len(open_ones) - 1} more such places)" if len(open_ones) > 1 else ""
         return f"{name}: nothing in the picture is enclosed by lines. {open_ones[0]}{more}"
-    what = "is inked" if kind is Shows.AREAS else "is enclosed by lines"
+    what = "is inked" if kind is InkMeaning.AREAS else "is enclosed by lines"
     return (
         f"{name}: nothing in the picture {what}; change the threshold, invert it, or say whether its ink is lines or "
         "areas."
@@ -142,20 +142,20 @@ def _as_part(regions: tuple[Region, ...], name: str) -> Part:
     return Part(name=name).with_entities(tuple(Entity(number, curve) for number, curve in enumerate(curves, 1)))
 
 
-def _doubts(ink: Mask, frame: Frame, kind: Shows) -> list[Finding]:
+def _doubts(ink: Mask, frame: BitmapFrame, kind: InkMeaning) -> list[Finding]:
     """Return the places that can be read in two ways, as findings; areas of ink leave none open."""
-    places = ambiguities(ink) if kind is Shows.LINES else ()
-    counts = Counter(place.doubt for place in places)
-    told: Counter[object] = Counter()
+    places = ambiguities(ink) if kind is InkMeaning.LINES else ()
+    counts = Counter(place.kind for place in places)
+    reported: Counter[object] = Counter()
     found = []
     for place in places:
-        told[place.doubt] += 1
-        if told[place.doubt] <= _TOLD:
-            found.append(_doubt(place, frame, counts[place.doubt] - _TOLD if told[place.doubt] == _TOLD else 0))
+        reported[place.kind] += 1
+        if reported[place.kind] <= _TOLD:
+            found.append(_doubt(place, frame, counts[place.kind] - _TOLD if reported[place.kind] == _TOLD else 0))
     return found
 
 
-def _doubt(place: Ambiguity, frame: Frame, more: int) -> Finding:
+def _doubt(place: Ambiguity, frame: BitmapFrame, more: int) -> Finding:
     """Return a place as a finding.
 
     Args:
@@ -163,9 +163,9 @@ def _doubt(place: Ambiguity, frame: Frame, more: int) -> Finding:
     """
     (x, y), *others = (_at(each, frame) for each in ((place.col, place.row), *place.others))
     also = f" ({more} more like it)" if more > 0 else ""
-    is_open = place.doubt is Doubt.OPEN
-    told = f"{place.doubt.value}{_other_ends(place, others)}" if is_open else place.doubt.value
-    text = f"At {place.where}, {_mm((x, y))}, {told}{also}; {_ADVICE.get(place.doubt, _LOOK)}."
+    is_open = place.kind is AmbiguityKind.OPEN
+    reported = f"{place.kind.value}{_other_ends(place, others)}" if is_open else place.kind.value
+    text = f"At {place.where}, {_mm((x, y))}, {reported}{also}; {_ADVICE.get(place.kind, _LOOK)}."
     amount = float(np.hypot(x - others[0][0], y - others[0][1])) if others else None
     return Finding(
         FindingKind.OPEN_CONTOUR if is_open else FindingKind.AMBIGUOUS, text, x, y, place.counts, amount=amount
@@ -180,7 +180,7 @@ def _other_ends(place: Ambiguity, others: list[Place]) -> str:
     return f"; its other {'end is' if len(ends) == 1 else 'ends are'} at {' and at '.join(ends)}"
 
 
-def _at(place: Place, frame: Frame) -> Place:
+def _at(place: Place, frame: BitmapFrame) -> Place:
     """Return where a place of the picture lies, mm, on a frame that has one pixel more all round."""
     x, y = frame.to_mm(np.array([place]) + 1)[0].tolist()
     return x, y

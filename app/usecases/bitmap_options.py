@@ -8,7 +8,7 @@ from pathlib import PurePath
 import numpy as np
 
 from ..core.errors import ParameterError
-from ..raster.frame import POINTS, Frame
+from ..raster.frame import POINTS, BitmapFrame
 from ..raster.picture_options import PictureOptions
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp")
@@ -39,7 +39,7 @@ class BitmapSize:
         if self.pitch is not None and not 0 < self.pitch < 1e5:
             raise ParameterError(f"The pitch is {self.pitch:g} mm; it must be greater than 0 and less than 100000 mm.")
 
-    def frame(self, extent: tuple[float, float, float, float]) -> Frame:
+    def frame(self, extent: tuple[float, float, float, float]) -> BitmapFrame:
         """Return a frame round an extent x0, y0, x1, y1, mm; its corner lies on a whole multiple of the pitch where one
         was given.
 
@@ -47,7 +47,7 @@ class BitmapSize:
             ParameterError: at this pitch the drawing is larger than the largest bitmap.
         """
         if self.pitch is None:
-            return Frame.around(extent, self.points, MARGIN_PX)
+            return BitmapFrame.around(extent, self.points, MARGIN_PX)
         x0, y0 = (int(np.floor(low / self.pitch)) - MARGIN_PX for low in extent[:2])
         need = max(
             int(np.ceil(high / self.pitch)) + MARGIN_PX - low for high, low in zip(extent[2:], (x0, y0), strict=True)
@@ -58,7 +58,7 @@ class BitmapSize:
                 "so use a larger pitch."
             )
         side = max(need, self.points)
-        return Frame(side, side, self.pitch, x0 * self.pitch, y0 * self.pitch)
+        return BitmapFrame(side, side, self.pitch, x0 * self.pitch, y0 * self.pitch)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from ..geometry.primitives import boxes, contour_rows, pack
 from ..model.part import Region
 from ..raster.codes import Plane
 from ..raster.draw import draw
-from ..raster.frame import PATH_BYTES, Frame
+from ..raster.frame import PATH_BYTES, BitmapFrame
 from ..raster.peel import frame_pixels
 from ..raster.walls import Mask, free_pixels, wall_rows
 from .bitmap_options import BitmapSize
@@ -33,7 +33,7 @@ class BitmapPart:
         squares: distances from the squares of all other pixels.
     """
 
-    frame: Frame
+    frame: BitmapFrame
     regions: tuple[Region, ...]
     drawn: Plane
     free: Mask
@@ -66,7 +66,7 @@ def part_of_regions(regions: Sequence[Region], size: BitmapSize) -> BitmapPart:
     )
 
 
-def part_of_mask(frame: Frame, free: Mask, regions: Sequence[Region], ink: Mask | None = None) -> BitmapPart:
+def part_of_mask(frame: BitmapFrame, free: Mask, regions: Sequence[Region], ink: Mask | None = None) -> BitmapPart:
     """Return the part that a picture shows.
 
     Args:
@@ -78,11 +78,11 @@ def part_of_mask(frame: Frame, free: Mask, regions: Sequence[Region], ink: Mask 
     return BitmapPart(frame, tuple(regions), drawn, free, _labels(frame, free, regions), _squares(frame, free))
 
 
-def _squares(frame: Frame, free: Mask) -> DistanceField:
+def _squares(frame: BitmapFrame, free: Mask) -> DistanceField:
     return DistanceField.of(wall_rows(frame, free))
 
 
-def _labels(frame: Frame, free: Mask, regions: Sequence[Region]) -> NDArray[np.int32]:
+def _labels(frame: BitmapFrame, free: Mask, regions: Sequence[Region]) -> NDArray[np.int32]:
     """Return the region that each free pixel lies in, found once for each connected area."""
     import cv2
 

@@ -14,27 +14,27 @@ import numpy as np
 
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
-from ..fitting.corner_smoothing.smooth import SmoothOptions
-from ..fitting.corner_smoothing.smoothed import Smoothed
+from ..fitting.corner_smoothing.smooth import CornerSmoothingOptions
+from ..fitting.corner_smoothing.smoothed_path import SmoothedPath
 from ..geometry.distance import DistanceField
-from ..geometry.offset.offset import Level, Ring
+from ..geometry.offset.offset import OffsetLevel, Ring
 from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, within_half_turn
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import Cut, Operation, Order, PocketOperation, Side
+from ..model.operation import CutParameters, Operation, Order, PocketOperation, Side
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
 from ..operations.contour.paths import contour_strokes
 from ..operations.pocket.paths import stepover_of, wall_distance
 from ..raster.border import Border, Index, borders_of
 from ..raster.levels import SAFE_PX, RingSteps, offset_area, ring_index
-from ..raster.trace import Chain
+from ..raster.trace import PixelChain
 from ..raster.walls import Mask
-from ..toolpath.drawn import Drawn
+from ..toolpath.drawn_contours import DrawnContours
 from ..toolpath.linking.link import link_by_proof
-from ..toolpath.setting import Setting, emit, passes_of
-from ..toolpath.sheets import Sheet, Sheets
+from ..toolpath.machining_areas import MachiningArea, MachiningAreas
+from ..toolpath.operation_context import OperationContext, emit, passes_of
 from .bitmap_part import BitmapPart
 from .pixel_path import TOLERANCE_PX, WallLimits, chain_points, pixel_path
 
@@ -54,7 +54,7 @@ LEAST_RADIUS_PX = 1.0
 
 
 @dataclass(frozen=True)
-class GivenUp:
+class WallExcess:
     """How much farther from the walls than asked the paths along them are.
 
     Attributes:
@@ -74,8 +74,8 @@ class PixelPath:
         smoothed: the lines and arcs it has become, mm.
     """
 
-    chain: Chain
-    smoothed: Smoothed
+    chain: PixelChain
+    smoothed: SmoothedPath
 
     @property
     def rows(self) -> Rows:
@@ -119,7 +119,7 @@ class BitmapProgram:
 
     program: Program
     paths: tuple[OperationPaths, ...]
-    given_up: GivenUp
+    given_up: WallExcess
     unsmoothed: int
 
 
@@ -137,26 +137,26 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     """
     job.check_operations()
     primitives = pack(part.regions)
-    setting = Setting(job, part.regions, Sheets(job, Drawn()))
-    walls = Sheet(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))
+    context = OperationContext(job, part.regions, MachiningAreas(job, DrawnContours()))
+    walls = MachiningArea(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))
     order, paths = [index for index in in_order(job) if on_pixels(job.operations[index])], []
     for k, index in enumerate(order):
         share = progress.part(k / len(order), (k + 1) / len(order))
         paths.append(operation_paths(job, index, part, share.part(0.0, 0.7)))
         share.step(0.7, "Link paths")
-        _emit(setting, paths[-1], (part, walls), share.part(0.7, 1.0))
+        _emit(context, paths[-1], (part, walls), share.part(0.7, 1.0))
     if job.order is Order.PATENT_1986:
-        setting.findings.extend(slotting(job))
+        context.findings.extend(slotting(job))
     given_up = _given_up(paths, DistanceField.of(primitives.rows), part.frame.pitch)
     rough = sum(not path.smoothed.exact for each in paths for level in each.levels for path in level)
-    setting.findings.extend(_findings(part, paths, given_up, job))
-    setting.findings.extend(_left_out(job))
-    findings = tuple(sorted(setting.findings, key=lambda finding: not finding.counts))
+    context.findings.extend(_findings(part, paths, given_up, job))
+    context.findings.extend(_left_out(job))
+    findings = tuple(sorted(context.findings, key=lambda finding: not finding.counts))
     program = Program(
-        setting.builder.moves(),
+        context.builder.moves(),
         part.regions,
         findings,
-        setting.strokes,
+        context.strokes,
         pitch_mm=part.frame.pitch,
         given_up_mm=given_up.most_mm,
         allowance_mm=min(given_up.most_mm, MOST_SKIN_PX * part.frame.pitch),
@@ -203,7 +203,9 @@ def operation_paths(job: Job, index: int, part: BitmapPart, progress: Progress =
     return _pocket_paths(job, part, index, progress)
 
 
-def _contour_paths(part: BitmapPart, index: int, cutter: tuple[Tool, Cut], progress: Progress) -> OperationPaths:
+def _contour_paths(
+    part: BitmapPart, index: int, cutter: tuple[Tool, CutParameters], progress: Progress
+) -> OperationPaths:
     tool, cut = cutter
     wall = tool.radius + cut.stock_to_leave
     area = offset_area(part.free, wall / part.frame.pitch, TOLERANCE_PX)
@@ -251,7 +253,7 @@ def _smoothed(
     part: BitmapPart, levels: Sequence[Sequence[Border]], made_for: tuple[Sequence[float], Tool], progress: Progress
 ) -> tuple[tuple[PixelPath, ...], ...]:
     distances, tool = made_for
-    options = SmoothOptions(TOLERANCE_PX * part.frame.pitch, LONG_LINE * tool.diameter)
+    options = CornerSmoothingOptions(TOLERANCE_PX * part.frame.pitch, LONG_LINE * tool.diameter)
     result = []
     for k, (borders, distance) in enumerate(zip(levels, distances, strict=True)):
         progress.step((k + 1) / (len(levels) + 1), "Smooth paths")
@@ -268,24 +270,26 @@ def _ring(path: PixelPath, part: BitmapPart) -> Ring:
     return Ring(rows, int(part.label[path.chain.start]), signed_area(rows), float(lengths(rows).sum()))
 
 
-def _emit(setting: Setting, paths: OperationPaths, walls: tuple[BitmapPart, Sheet], progress: Progress) -> None:
+def _emit(
+    context: OperationContext, paths: OperationPaths, walls: tuple[BitmapPart, MachiningArea], progress: Progress
+) -> None:
     """Append the moves of one operation."""
-    part, sheet = walls
-    operation = setting.job.operations[paths.index]
+    part, area = walls
+    operation = context.job.operations[paths.index]
     direction = operation.cut.direction
     rings = [tuple(_ring(path, part) for path in level) for level in paths.levels]
-    levels = [Level(distance, level) for distance, level in zip(paths.distances, rings, strict=True)]
+    levels = [OffsetLevel(distance, level) for distance, level in zip(paths.distances, rings, strict=True)]
     if operation.FOLLOWS_WALLS:
-        emit(setting, paths.index, sheet, contour_strokes(levels[0].rings, direction), progress)
+        emit(context, paths.index, area, contour_strokes(levels[0].rings, direction), progress)
         return
     strokes = link_by_proof(
-        levels, part.squares, direction, max(part.frame.pitch, setting.job.tool(operation.cut.tool).radius / 4)
+        levels, part.squares, direction, max(part.frame.pitch, context.job.tool(operation.cut.tool).radius / 4)
     )
-    setting.strokes += len(strokes) * passes_of(setting, paths.index)
-    emit(setting, paths.index, sheet, strokes, progress)
+    context.strokes += len(strokes) * passes_of(context, paths.index)
+    emit(context, paths.index, area, strokes, progress)
 
 
-def _given_up(paths: Sequence[OperationPaths], walls: DistanceField, pitch: float) -> GivenUp:
+def _given_up(paths: Sequence[OperationPaths], walls: DistanceField, pitch: float) -> WallExcess:
     """Measure how far the paths next to the walls lie beyond their distance."""
     most, total, length = 0.0, 0.0, 0.0
     for each in paths:
@@ -294,7 +298,7 @@ def _given_up(paths: Sequence[OperationPaths], walls: DistanceField, pitch: floa
             points = _along(np.concatenate(rows), pitch / 2)
             over = walls.nearest(points)[0] - each.distances[0]
             most, total, length = max(most, float(over.max())), total + float(over.sum()), length + len(over)
-    return GivenUp(most, total / length if length else 0.0)
+    return WallExcess(most, total / length if length else 0.0)
 
 
 def _along(rows: Rows, step: float) -> Rows:
@@ -306,7 +310,7 @@ def _along(rows: Rows, step: float) -> Rows:
     return points
 
 
-def _findings(part: BitmapPart, paths: Sequence[OperationPaths], given_up: GivenUp, job: Job) -> list[Finding]:
+def _findings(part: BitmapPart, paths: Sequence[OperationPaths], given_up: WallExcess, job: Job) -> list[Finding]:
     """Return regions without a path, and what was given up."""
     pitch = part.frame.pitch
     text = (

@@ -18,18 +18,18 @@ from ..model.motion import Floats
 from ..model.stock_box import StockBox
 from ..model.tool import Tool
 from ..simulation.cutter import Cutter, cutter_of
-from ..simulation.engines import Engine, Graphics, HeightEngine, Job, Told, hardware
-from ..simulation.field.workpiece import Grid, Heights, Stock, Workpiece, ensure_memory
+from ..simulation.engines import Engine, EngineReport, Graphics, HeightEngine, Job, hardware
+from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece, ensure_memory
 from ..simulation.sweeps.course import TrimOptions
 from ..simulation.sweeps.probe import PathProbe
-from ..simulation.sweeps.trim import Cut, trim
-from ..verify.accidents import Stage, accidents
+from ..simulation.sweeps.trim import CutResult, trim
+from ..verify.accidents import ProgramStage, accidents
 from ..verify.certify import certify
-from ..verify.closer import Metal
 from ..verify.course import KnownCourse, course_of
-from ..verify.exact import Exact, exact_of
-from ..verify.holder_contacts import HolderLook
-from ..verify.judge import Judging, judge, wanted_over
+from ..verify.exact import ExactDeviations, exact_of
+from ..verify.fine_stock import FineStock
+from ..verify.holder_contacts import HolderReport
+from ..verify.judge import JudgementInput, judge, part_target
 from ..verify.judgement import Judgement, findings_of
 from ..verify.parts import FlatPart, Part, SolidPart, beyond
 from ..verify.wall_probe import WallProbe, unseen_walls
@@ -60,7 +60,7 @@ class CutSetup:
 
     programs: tuple[NcProgram, ...]
     tools: Mapping[int, Tool]
-    stock: Stock
+    stock: StockShape
     part: Part | None = None
     names: tuple[str, ...] = ()
 
@@ -119,26 +119,26 @@ class CutProgram:
         judgement: against the part; None where there is none.
         findings: what went wrong on the way and what is wrong with the result, what counts first; places in program
             coordinates.
-        told: what has computed the heights.
+        engine_report: what has computed the heights.
         holders: shanks and holders in metal, their motions counted through all files; None where nobody has looked.
     """
 
     setup: CutSetup
     options: CutOptions
-    cut: Cut
+    cut: CutResult
     top: float
     floor: float
     judgement: Judgement | None
     findings: tuple[Finding, ...]
-    told: Told
-    holders: HolderLook | None = None
+    engine_report: EngineReport
+    holders: HolderReport | None = None
 
 
 def cut(
     setup: CutSetup,
     options: CutOptions = CutOptions(),
     progress: Progress = NO_PROGRESS,
-    exact: Exact | None = None,
+    exact: ExactDeviations | None = None,
     graphics: Graphics = GRAPHICS,
 ) -> CutProgram:
     """Cut programs out of their stock, and judge what is left.
@@ -159,7 +159,7 @@ def cut(
     outside = beyond(setup.part, run.box()) if setup.part is not None and options.judge else ()
     judged = findings_of(judgement, setup.where) if judgement is not None else ()
     findings = worst_first(
-        (*done.accidents, *outside, *judged, *run.unseen(), *_fallen_back(done.told, options.engine))
+        (*done.accidents, *outside, *judged, *run.unseen(), *_fallen_back(done.engine_report, options.engine))
     )
     return CutProgram(
         setup,
@@ -169,29 +169,29 @@ def cut(
         run.workpiece.floor,
         judgement,
         findings,
-        done.told,
+        done.engine_report,
         done.holders,
     )
 
 
-def _fallen_back(told: Told, asked: Engine) -> tuple[Finding, ...]:
+def _fallen_back(engine_report: EngineReport, requested: Engine) -> tuple[Finding, ...]:
     """Return the remark that another engine has computed the heights than the one that was asked for."""
-    if not told.fault or asked is Engine.AUTO:
+    if not engine_report.fault or requested is Engine.AUTO:
         return ()
-    text = f"The heights are the processor's, not those of the engine {asked.value}: {told.fault}."
+    text = f"The heights are the processor's, not those of the engine {requested.value}: {engine_report.fault}."
     return (Finding(FindingKind.ASSUMED, text, counts=False),)
 
 
 @dataclass(frozen=True, eq=False)
-class _Done:
+class _CutOutcome:
     """What all programs left, what went wrong on the way, what has computed the heights, and what is known of
     holders.
     """
 
-    cut: Cut
+    cut: CutResult
     accidents: tuple[Finding, ...]
-    told: Told
-    holders: HolderLook | None
+    engine_report: EngineReport
+    holders: HolderReport | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,7 +225,7 @@ class _CutRun:
         drawn = judged and isinstance(part, FlatPart)
         return cut_effort(self.setup.programs, self.setup.tools, self.workpiece.grid.pitch, drawn, judged)
 
-    def cut(self, progress: Progress) -> _Done:
+    def cut(self, progress: Progress) -> _CutOutcome:
         """Cut all programs, and look for what goes wrong on the way: on the whole stock, whatever the window is."""
         if self.options.window is None or not self.options.judge:
             return self._cut(progress)
@@ -237,13 +237,13 @@ class _CutRun:
             progress.part(0.0, 0.5)
         )
         seen = replace(self, options=replace(self.options, judge=False))._cut(progress.part(0.5, 1.0))
-        return replace(whole, cut=replace(seen.cut, rapids=whole.cut.rapids), told=seen.told)
+        return replace(whole, cut=replace(seen.cut, rapids=whole.cut.rapids), engine_report=seen.engine_report)
 
-    def _cut(self, progress: Progress) -> _Done:
+    def _cut(self, progress: Progress) -> _CutOutcome:
         accident: list[Finding] = []
-        holders: HolderLook | None = None
+        holders: HolderReport | None = None
         engine = HeightEngine(self._engine(), self.graphics)
-        cut: Cut | None = None
+        cut: CutResult | None = None
         done, count = 0, len(self.courses)
         for k, known in enumerate(self.courses):
             part, before = progress.part(k / count, (k + 1) / count), self.workpiece if cut is None else cut.workpiece
@@ -257,7 +257,7 @@ class _CutRun:
             cut = after if cut is None else _joined(cut, after, done)
             done += len(known.course.motions)
         assert cut is not None
-        return _Done(cut, tuple(accident), engine.told, holders)
+        return _CutOutcome(cut, tuple(accident), engine.report, holders)
 
     def _engine(self) -> Engine:
         """Return which engine's heights are wanted."""
@@ -265,26 +265,28 @@ class _CutRun:
             return self.options.engine
         return Engine.GPU if self.options.stop is None and hardware(self.graphics) else Engine.CPU
 
-    def _heights(self, engine: HeightEngine, job: Job, stop: int | None, progress: Progress) -> tuple[Cut, Heights]:
+    def _heights(
+        self, engine: HeightEngine, job: Job, stop: int | None, progress: Progress
+    ) -> tuple[CutResult, Heights]:
         """Return what the engine of record tells of a job up to a motion, and the heights that are wanted."""
         if stop is not None:
             part = trim(*job, TrimOptions(trace=self.options.trace, stop=stop), progress)
             return part, part.heights
-        if engine.wanted and not (self.options.trace or self.options.judge) and self.options.engine is Engine.AUTO:
+        if engine.requested and not (self.options.trace or self.options.judge) and self.options.engine is Engine.AUTO:
             looked = engine.alone(job, progress)
             if looked is not None:
-                return Cut(job[0], looked), looked
-        share = 0.5 if engine.wanted else 1.0
+                return CutResult(job[0], looked), looked
+        share = 0.5 if engine.requested else 1.0
         after = trim(*job, TrimOptions(trace=self.options.trace), progress.part(0.0, share))
         return after, engine.beside(after.heights, job, progress.part(share, 1.0))
 
-    def _stage(self, k: int, before: Workpiece, after: Cut, done: int) -> Stage:
+    def _stage(self, k: int, before: Workpiece, after: CutResult, done: int) -> ProgramStage:
         """Return a program as it was cut; `done` motions were before it."""
-        metal = Metal(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
+        metal = FineStock(self.setup.stock, tuple(known.course for known in self.courses[: k + 1]), self.cutters)
         header = self.setup.programs[k].header
         rates, under = ({}, 0.0) if header is None else (dict(header.plunge_rates), header.under)
         where = lambda row: self.setup.where(done + row)  # noqa: E731 (a place of this program)
-        return Stage(self.courses[k], before, after, metal, self.setup.tools, where, rates, under)
+        return ProgramStage(self.courses[k], before, after, metal, self.setup.tools, where, rates, under)
 
     def box(self) -> StockBox:
         """Return the box round all of the stock, program coordinates; of a window nobody knows how high the rest is."""
@@ -301,17 +303,17 @@ class _CutRun:
             ).workpiece
         return workpiece.heights
 
-    def judged(self, cut: Cut, exact: Exact | None, progress: Progress) -> Judgement:
+    def judged(self, cut: CutResult, exact: ExactDeviations | None, progress: Progress) -> Judgement:
         """Compare a cut with the part."""
         part = self.setup.part
         assert part is not None
         used = {number for known in self.courses for number in np.unique(known.course.tool).tolist()}
         cutters = tuple(self.cutters[number] for number in sorted(used & set(self.cutters)))
-        wanted = wanted_over(part, cut, self.setup.stock, cutters, progress.part(0.0, 0.3))
+        target = part_target(part, cut, self.setup.stock, cutters, progress.part(0.0, 0.3))
         if exact is None and self.options.judge and isinstance(part, FlatPart):
             exact = exact_of(part, [known.course for known in self.courses], self.box(), progress.part(0.3, 0.7))
         certificate = (
-            certify(self.workpiece, wanted, self.cutters, self.trimmed, progress.part(0.7, 1.0))
+            certify(self.workpiece, target, self.cutters, self.trimmed, progress.part(0.7, 1.0))
             if self.options.judge
             else None
         )
@@ -320,7 +322,7 @@ class _CutRun:
         # of surfaces the cells tell enough
         if isinstance(part, SolidPart) and part.block is None and self.options.judge:
             probe = WallProbe(part, self._lowest, self.workpiece)
-        return judge(Judging(part, cut, wanted, exact, lines, lowest, probe), certificate)
+        return judge(JudgementInput(part, cut, target, exact, lines, lowest, probe), certificate)
 
     def unseen(self) -> Iterator[Finding]:
         """Yield what of a solid could not be looked at as closely as the cells are."""
@@ -342,13 +344,13 @@ def _tools(program: NcProgram) -> NDArray[np.int32]:
     return np.array([state.tool for state in program.states], np.int32)[program.motions.state]
 
 
-def _joined(first: Cut, then: Cut, motions: int) -> Cut:
+def _joined(first: CutResult, then: CutResult, motions: int) -> CutResult:
     """Return two cuts, one after the other, as one; `motions` came before the second."""
     owner = None
     if first.owner is not None and then.owner is not None:
         owner = np.where(then.owner >= 0, then.owner + np.int32(motions), first.owner)
     rapids = tuple(replace(hit, motion=hit.motion + motions) for hit in then.rapids)
-    return Cut(
+    return CutResult(
         first.before,
         then.heights,
         first.rapids + rapids,

@@ -11,7 +11,7 @@ from .cut import CutProgram
 
 def heights_of(done: CutProgram) -> tuple[bytes, bytes]:
     """Return the NPY file of the heights and the JSON file that tells where they lie; `read_stock` reads both again."""
-    return heights_files(done.cut.workpiece, done.told.engine)
+    return heights_files(done.cut.workpiece, done.engine_report.engine)
 
 
 def picture_of(done: CutProgram, title: str) -> bytes:

@@ -13,9 +13,9 @@ from ..model.moves import Program
 from ..model.stock_box import StockBox, stock_box, work_origin
 from ..simulation.field.workpiece import BoxStock
 from ..toolpath.coverage.coverage import Coverage
-from ..verify.exact import Exact
+from ..verify.exact import ExactDeviations
 from ..verify.parts import FlatPart
-from ..verify.verdict import Depths
+from ..verify.verdict import MoveDepths
 from .cut import CutProgram, CutSetup, cut
 from .written import WrittenProgram
 
@@ -26,7 +26,7 @@ def cut_job(
     program: Program,
     job: Job,
     written: WrittenProgram,
-    measured: tuple[Depths, Coverage],
+    measured: tuple[MoveDepths, Coverage],
     progress: Progress = NO_PROGRESS,
 ) -> CutProgram:
     """Cut what was written.
@@ -57,7 +57,7 @@ def cut_job(
         clamps=program.clamps,
         tabs=program.tabs,
         dog_bones=program.dog_bones,
-        floors=measured[1].wanted,
+        floors=measured[1].targets,
     )
     # where the control changes no tools, the file names none
     programs = tuple(
@@ -71,7 +71,7 @@ def cut_job(
     )
     depths, coverage = measured
     motion = np.searchsorted(written.move, depths.move)
-    exact = Exact(replace(depths, move=np.minimum(motion, len(written.move) - 1)), coverage)
+    exact = ExactDeviations(replace(depths, move=np.minimum(motion, len(written.move) - 1)), coverage)
     return cut(
         CutSetup(programs, {tool.number: tool for tool in job.tools}, stock, part), progress=progress, exact=exact
     )

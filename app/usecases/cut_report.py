@@ -17,13 +17,13 @@ from ..model.finding import Finding, FindingKind, worst_first
 from ..model.motion import Floats, MotionKind
 from ..model.motion_path import lengths
 from ..model.tool import Tool
-from ..simulation.engines import Engine, Told
+from ..simulation.engines import Engine, EngineReport
 from ..simulation.field.differences import TOLERANCE
 from ..verify.judgement import Judgement, Spot
 from ..verify.parts import Part, SolidPart
 from .cut import CutProgram
-from .examine import COORDINATES, KINDS, Examined
-from .setup import Ready
+from .examine import COORDINATES, KINDS, ExaminedProgram
+from .setup import ReadySetup
 from .setup_stock import cut_box
 from .setup_tools import KnownTool
 
@@ -108,7 +108,7 @@ class _Motions:
     names: tuple[str, ...]
 
     @staticmethod
-    def of(done: CutProgram, ready: Ready) -> _Motions:
+    def of(done: CutProgram, ready: ReadySetup) -> _Motions:
         """Return the motions of what was cut."""
         each = [examined.program.motions for examined in ready.programs]
         file = np.repeat(np.arange(len(each), dtype=np.int32), [len(motions) for motions in each])
@@ -151,10 +151,10 @@ class _Motions:
         return len(np.unique(np.cumsum(breaks)[self.feed & self.took]))
 
 
-def cut_report(done: CutProgram, ready: Ready) -> CutReport:
+def cut_report(done: CutProgram, ready: ReadySetup) -> CutReport:
     """Return the report of what was cut; it must have been traced."""
     warnings = tuple(
-        problem.told(each.name)
+        problem.message(each.name)
         for each in ready.programs
         for problem in each.problems
         if problem.severity is Severity.WARNING
@@ -168,9 +168,9 @@ def cut_report(done: CutProgram, ready: Ready) -> CutReport:
 def _judged(done: CutProgram, motions: _Motions) -> Json:
     """Return what is right and wrong with the metal."""
     judged = done.judgement
-    told: Json = {"gouge": None, "left": None, "worst": [], "worst_count": 0, "bands": [], "certificate": None}
+    reported: Json = {"gouge": None, "left": None, "worst": [], "worst_count": 0, "bands": [], "certificate": None}
     if judged is not None:
-        told = {
+        reported = {
             "gouge": _gouge(judged, done.setup.part, motions),
             "left": {
                 "reachable_mm2": judged.reachable_mm2,
@@ -192,7 +192,7 @@ def _judged(done: CutProgram, motions: _Motions) -> Json:
     ]
     return {
         "removed_mm3": done.cut.removed_volume,
-        **told,
+        **reported,
         "rapids_in_material": rapids,
         "holder_contacts": _contacts(done, motions),
     }
@@ -220,7 +220,7 @@ def _contacts(done: CutProgram, motions: _Motions) -> list[Json] | None:
 def _gouge(judged: Judgement, part: Part | None, motions: _Motions) -> Json:
     """Return the deepest gouge; of a solid also how deep any other place may be at most, null where nobody knows."""
     gouge, sure = judged.gouge, judged.certificate
-    told = {
+    reported = {
         "max_mm": gouge.max_mm,
         "x": gouge.x,
         "y": gouge.y,
@@ -229,8 +229,11 @@ def _gouge(judged: Judgement, part: Part | None, motions: _Motions) -> Json:
         "count": gouge.count,
     }
     if not isinstance(part, SolidPart):
-        return told | {"method": GOUGE_METHODS["drawing" if judged.exact else "cells"]}
-    return told | {"at_most_mm": max(gouge.max_mm, sure.gouge_mm) if sure else None, "method": GOUGE_METHODS["solid"]}
+        return reported | {"method": GOUGE_METHODS["drawing" if judged.exact else "cells"]}
+    return reported | {
+        "at_most_mm": max(gouge.max_mm, sure.gouge_mm) if sure else None,
+        "method": GOUGE_METHODS["solid"],
+    }
 
 
 def _spot(spot: Spot, motions: _Motions) -> Json:
@@ -250,7 +253,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _path(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
+def _path(done: CutProgram, ready: ReadySetup, motions: _Motions) -> Json:
     """Return what the tools do on the way."""
     return {
         "strokes": motions.strokes(done.top),
@@ -265,7 +268,7 @@ def _path(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
 
 def _said(findings: tuple[Finding, ...]) -> Json:
     """Return the findings, and some of them under keys of their own."""
-    told = [
+    reported = [
         (
             each,
             {
@@ -284,13 +287,13 @@ def _said(findings: tuple[Finding, ...]) -> Json:
         "skipped": (FindingKind.REGION_TOO_SMALL, FindingKind.LEFT_OUT, FindingKind.TINY_ENTITY),
         "open_contours": (FindingKind.OPEN_CONTOUR,),
     }
-    return {name: [plain for each, plain in told if each.kind in kinds] for name, kinds in chosen.items()} | {
+    return {name: [plain for each, plain in reported if each.kind in kinds] for name, kinds in chosen.items()} | {
         "assumed": [each.text for each in findings if each.kind is FindingKind.ASSUMED],
-        "findings": [plain for _, plain in told],
+        "findings": [plain for _, plain in reported],
     }
 
 
-def _about(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
+def _about(done: CutProgram, ready: ReadySetup, motions: _Motions) -> Json:
     """Return what was cut out of what, with what, how finely."""
     grid, box, ends = (
         done.cut.before.grid,
@@ -298,7 +301,7 @@ def _about(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
         zip(("low", "high"), cut_box(ready.programs).tolist(), strict=True),
     )
     return {
-        **_engine(done.told),
+        **_engine(done.engine_report),
         "tolerance": _tolerance(done),
         "grid": {"x0": grid.x0, "y0": grid.y0, "pitch_mm": grid.pitch, "rows": grid.rows, "cols": grid.cols},
         "window": done.options.window,
@@ -310,13 +313,13 @@ def _about(done: CutProgram, ready: Ready, motions: _Motions) -> Json:
     }
 
 
-def _engine(told: Told) -> Json:
+def _engine(reported: EngineReport) -> Json:
     """Return what has computed the heights, and how far they are from the cpu's where it has computed them as well."""
-    text, found = ENGINES[told.engine].format(renderer=told.renderer), told.apart
-    if told.engine is not Engine.CPU:
+    text, found = ENGINES[reported.engine].format(renderer=reported.renderer), reported.difference
+    if reported.engine is not Engine.CPU:
         text += BESIDE
-    elif told.fault:
-        text += f"; {told.fault}"
+    elif reported.fault:
+        text += f"; {reported.fault}"
     apart = (
         {"largest_mm": found.largest, "cells": found.cells, "beyond_mm": TOLERANCE, "rim_cells": found.rims}
         if found
@@ -327,11 +330,11 @@ def _engine(told: Told) -> Json:
 
 def _tolerance(done: CutProgram) -> Json:
     """Return within which lengths what is true; of a part only where there is one."""
-    told, part = done.told, done.setup.part
-    within = {Engine.CPU: HEIGHTS, Engine.GPU: TOLERANCE, Engine.PATENT: told.error}[told.engine]
+    reported, part = done.engine_report, done.setup.part
+    within = {Engine.CPU: HEIGHTS, Engine.GPU: TOLERANCE, Engine.PATENT: reported.error}[reported.engine]
     cells: Json = {
         "heights_mm": within,
-        "heights": HEIGHTS_METHODS[told.engine],
+        "heights": HEIGHTS_METHODS[reported.engine],
         "pitch_mm": done.cut.before.grid.pitch,
     }
     if part is None:
@@ -347,7 +350,7 @@ def _tolerance(done: CutProgram) -> Json:
     }
 
 
-def _tool(number: int, known: KnownTool, done: CutProgram, motions: _Motions, ready: Ready) -> Json:
+def _tool(number: int, known: KnownTool, done: CutProgram, motions: _Motions, ready: ReadySetup) -> Json:
     """Return a tool's shape, who tells of it, and what it did."""
     tool, mine = known.tool, motions.tool == number
     return {
@@ -384,13 +387,13 @@ def _holder(tool: Tool) -> str:
     return f"{2 * max(radius for _, radius in tool.holder):g} mm wide" if tool.stick_out else "known, its stick-out not"
 
 
-def _program(examined: Examined) -> Json:
+def _program(examined: ExaminedProgram) -> Json:
     return {
         "file": examined.name,
         "control": examined.read.dialect.value,
         "block_delete": examined.read.block_delete,
         "lines": examined.program.line_count,
-        "problems": [problem.told(examined.name) for problem in examined.problems],
+        "problems": [problem.message(examined.name) for problem in examined.problems],
     }
 
 

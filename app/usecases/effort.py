@@ -13,11 +13,11 @@ import numpy as np
 from ..core.effort import Reckoning, counted
 from ..fitting.point_curves.effective_method import EffectiveMethod
 from ..gcode.interpreter.program import NcProgram
-from ..gcode.rework.stretches import Stretch
+from ..gcode.rework.stretches import FeedStretch
 from ..model.motion_path import lengths
 from ..model.tool import Tool
 from ..surfaces.passes.facet_crossings import FacetCrossings
-from .smoothed import Form
+from .smooth_result import OutputForm
 
 _CELL_S, _MOTION_S = 4e-9, 1e-6
 """A cell that a cutter passes over; a motion by itself."""
@@ -27,7 +27,7 @@ _FLOOR_S = 1.5e-5
 """A piece of path as long as its tool is wide, of which coverage of a drawing's floors is asked."""
 _CROSSING_S = 1.1e-4
 """A facet that a plane of passes crosses: contact, path, compound surface, text and proof."""
-_POINT_S = {Form.LINES: 6e-6, Form.ARCS: 6e-5, Form.NURBS: 2e-4}
+_POINT_S = {OutputForm.LINES: 6e-6, OutputForm.ARCS: 6e-5, OutputForm.NURBS: 2e-4}
 """A point of a stretch that is fitted anew and proven."""
 
 
@@ -72,11 +72,11 @@ def scene_effort(families: Iterable[FacetCrossings]) -> Reckoning:
     )
 
 
-def smooth_effort(stretches: Sequence[Stretch], form: Form, effective: EffectiveMethod | None) -> Reckoning:
+def smooth_effort(stretches: Sequence[FeedStretch], form: OutputForm, effective: EffectiveMethod | None) -> Reckoning:
     """Return what fitting a program's stretches takes."""
     points = sum(stretch.stop - stretch.first for stretch in stretches)
     return Reckoning(
         points * _POINT_S[form] * (1.0 if effective is None else 2.0),
         f"{points:,} moves in {counted(len(stretches), 'stretch', 'stretches')}",
-        "smooth it in parts" if form is Form.LINES else "smooth it as lines (--as lines), or in parts",
+        "smooth it in parts" if form is OutputForm.LINES else "smooth it as lines (--as lines), or in parts",
     )

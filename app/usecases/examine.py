@@ -16,12 +16,12 @@ import numpy as np
 from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.machine_toml import DEFAULT_MACHINE, load_machine
-from ..gcode.interpreter.dialect import HABITS, Dialect
-from ..gcode.interpreter.guess import guess_dialect
+from ..gcode.interpreter.dialect import DIALECT_RULES, Dialect
+from ..gcode.interpreter.dialect_guess import guess_dialect
 from ..gcode.interpreter.options import ReadOptions, ToolOffset
-from ..gcode.interpreter.program import EventKind, NcProgram, Problem, Severity
+from ..gcode.interpreter.program import EventKind, NcProgram, ProgramProblem, Severity
 from ..gcode.interpreter.reader import read_program
-from ..gcode.rework.compare import Differences, compare
+from ..gcode.rework.compare import ProgramDifferences, compare
 from ..gcode.timing.duration import TIME_METHOD, Duration, duration
 from ..gcode.timing.extent import Extent, extent, misfits
 from ..model.job import Job
@@ -59,7 +59,7 @@ class ExamineOptions:
 
 
 @dataclass(frozen=True, eq=False)
-class Examined:
+class ExaminedProgram:
     """What there is to know about a program.
 
     Attributes:
@@ -74,7 +74,7 @@ class Examined:
     name: str
     read: ReadOptions
     program: NcProgram
-    problems: tuple[Problem, ...]
+    problems: tuple[ProgramProblem, ...]
     machine: Machine
     time: Duration
 
@@ -100,7 +100,7 @@ class Examined:
             InputError: nothing is cut, or it is cut in more than one place of the work.
         """
         from ..gcode.posts.posts import load_post
-        from ..gcode.rework.frame import Frame, frame_text
+        from ..gcode.rework.frame import JobFrame, frame_text
 
         used = [self.program.states[k] for k in np.unique(self.program.motions.state).tolist()]
         if any(any(state.shift) or state.rotation or state.work_offset != "G54" for state in used):
@@ -111,7 +111,7 @@ class Examined:
             raise InputError(f"{self.name}: nothing is cut, or no height is said, so there is no box to go round.")
         job = Job(Part(name=PurePath(self.name).stem), out_units=used[0].units)
         tool = next((number for number in self.tools if number), 0)
-        return frame_text(Frame(self.cut_box, self.box.high[2], tool), job, load_post(self.read.dialect.value))
+        return frame_text(JobFrame(self.cut_box, self.box.high[2], tool), job, load_post(self.read.dialect.value))
 
     def report(self) -> Json:
         """Return everything as plain values, by keys with their units."""
@@ -156,13 +156,13 @@ class Examined:
             "time_s": self.time.by_tool.get(number, 0.0),
         }
 
-    def text(self, differences: Differences | None = None) -> str:
+    def text(self, differences: ProgramDifferences | None = None) -> str:
         """Return the report as JSON text, with the differences from another program where there is one."""
         found = {} if differences is None else {"compare": _told(differences)}
         return json.dumps(self.report() | found, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress = NO_PROGRESS) -> Examined:
+def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress = NO_PROGRESS) -> ExaminedProgram:
     """Return what there is to know about a program.
 
     Args:
@@ -182,10 +182,10 @@ def examine(name: str, data: bytes, options: ExamineOptions, progress: Progress 
     machine = options.machine or load_machine(DEFAULT_MACHINE)
     time = duration(program, machine)
     fits = misfits(program, machine) if options.machine else ()
-    return Examined(name, read, program, (*program.problems, *_feedless(program, time), *fits), machine, time)
+    return ExaminedProgram(name, read, program, (*program.problems, *_feedless(program, time), *fits), machine, time)
 
 
-def compared(first: Examined, name: str, data: bytes, progress: Progress = NO_PROGRESS) -> Differences:
+def compared(first: ExaminedProgram, name: str, data: bytes, progress: Progress = NO_PROGRESS) -> ProgramDifferences:
     """Return what differs in another program, read for the same control with the same tools.
 
     Raises:
@@ -195,19 +195,21 @@ def compared(first: Examined, name: str, data: bytes, progress: Progress = NO_PR
     other = read_program(data, first.read, progress.part(0.0, 0.5))
     for file, program in ((first.name, first.program), (name, other)):
         if program.error is not None:
-            raise InputError(f"{program.error.told(file)} It cannot be compared beyond that line.")
+            raise InputError(f"{program.error.message(file)} It cannot be compared beyond that line.")
     return compare(first.program, replace(other, motions=anchored(other.motions)), progress=progress.part(0.5, 1.0))
 
 
-def _feedless(program: NcProgram, time: Duration) -> tuple[Problem, ...]:
+def _feedless(program: NcProgram, time: Duration) -> tuple[ProgramProblem, ...]:
     if not time.feedless:
         return ()
     motions = program.motions
     row = int(np.argmax((motions.kind != MotionKind.RAPID) & ~(motions.feed > 0)))
-    return (Problem(int(motions.line[row]), 0, "F", f"{time.feedless} motions have no feed rate.", Severity.WARNING),)
+    return (
+        ProgramProblem(int(motions.line[row]), 0, "F", f"{time.feedless} motions have no feed rate.", Severity.WARNING),
+    )
 
 
-def _told(differences: Differences) -> Json:
+def _told(differences: ProgramDifferences) -> Json:
     items = [
         {
             "kind": item.kind.value,
@@ -229,5 +231,5 @@ def _box(box: Extent) -> Json:
     return {end: [value if math.isfinite(value) else None for value in getattr(box, end)] for end in ("low", "high")}
 
 
-CONTROLS = {dialect.value: HABITS[dialect].title for dialect in Dialect}
+CONTROLS = {dialect.value: DIALECT_RULES[dialect].title for dialect in Dialect}
 """Every control that can be read for: its name in options, and its title."""

@@ -7,15 +7,15 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from ..core.errors import ParameterError
-from ..model.fields import Placed, parameters_of, with_values
+from ..model.fields import ParameterPlace, parameters_of, with_values
 from ..model.job import Copies, Job
-from ..model.operation import OPERATION_KINDS, Cut, DrillOperation, Operation, Order, parameters
+from ..model.operation import OPERATION_KINDS, CutParameters, DrillOperation, Operation, Order, parameters
 from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
 
 
 @dataclass(frozen=True)
-class Machining:
+class MachiningOptions:
     """What was asked for; nothing means "as the job or the default says". Lengths in mm.
 
     Attributes:
@@ -32,16 +32,16 @@ class Machining:
     keep_out_height: float | None = None
 
     @staticmethod
-    def of(**asked: Any) -> Machining:
+    def of(**requested: Any) -> MachiningOptions:
         """Return what is asked for by names of attributes and keys of parameters."""
-        own = {each.name for each in fields(Machining)}
-        return Machining(
-            {name: value for name, value in asked.items() if name not in own},
-            **{name: value for name, value in asked.items() if name in own},
+        own = {each.name for each in fields(MachiningOptions)}
+        return MachiningOptions(
+            {name: value for name, value in requested.items() if name not in own},
+            **{name: value for name, value in requested.items() if name in own},
         )
 
     @property
-    def asked(self) -> tuple[str, ...]:
+    def requested(self) -> tuple[str, ...]:
         """Options, without their dashes, of what was asked for."""
         others = {
             "drill": self.drills,
@@ -78,14 +78,16 @@ def with_drills(job: Job, diameters: tuple[float, ...], depth: float | None) -> 
         raise ParameterError(
             f"--drill {twice:g} mm is given twice and would drill the same circles again; give each diameter once."
         )
-    deepest = max((each.cut.depth for each in job.operations if each.cut.enabled), default=Cut(1).depth)
+    deepest = max((each.cut.depth for each in job.operations if each.cut.enabled), default=CutParameters(1).depth)
     first = max((tool.number for tool in job.tools), default=0) + 1
     tools = tuple(Tool(first + k, diameter, ToolKind.DRILL) for k, diameter in enumerate(diameters))
-    drills = tuple(DrillOperation(Cut(tool.number, depth=deepest if depth is None else depth)) for tool in tools)
+    drills = tuple(
+        DrillOperation(CutParameters(tool.number, depth=deepest if depth is None else depth)) for tool in tools
+    )
     return replace(job, tools=(*job.tools, *tools), operations=(*drills, *job.operations))
 
 
-def with_machining(job: Job, machining: Machining) -> Job:
+def with_machining(job: Job, machining: MachiningOptions) -> Job:
     """Return a job with what was asked for put into its operations; drills are there already.
 
     Raises:
@@ -124,11 +126,11 @@ def _with_values(operation: Operation, values: Mapping[str, Any]) -> Operation:
     return with_values(operation, mine) if mine else operation
 
 
-def _concerned(operation: Operation, placed: Placed, kinds: tuple[type[Operation], ...]) -> bool:
+def _concerned(operation: Operation, placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> bool:
     return operation.cut.enabled and isinstance(operation, kinds) and placed.has_effect(operation)
 
 
-def _lacking(placed: Placed, kinds: tuple[type[Operation], ...]) -> str:
+def _lacking(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> str:
     """Return what a job lacks that a parameter has no effect on."""
     needs = placed.parameter.needs
     mills = {kind for kind in OPERATION_KINDS.values() if not (kind.DRILLS or kind.CARVES)}

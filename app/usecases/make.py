@@ -25,8 +25,8 @@ from ..model.machine import Machine
 from ..model.moves import Program
 from ..model.stock_box import stock_box, work_origin
 from ..toolpath.coverage.coverage import Coverage, coverage_findings, measure_beside_clear
-from ..toolpath.coverage.wanted import CHORD
-from ..toolpath.witness import about_floors
+from ..toolpath.coverage.floor_target import CHORD
+from ..toolpath.witness import floor_findings
 from ..verify.verdict import (
     Gouge,
     RapidInMaterial,
@@ -47,7 +47,7 @@ from .own_job import with_own_job
 from .plausible import read_for
 from .proposal.propose import Proposal
 from .proposed_job import with_proposal
-from .report import Measured, Report, make_report, rings_in_words
+from .report import MakeReport, ReportData, make_report, rings_in_words
 from .written import write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -59,7 +59,7 @@ one.
 
 
 @dataclass(frozen=True)
-class Made:
+class MakeResult:
     """What a make job gives.
 
     Attributes:
@@ -79,7 +79,7 @@ class Made:
     program: Program
     files: tuple[NcFile, ...]
     box: Extent
-    report: Report
+    report: MakeReport
     findings: tuple[Finding, ...]
     coverage: Coverage
     cut: CutProgram | None
@@ -96,13 +96,13 @@ class Made:
         Raises:
             ParameterError: nothing is cut.
         """
-        from ..gcode.rework.frame import Frame, frame_text
+        from ..gcode.rework.frame import JobFrame, frame_text
 
         program = self.program
         top = work_origin(self.job, stock_box(self.job, program.regions, program.lines))[2] if self.files else 0.0
         height = self.job.travel_z - top if self.files else 0.0
         tool = int(self.program.moves.tool[0]) if self.files else 0
-        return frame_text(Frame(self.box, height, tool), self.job, load_post(self.job.post))
+        return frame_text(JobFrame(self.box, height, tool), self.job, load_post(self.job.post))
 
     @property
     def clean(self) -> bool:
@@ -123,7 +123,7 @@ def job_from_drawing(drawing: Drawing, options: MakeOptions) -> Job:
     return job
 
 
-def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_PROGRESS) -> Made:
+def make(name: str, data: bytes, options: MakeOptions, progress: Progress = NO_PROGRESS) -> MakeResult:
     """Return NC program and report for the bytes of a drawing.
 
     Args:
@@ -224,7 +224,7 @@ def export(
     progress: Progress = NO_PROGRESS,
     drawing_findings: tuple[Finding, ...] = (),
     machine: Machine | None = None,
-) -> Made:
+) -> MakeResult:
     """Compute a job, write its NC text, read it back, and measure what was made.
 
     Args:
@@ -247,7 +247,7 @@ def finish(
     progress: Progress = NO_PROGRESS,
     drawing_findings: tuple[Finding, ...] = (),
     machine: Machine | None = None,
-) -> Made:
+) -> MakeResult:
     """Slow the feed where too much is engaged, write the NC text, read it back, and measure it: for a caller that has
     the program.
 
@@ -257,7 +257,7 @@ def finish(
     return _finished(program, context, progress)
 
 
-def _finished(program: Program, context: MakeContext, progress: Progress) -> Made:
+def _finished(program: Program, context: MakeContext, progress: Progress) -> MakeResult:
     """Return all that is made of computed moves: the text, what is proven and measured of it, the report."""
     from ..toolpath.engagement.feed import followed  # compiled code: loaded where it is used
 
@@ -286,14 +286,14 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mad
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
         *coverage_findings(coverage),
-        *about_floors(program.areas, CHORD),
+        *floor_findings(program.areas, CHORD),
         *_ring_findings(program),
     )
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
-    measured = Measured(program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings)
+    measured = ReportData(program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings)
     report = make_report(measured)
-    return Made(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
+    return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 
 
 def _shape_findings(program: Program, job: Job) -> tuple[Finding, ...]:

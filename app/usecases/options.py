@@ -19,8 +19,8 @@ from ..model.read_options import AS_DRAWN, DrawingOptions
 from ..model.tool import Tool
 from .bitmap_options import BitmapOptions
 from .layers import layers_to_read, with_layers_spelled
-from .machining import Machining, contours_alone, no_effect, with_drills, with_machining
-from .proposal.propose import Proposing
+from .machining import MachiningOptions, contours_alone, no_effect, with_drills, with_machining
+from .proposal.propose import ProposalOptions
 
 LEAST_PER_CENT = 1.0
 """Of the diameter; a smaller stepover is a slip of the pen."""
@@ -88,9 +88,9 @@ class MakeOptions:
     exact_path: bool = False
     machine: Machine | None = None
     bitmap: BitmapOptions | None = None
-    machining: Machining = field(default_factory=Machining)
+    machining: MachiningOptions = field(default_factory=MachiningOptions)
     reading: DrawingOptions = AS_DRAWN
-    propose: Proposing | None = None
+    propose: ProposalOptions | None = None
 
 
 def job_with_options(part: Part, options: MakeOptions) -> Job:
@@ -111,17 +111,17 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
         raise ParameterError(
             f"Safe Z is {safe_z:g} mm; it must be {LEAST_LENGTH:g} mm or more above the top of the stock."
         )
-    asked = replace(base, tools=tuple(tools.values()), operations=operations)
-    asked = with_machining(
-        with_drills(asked, options.machining.drills, options.machining.values.get("depth")), options.machining
+    requested = replace(base, tools=tuple(tools.values()), operations=operations)
+    requested = with_machining(
+        with_drills(requested, options.machining.drills, options.machining.values.get("depth")), options.machining
     )
     return with_layers_spelled(
         replace(
-            asked,
-            tools=tuple(_speeds(tool, options) for tool in asked.tools),
+            requested,
+            tools=tuple(_speeds(tool, options) for tool in requested.tools),
             safe_z=safe_z,
             retract_z=min(base.retract_z, safe_z),
-            stock=_stock(base, asked.operations, options),
+            stock=_stock(base, requested.operations, options),
             origin_xy=options.origin_xy or base.origin_xy,
             origin_z=options.origin_z or base.origin_z,
             order=options.order or base.order,
@@ -137,12 +137,12 @@ def job_with_options(part: Part, options: MakeOptions) -> Job:
 def layers_of_drawing(options: MakeOptions) -> tuple[str, ...]:
     """Return the layers that are to be read of a drawing; empty = all."""
     job = options.job or Job(Part())
-    asked = replace(
+    requested = replace(
         job,
         layer_names=options.layers or job.layer_names,
         keep_out_layers=options.machining.keep_out or job.keep_out_layers,
     )
-    return layers_to_read(asked)
+    return layers_to_read(requested)
 
 
 def _check_effects(base: Job, options: MakeOptions) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import MISSING
 
-from ..core.toml_tables import Worded
-from ..model.fields import Placed, Unit, declared_of
+from ..core.toml_tables import Keyword
+from ..model.fields import ParameterPlace, Unit, declared_of
 from ..model.operation import Operation, parameters
 from ..model.tool import Tool
 
@@ -41,7 +41,7 @@ def _row(cells: Iterator[str]) -> str:
     return f"| {' | '.join(cells)} |\n"
 
 
-def _tool_cells(placed: Placed) -> Iterator[str]:
+def _tool_cells(placed: ParameterPlace) -> Iterator[str]:
     declared = placed.parameter
     yield f"`{declared.key}`"
     yield declared.label
@@ -50,7 +50,7 @@ def _tool_cells(placed: Placed) -> Iterator[str]:
     yield "" if placed.default is MISSING else _default(placed)
 
 
-def _cells(placed: Placed, kinds: tuple[type[Operation], ...]) -> Iterator[str]:
+def _cells(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> Iterator[str]:
     declared = placed.parameter
     yield f"`{declared.key}`"
     yield f"`--{declared.option}`" if declared.option else ""
@@ -61,11 +61,11 @@ def _cells(placed: Placed, kinds: tuple[type[Operation], ...]) -> Iterator[str]:
     yield ", ".join(kind.WORD for kind in kinds)
 
 
-def _values(placed: Placed) -> str:
+def _values(placed: ParameterPlace) -> str:
     declared = placed.parameter
     if placed.enum is not None:
         return ", ".join(str(each.value) for each in placed.enum)
-    if isinstance(placed.default, Worded):
+    if isinstance(placed.default, Keyword):
         return ", ".join(placed.default.words())
     words = {
         Unit.FLAG: "true, false",
@@ -79,9 +79,9 @@ def _values(placed: Placed) -> str:
     return words.get(declared.unit) or declared.range_words()
 
 
-def _default(placed: Placed) -> str:
+def _default(placed: ParameterPlace) -> str:
     declared, value = placed.parameter, placed.default
-    if placed.enum is not None or isinstance(value, Worded):
+    if placed.enum is not None or isinstance(value, Keyword):
         return str(value.value)
     if value is None:
         return declared.auto

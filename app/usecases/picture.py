@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathStyle, Picture, Points
+from ..formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathPicture, PicturePathStyle, Points
 from ..geometry.primitives import contour_rows
 from ..model.moves import MoveKind, Moves, Program, Purpose
 from ..toolpath.coverage.coverage import Coverage
@@ -24,13 +24,13 @@ _STYLES = {
 _ORDER = (RAPID, LINK, POCKET, CONTOUR)
 
 
-def picture_of(name: str, program: Program, coverage: Coverage) -> Picture:
+def picture_of(name: str, program: Program, coverage: Coverage) -> PathPicture:
     """Return the picture of a program, seen from above."""
     moves = program.moves
     down = np.isin(moves.purpose, (Purpose.PLUNGE, Purpose.DRILL)) & (moves.end[:, 2] < moves.start[:, 2])
     straight = np.all(moves.end[:, :2] == moves.start[:, :2], axis=1)
     plunge = down & straight
-    return Picture(
+    return PathPicture(
         title=name,
         contours=tuple(contour_rows(contour) for region in program.regions for contour in region.contours),
         paths=tuple(sorted(_runs(moves), key=lambda run: _ORDER.index(run[0]))),
@@ -46,7 +46,7 @@ def _rings(coverage: Coverage, reachable: bool) -> tuple[Points, ...]:
     return tuple(ring for place in places for ring in (place.outline, *place.holes))
 
 
-def _runs(moves: Moves) -> list[tuple[PathStyle, np.ndarray]]:
+def _runs(moves: Moves) -> list[tuple[PicturePathStyle, np.ndarray]]:
     """Return style and rows of each run of moves of one purpose; moves straight up or down are left out."""
     if not len(moves):
         return []

@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fitting.corner_smoothing.smooth import SmoothOptions, as_it_is, astray, moved, smooth, without
-from ..fitting.corner_smoothing.smoothed import Smoothed
+from ..fitting.corner_smoothing.smooth import CornerSmoothingOptions, as_it_is, astray, moved, smooth, without
+from ..fitting.corner_smoothing.smoothed_path import SmoothedPath
 from ..geometry.distance import DistanceField
 from ..geometry.primitives import R, Rows, lengths, points_at
-from ..raster.frame import Frame
-from ..raster.trace import Chain
+from ..raster.frame import BitmapFrame
+from ..raster.trace import PixelChain
 from ..raster.walls import Mask
 
 Floats = NDArray[np.float64]
@@ -40,7 +40,7 @@ _TRIES = 10
 """How often a path is moved before it stays where it was last clear."""
 
 
-def chain_points(frame: Frame, chain: Chain) -> Floats:
+def chain_points(frame: BitmapFrame, chain: PixelChain) -> Floats:
     """Return the centres (n, 2), mm, of a chain's pixels, each step's pixel once."""
     pixels = chain.pixels()[: max(len(chain.directions), 1)]
     return np.ascontiguousarray(frame.to_mm(pixels[:, ::-1].astype(np.float64) + 0.5))
@@ -82,7 +82,7 @@ class WallLimits:
     level: float
     least: float
     field: DistanceField
-    frame: Frame
+    frame: BitmapFrame
     free: Mask
 
     @property
@@ -106,7 +106,7 @@ class WallLimits:
         return bool(self.free[lines, cols].all() and spare.min() >= self.least - self.level - _EXACT * self.pitch)
 
 
-def pixel_path(points: Floats, keep: WallLimits, options: SmoothOptions) -> Smoothed:
+def pixel_path(points: Floats, keep: WallLimits, options: CornerSmoothingOptions) -> SmoothedPath:
     """Return the path along a chain's points, as near to its level as pixels allow (steps 401-407).
 
     Where no smoothed path keeps the least distance, not even a less smooth one, it stays a line from pixel to pixel,
@@ -127,7 +127,7 @@ def pixel_path(points: Floats, keep: WallLimits, options: SmoothOptions) -> Smoo
     return as_it_is(points)
 
 
-def _moved_out(path: Smoothed, points: Floats, keep: WallLimits, tolerance: float) -> Smoothed | None:
+def _moved_out(path: SmoothedPath, points: Floats, keep: WallLimits, tolerance: float) -> SmoothedPath | None:
     """Return the path moved to its level, rows that touch all alike; None where nothing keeps the least distance.
 
     Rows that come too near go back and then stay, so that neighbours in a corner do not take turns. Rows that vanish on
@@ -167,13 +167,13 @@ def _per_group(values: Floats, tangent: NDArray[np.bool_]) -> Floats:
     return shared
 
 
-def _spot(path: Smoothed, pitch: float) -> Smoothed:
+def _spot(path: SmoothedPath, pitch: float) -> SmoothedPath:
     """Return a path of one pixel as a line a quarter of a pixel long, there and back, so that there is something to
     cut.
     """
     x, y = path.rows[0, :2]
     rows = np.zeros((2, 8))
     rows[0, :4], rows[1, :4] = (x, y, x + pitch / 4, y), (x + pitch / 4, y, x, y)
-    return Smoothed(
+    return SmoothedPath(
         rows, np.repeat(path.kinds, 2), np.array([0, 0, 1]), np.zeros(2, np.uint8), 0.0, False, np.zeros((2, 5))
     )

@@ -15,10 +15,18 @@ from ..core.errors import InputError
 from ..formats.drawing import Drawing
 from ..formats.drawing_account import size_of
 from ..formats.readers import format_of, read_drawing
-from ..formats.reading_question import UNIT_WORDS, Choice, Question, Size, UndecidedError, about_size, size_words
+from ..formats.reading_question import (
+    UNIT_WORDS,
+    ReadingChoice,
+    ReadingQuestion,
+    Size,
+    UndecidedError,
+    size_question,
+    size_words,
+)
 from ..model.job import Job
 from ..model.part import Part, Units
-from ..model.reading import Reading
+from ..model.reading import ReadingOptions
 from .options import MakeOptions, job_with_options, layers_of_drawing
 
 _WIDEST, _LEAST_WIDE = 2000.0, 5000.0
@@ -35,7 +43,7 @@ _LIKELY = (Units.MM, Units.INCH, Units.M)
 
 
 def read_plausible(
-    name: str, data: bytes, reading: Reading, diameters: Callable[[Drawing], Iterable[float]]
+    name: str, data: bytes, reading: ReadingOptions, diameters: Callable[[Drawing], Iterable[float]]
 ) -> Drawing:
     """Return a drawing of a size that its tools can cut.
 
@@ -55,9 +63,9 @@ def read_plausible(
     if not format_of(name).foreign:
         return drawing
     tools = tuple(diameters(drawing))
-    doubt = doubt_of(drawing.part, reading.layers, tools)
+    reason = implausible_size(drawing.part, reading.layers, tools)
     if (
-        not doubt
+        not reason
         or reading.units is drawing.part.units
         or (reading.how.pixels_per_inch is not None and not drawing.units_named)
     ):
@@ -65,16 +73,16 @@ def read_plausible(
     if reading.units is None:
         sized = lambda units: _size_in(units, drawing, reading, name, data)  # noqa: E731 (read only when it is asked)
         raise UndecidedError(
-            f"{PurePath(name).name}: {doubt}. {_options(drawing)}", _question(drawing, reading, tools, sized)
+            f"{PurePath(name).name}: {reason}. {_options(drawing)}", _question(drawing, reading, tools, sized)
         )
     return _read(name, data, replace(reading, how=replace(reading.how, overrule=True)))
 
 
-def _read(name: str, data: bytes, reading: Reading) -> Drawing:
+def _read(name: str, data: bytes, reading: ReadingOptions) -> Drawing:
     return read_drawing(name, data, reading.units, reading.layers, reading.how)
 
 
-def _size_in(units: Units, drawing: Drawing, reading: Reading, name: str, data: bytes) -> Size:
+def _size_in(units: Units, drawing: Drawing, reading: ReadingOptions, name: str, data: bytes) -> Size:
     """Return the size of a drawing in other units, mm: where they scale a page, by reading it so; (0, 0)
     where it cannot be.
     """
@@ -88,21 +96,23 @@ def _size_in(units: Units, drawing: Drawing, reading: Reading, name: str, data: 
     return wide * factor, high * factor
 
 
-def _question(drawing: Drawing, reading: Reading, tools: tuple[float, ...], sized: Callable[[Units], Size]) -> Question:
+def _question(
+    drawing: Drawing, reading: ReadingOptions, tools: tuple[float, ...], sized: Callable[[Units], Size]
+) -> ReadingQuestion:
     units, per_inch, size = drawing.part.units, drawing.contents.per_inch, size_of(drawing.part, reading.layers)
     if per_inch is not None:
         whence = f"It has no real size and was read with {per_inch:g} units to the inch"
-        keep = Choice(f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch), size_words(size))
+        keep = ReadingChoice(f"Keep {per_inch:g} to the inch", reading.with_pixels(per_inch), size_words(size))
     else:
         whence = (
             f"The file names {UNIT_WORDS[units]}"
             if drawing.units_named
             else f"It names no units and was read in {UNIT_WORDS[units]}"
         )
-        keep = Choice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size))
+        keep = ReadingChoice(f"Keep {UNIT_WORDS[units]}", replace(reading, units=units), size_words(size))
     others = [(each, sized(each)) for each in _LIKELY if each is not units or per_inch is not None]
     fitting = [(each, found) for each, found in others if max(found) and not _doubt(found, tools)]
-    return about_size(size, whence, keep, fitting, tools)
+    return size_question(size, whence, keep, fitting, tools)
 
 
 def read_for(name: str, data: bytes, options: MakeOptions) -> Drawing:
@@ -115,7 +125,9 @@ def read_for(name: str, data: bytes, options: MakeOptions) -> Drawing:
     def diameters(drawing: Drawing) -> list[float]:
         return diameters_used(job_with_options(drawing.part, options))
 
-    return read_plausible(name, data, Reading(options.units, layers_of_drawing(options), options.reading), diameters)
+    return read_plausible(
+        name, data, ReadingOptions(options.units, layers_of_drawing(options), options.reading), diameters
+    )
 
 
 def diameters_used(job: Job) -> list[float]:
@@ -124,7 +136,7 @@ def diameters_used(job: Job) -> list[float]:
     return [tool.diameter for tool in job.tools if tool.number in used]
 
 
-def doubt_of(part: Part, layers: tuple[str, ...], diameters: tuple[float, ...]) -> str:
+def implausible_size(part: Part, layers: tuple[str, ...], diameters: tuple[float, ...]) -> str:
     """Return why a part's size cannot be meant, or "".
 
     Args:

@@ -19,10 +19,10 @@ from ..simulation.cutter import cutter_of
 from ..simulation.field.workpiece import Heights
 from ..simulation.history.history import History, HistoryOptions, Playhead, changed_box
 from ..simulation.sweeps.course import Course
-from ..simulation.sweeps.sweeps import Field
+from ..simulation.sweeps.sweeps import CutField
 from ..verify.course import course_of
 from .cut import CutProgram
-from .timeline import Moment, Timeline
+from .timeline import Timeline, TimelinePlace
 
 Owners = NDArray[np.int32]
 
@@ -43,7 +43,7 @@ class PlayFrame:
         tip: (3,) where the tool's tip is, mm; None: nobody knows.
     """
 
-    moment: Moment
+    moment: TimelinePlace
     row: int
     col: int
     heights: Heights
@@ -92,7 +92,7 @@ class Playback:
         self._courses = known
         self._head = Playhead(History(done.cut.before, known, cutters, options, progress))
         owner = done.cut.owner if done.cut.owner is not None else np.full(done.cut.heights.shape, -1, np.int32)
-        self._shown = Field(done.cut.heights.copy(), owner.copy())
+        self._shown = CutField(done.cut.heights.copy(), owner.copy())
         self._asked = threading.Lock()
 
     @property
@@ -100,7 +100,7 @@ class Playback:
         """What is kept for going anywhere."""
         return self._head.history.bytes
 
-    def frame(self, moment: Moment, progress: Progress = NO_PROGRESS) -> PlayFrame:
+    def frame(self, moment: TimelinePlace, progress: Progress = NO_PROGRESS) -> PlayFrame:
         """Go to a moment, and return what has changed since the last one that was asked for; the first time since the
         end.
 
@@ -121,7 +121,7 @@ class Playback:
                 self.timeline.place(moment),
             )
 
-    def _partly(self, moment: Moment) -> Field:
+    def _partly(self, moment: TimelinePlace) -> CutField:
         """Return the metal with a part of the next motion done."""
         field, row = self._head.field, moment.motion
         if moment.fraction <= 0 or row >= len(self.timeline):
@@ -131,6 +131,6 @@ class Playback:
         if course.motions.kind[own] == MotionKind.RAPID or own in course.left_out:
             return field
         part = part_of(course.motions, own, moment.fraction)
-        field = Field(field.heights.copy(), field.owner.copy())
+        field = CutField(field.heights.copy(), field.owner.copy())
         self._head.history.advance_along(field, Course(part, np.full(len(part), course.tool[own], np.int32)), row)
         return field

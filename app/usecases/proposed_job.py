@@ -7,7 +7,7 @@ from dataclasses import replace
 from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..model.part import Part
-from .machining import Machining
+from .machining import MachiningOptions
 from .options import MakeOptions, job_with_options
 from .proposal.propose import Proposal, propose
 
@@ -25,24 +25,28 @@ def with_proposal(
     """
     if options.propose is None:
         return options, None
-    asked = options.machining
-    if asked.drills:
+    requested = options.machining
+    if requested.drills:
         raise InputError("--drill does not go with --propose, which proposes the drills; leave one of the two away.")
-    if "curves" in asked.values:
+    if "curves" in requested.values:
         raise InputError(
             "--curves does not go with --propose, which says what curves each operation has; leave one of the two away."
         )
     about = replace(
         options,
         propose=None,
-        machining=Machining(keep_out=asked.keep_out, keep_out_height=asked.keep_out_height),
+        machining=MachiningOptions(keep_out=requested.keep_out, keep_out_height=requested.keep_out_height),
         contour_diameter=None,
         pocket_diameter=None,
         stepover=None,
         overlap=None,
     )
-    own = options.propose if "depth" not in asked.values else replace(options.propose, depth=asked.values["depth"])
+    own = (
+        options.propose
+        if "depth" not in requested.values
+        else replace(options.propose, depth=requested.values["depth"])
+    )
     proposal = propose(job_with_options(part, about), own, progress)
-    values = {key: value for key, value in asked.values.items() if key != "depth"}
-    machining = replace(asked, values=values)
+    values = {key: value for key, value in requested.values.items() if key != "depth"}
+    machining = replace(requested, values=values)
     return replace(options, job=proposal.job, propose=None, machining=machining), proposal

@@ -18,8 +18,8 @@ from ..model.job import Job
 from ..model.moves import MoveKind, Program
 from ..model.stock_box import extent, stock_box, work_origin
 from ..model.tool import Tool
-from ..toolpath.coverage.coverage import STRIP, Coverage, Place
-from ..toolpath.coverage.wanted import CHORD
+from ..toolpath.coverage.coverage import STRIP, Coverage, UncutPlace
+from ..toolpath.coverage.floor_target import CHORD
 from ..verify.judgement import SpotKind
 from ..verify.verdict import Gouge, RapidInMaterial
 from .carving_proofs import CarvingProof
@@ -54,7 +54,7 @@ Json = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class Measured:
+class ReportData:
     """What the report is made of.
 
     Attributes:
@@ -77,7 +77,7 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Report:
+class MakeReport:
     """A report as plain values.
 
     Attributes:
@@ -90,13 +90,13 @@ class Report:
         """Return it as JSON text."""
         return json.dumps(self.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
-    def with_timings(self, seconds: Mapping[str, float]) -> Report:
+    def with_timings(self, seconds: Mapping[str, float]) -> MakeReport:
         """Return it with the wall time of each stage of the job, s, in their order."""
-        return Report({**self.data, "timings_s": dict(seconds)})
+        return MakeReport({**self.data, "timings_s": dict(seconds)})
 
-    def with_proposal(self, proposal: Json) -> Report:
+    def with_proposal(self, proposal: Json) -> MakeReport:
         """Return it with what was proposed, and why."""
-        return Report({**self.data, "proposal": proposal})
+        return MakeReport({**self.data, "proposal": proposal})
 
     def summary(self, output: str) -> str:
         """Return it in one line for people."""
@@ -118,11 +118,11 @@ def out_of_reach(left: Json) -> str:
     return "" if not count else "1 place out of reach, " if count == 1 else f"{count} places out of reach, "
 
 
-def make_report(measured: Measured) -> Report:
+def make_report(measured: ReportData) -> MakeReport:
     """Return the report of what was made and measured."""
     program, job, moves, written = measured.program, measured.job, measured.program.moves, measured.written
     top = -_origin(measured)[2]
-    return Report(
+    return MakeReport(
         {
             "gouge": _gouge(measured),
             "left": {
@@ -181,16 +181,16 @@ def make_report(measured: Measured) -> Report:
     )
 
 
-def _proven(measured: Measured, index: int) -> Json:
+def _proven(measured: ReportData, index: int) -> Json:
     engaged = {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
     return engaged | ({"carved": measured.carvings[index].values()} if index in measured.carvings else {})
 
 
-def _of(measured: Measured, *kinds: FindingKind) -> list[Finding]:
+def _of(measured: ReportData, *kinds: FindingKind) -> list[Finding]:
     return [finding for finding in measured.findings if finding.kind in kinds]
 
 
-def _line(measured: Measured, move: int) -> Json:
+def _line(measured: ReportData, move: int) -> Json:
     """Return the line of a move, and which file it is in."""
     files = [k for k, file in enumerate(measured.written.files) if 0 <= file.first <= move]
     line = int(measured.program.moves.line[move]) if files else None
@@ -245,7 +245,7 @@ def _times(written: WrittenProgram) -> Json:
     }
 
 
-def _tool(tool: Tool, measured: Measured) -> Json:
+def _tool(tool: Tool, measured: ReportData) -> Json:
     """Return a tool, how thick its chips are where it is in full cut, and how long its motions take."""
     mine = measured.program.moves.tool[measured.written.move] == tool.number
     return {
@@ -261,13 +261,13 @@ def _tool(tool: Tool, measured: Measured) -> Json:
     }
 
 
-def _origin(measured: Measured) -> tuple[float, float, float]:
+def _origin(measured: ReportData) -> tuple[float, float, float]:
     """Return the work origin in part coordinates; the drawing's zero where nothing is machined."""
     program, job = measured.program, measured.job
     return work_origin(job, stock_box(job, program.regions, program.lines)) if len(program.moves) else (0.0, 0.0, 0.0)
 
 
-def _setup(measured: Measured) -> Json:
+def _setup(measured: ReportData) -> Json:
     """Return copies, clamps, and what stands or is cut on purpose."""
     job, program = measured.job, measured.program
     return {
@@ -287,7 +287,7 @@ def _setup(measured: Measured) -> Json:
     }
 
 
-def _gouge(measured: Measured) -> Json:
+def _gouge(measured: ReportData) -> Json:
     gouge = measured.gouge
     return {
         "max_mm": gouge.max_mm,
@@ -303,7 +303,7 @@ def _gouge(measured: Measured) -> Json:
     }
 
 
-def _place(place: Place) -> Json:
+def _place(place: UncutPlace) -> Json:
     return {
         "x": place.x,
         "y": place.y,
@@ -336,7 +336,7 @@ def _path_tolerance(program: Program) -> Json:
     return {"path_mm": program.given_up_mm, "path": "measured along the walls; never nearer to them than asked"}
 
 
-def _tolerance(measured: Measured) -> Json:
+def _tolerance(measured: ReportData) -> Json:
     contours = [contour for region in measured.program.regions for contour in region.contours]
     return {
         **_path_tolerance(measured.program),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.fields import Placed, Unit, parameters_of
+from ..model.fields import ParameterPlace, Unit, parameters_of
 from ..model.job import Job
 from ..model.motion import MotionKind
 from ..model.moves import MoveKind, Moves, Program, Purpose
@@ -104,9 +104,9 @@ def _stepover(job: Job, index: int, program: Program) -> Json:
     operation = job.operations[index]
     if "stepover" not in parameters_of(type(operation)):
         return {}
-    asked = _parameters(operation)["stepover_mm"]
-    usual = None if operation.COARSE else asked or job.tool(operation.cut.tool).diameter
-    return {"stepover_mm": program.stepovers.get(index, asked or usual)}
+    requested = _parameters(operation)["stepover_mm"]
+    usual = None if operation.COARSE else requested or job.tool(operation.cut.tool).diameter
+    return {"stepover_mm": program.stepovers.get(index, requested or usual)}
 
 
 def _parameters(operation: Operation) -> Json:
@@ -117,11 +117,11 @@ def _parameters(operation: Operation) -> Json:
     }
 
 
-def _suffix(placed: Placed) -> str:
+def _suffix(placed: ParameterPlace) -> str:
     return _SUFFIXES.get(placed.parameter.unit, "")
 
 
-def _plain(placed: Placed, value: Any) -> Any:
+def _plain(placed: ParameterPlace, value: Any) -> Any:
     if isinstance(value, Enum):
         return value.value
     if placed.parameter.unit is Unit.CURVES:

@@ -18,9 +18,9 @@ from ..model.tool import Tool
 from ..operations.parallel.surface_moves import SurfaceMoves
 from ..simulation.field.solid import SolidStock
 from ..simulation.field.solid_rays import SolidRays
-from ..surfaces.meshes.holes import Hole, holes
-from ..surfaces.patches.build import Built
-from ..surfaces.patches.facets import Facets
+from ..surfaces.meshes.holes import MeshHole, holes
+from ..surfaces.patches.build import BuiltSurface
+from ..surfaces.patches.facets import SurfaceFacets
 
 NAMED = 20
 """Holes that are told one by one."""
@@ -35,7 +35,9 @@ OUTSIDE = 0.1
 """Of the surfaces' extent that may lie beside the stock, where that is no more than a tool's radius in any case."""
 
 
-def scene_findings(built: Sequence[Built], facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[Finding]:
+def scene_findings(
+    built: Sequence[BuiltSurface], facets: SurfaceFacets, stock: StockBox, tools: Sequence[Tool]
+) -> Iterator[Finding]:
     """Yield what is wrong with the surfaces of a scene.
 
     Args:
@@ -77,7 +79,7 @@ def moves_findings(moves: SurfaceMoves, stock: StockBox, tools: Sequence[Tool]) 
         yield Finding(FindingKind.BELOW_TABLE, text, x, y, amount=stock.z0 - z)
 
 
-def _size(facets: Facets, tools: Sequence[Tool]) -> Iterator[Finding]:
+def _size(facets: SurfaceFacets, tools: Sequence[Tool]) -> Iterator[Finding]:
     """Yield that surfaces are far too small for every tool, or far too large."""
     wide = float(np.ptp(facets.triangles[:, :, :2].reshape(-1, 2), axis=0).max())
     least = min((tool.diameter for tool in tools), default=0.0)
@@ -92,7 +94,7 @@ def _size(facets: Facets, tools: Sequence[Tool]) -> Iterator[Finding]:
         yield Finding(FindingKind.SIZE, text, amount=wide)
 
 
-def _place(facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[Finding]:
+def _place(facets: SurfaceFacets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[Finding]:
     """Yield that surfaces stand over the stock's top, lie beside it, or wholly below it."""
     corners = facets.triangles.reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
@@ -125,7 +127,7 @@ def _place(facets: Facets, stock: StockBox, tools: Sequence[Tool]) -> Iterator[F
             yield Finding(FindingKind.BEYOND_STOCK, text, amount=float(far))
 
 
-def _holes(built: Sequence[Built], facets: Facets, tools: Sequence[Tool]) -> Iterator[Finding]:
+def _holes(built: Sequence[BuiltSurface], facets: SurfaceFacets, tools: Sequence[Tool]) -> Iterator[Finding]:
     """Yield the holes in meshes that a tool sinks into, the largest first."""
     found = [
         (each.surface.name, hole)
@@ -148,7 +150,7 @@ def _holes(built: Sequence[Built], facets: Facets, tools: Sequence[Tool]) -> Ite
         yield Finding(FindingKind.HOLE, text, amount=float(len(deep) - NAMED))
 
 
-def _hole_words(name: str, hole: Hole) -> str:
+def _hole_words(name: str, hole: MeshHole) -> str:
     return (
         f"Surface {name} has a hole of {hole.wide:.3f} x {hole.long:.3f} mm at ({hole.x:.3f}, {hole.y:.3f}, "
         f"{hole.z:.3f}), with {hole.edges} open edges, and the tool sinks into it; close it in the program that it "

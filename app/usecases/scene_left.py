@@ -44,14 +44,14 @@ class FamilyRequest:
     """What one family of passes is to do.
 
     Attributes:
-        wish: where its tool may go.
+        requested: where its tool may go.
         angle: of its planes to X, radians. spacing: of neighbouring ones at most, mm.
         ridge: height that is asked for, mm; None: what the spacing leaves.
         chord: how far its path may lie above the surfaces, mm.
         overrun: whether it is kept from going on beside the surfaces as far as it touches them.
     """
 
-    wish: FamilyReach
+    requested: FamilyReach
     angle: float
     spacing: float
     ridge: float | None
@@ -100,75 +100,81 @@ class SceneLeft:
 
 
 def left_of(
-    metal: Workpiece, triangles: Floats, error: float, asked: Sequence[FamilyRequest], progress: Progress = NO_PROGRESS
+    workpiece: Workpiece,
+    triangles: Floats,
+    error: float,
+    requested: Sequence[FamilyRequest],
+    progress: Progress = NO_PROGRESS,
 ) -> SceneLeft:
     """Return what is left of a part's metal.
 
     Args:
-        metal: after the cut. triangles: (n, 3, 3) of the surfaces, mm. error: how far they may be off these.
-        asked: of each family of passes, at least one.
+        workpiece: after the cut. triangles: (n, 3, 3) of the surfaces, mm. error: how far they may be off these.
+        requested: of each family of passes, at least one.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    grid = metal.grid
+    grid = workpiece.grid
     sheet = SurfaceGrid.of(triangles, grid)
     on = np.isfinite(sheet.heights)
-    allowed, low = _allowed(sheet, triangles, error, asked, progress)
-    over = np.where(on & np.isfinite(low), metal.heights - np.where(np.isfinite(low), low, 0.0), 0.0).astype(np.float32)
+    allowed, low = _allowed(sheet, triangles, error, requested, progress)
+    over = np.where(on & np.isfinite(low), workpiece.heights - np.where(np.isfinite(low), low, 0.0), 0.0).astype(
+        np.float32
+    )
     with np.errstate(invalid="ignore"):
         mask = _wide(over > allowed)
     found, count = places_of(mask, over, grid)
-    ridge = _ridge(sheet, over, mask, low, asked)
-    within = min((_level(each) * BENT + each.chord for each in asked), default=0.0) + TOLERANCE + error
+    ridge = _ridge(sheet, over, mask, low, requested)
+    within = min((_level(each) * BENT + each.chord for each in requested), default=0.0) + TOLERANCE + error
     if not found:
         return SceneLeft(0.0, 0, 0.0, 0.0, 0.0, 0.0, ridge, within, grid.pitch)
     row, col = found[0].cell
     x, y = grid.place(row * grid.cols + col)
     area = float(np.count_nonzero(mask)) * grid.pitch**2
-    rim = _at_rim(on, row, col, math.ceil(max(each.wish.cutter.radius for each in asked) / grid.pitch))
-    short = rim and any(each.overrun for each in asked)
+    rim = _at_rim(on, row, col, math.ceil(max(each.requested.cutter.radius for each in requested) / grid.pitch))
+    short = rim and any(each.overrun for each in requested)
     return SceneLeft(area, count, found[0].worst, found[0].disc_mm, x, y, ridge, within, grid.pitch, rim, short)
 
 
 def _allowed(
-    sheet: SurfaceGrid, triangles: Floats, error: float, asked: Sequence[FamilyRequest], progress: Progress
+    area: SurfaceGrid, triangles: Floats, error: float, requested: Sequence[FamilyRequest], progress: Progress
 ) -> tuple[Floats, Heights]:
     """Return how much higher than within reach metal may stand, mm straight up, and how low is within reach."""
-    grid, found = sheet.grid, []
-    low = np.full(sheet.heights.shape, np.inf, np.float32)
-    for number, each in enumerate(asked):
-        share = progress.part(number / len(asked), (number + 1) / len(asked))
+    grid, found = area.grid, []
+    low = np.full(area.heights.shape, np.inf, np.float32)
+    for number, each in enumerate(requested):
+        share = progress.part(number / len(requested), (number + 1) / len(requested))
         share.step(0.0, "Looking for what is left")
-        mine = reached(triangles, grid, each.wish, share)
+        mine = reached(triangles, grid, each.requested, share)
         found.append(mine)
         low = np.minimum(low, mine)
     allowed = np.full(low.shape, np.inf)
-    own = slopes(sheet.heights, grid.pitch)
-    for each, mine in zip(asked, found, strict=True):
-        most = max(MOST * each.wish.cutter.radius, BENT * _level(each))
+    own = slopes(area.heights, grid.pitch)
+    for each, mine in zip(requested, found, strict=True):
+        most = max(MOST * each.requested.cutter.radius, BENT * _level(each))
         highest = np.minimum(BENT * _ridges(each, _across(own, each), grid), most)
-        here = _upright(sheet, mine, each, highest + each.chord + TOLERANCE + error)
+        here = _upright(area, mine, each, highest + each.chord + TOLERANCE + error)
         allowed = np.minimum(allowed, np.where(mine <= low + TOLERANCE, here, np.inf))
         allowed = np.minimum(allowed, here)
     return allowed, low
 
 
-def _ridges(asked: FamilyRequest, across: Floats, grid: Grid) -> Floats:
+def _ridges(requested: FamilyRequest, across: Floats, grid: Grid) -> Floats:
     """Return how high ridges may stand at each cell, square to the surface: on sides as high as at the steepest place
     near.
     """
     import cv2
 
-    if asked.ridge is not None:
-        return np.full(across.shape, asked.ridge)
-    cells = 2 * math.ceil(min(asked.spacing / 2, asked.wish.cutter.radius) / grid.pitch) + 1
+    if requested.ridge is not None:
+        return np.full(across.shape, requested.ridge)
+    cells = 2 * math.ceil(min(requested.spacing / 2, requested.requested.cutter.radius) / grid.pitch) + 1
     side = np.where(across >= STEEP, across, 0.0).astype(np.float32)
     near = cv2.dilate(side, np.ones((cells, cells), np.uint8))
-    return ridges(asked.wish.cutter, asked.spacing, np.where(across >= STEEP, near, across))
+    return ridges(requested.requested.cutter, requested.spacing, np.where(across >= STEEP, near, across))
 
 
-def _upright(sheet: SurfaceGrid, low: Heights, asked: FamilyRequest, square: Floats) -> Floats:
+def _upright(area: SurfaceGrid, low: Heights, requested: FamilyRequest, square: Floats) -> Floats:
     """Return what heights square to what is within reach are straight up, and beside them how much too low that may be
     told, mm.
 
@@ -177,21 +183,21 @@ def _upright(sheet: SurfaceGrid, low: Heights, asked: FamilyRequest, square: Flo
     """
     import cv2
 
-    pitch, radius = sheet.grid.pitch, asked.wish.cutter.radius
+    pitch, radius = area.grid.pitch, requested.requested.cutter.radius
     known = np.where(np.isfinite(low), low, 0.0).astype(np.float32)
     with np.errstate(invalid="ignore"):
-        corner = low > sheet.heights + asked.wish.leave + TOLERANCE
+        corner = low > area.heights + requested.requested.leave + TOLERANCE
     rise = np.where(
-        corner, np.hypot(*np.gradient(known.astype(np.float64), pitch)), np.hypot(*slopes(sheet.heights, pitch))
+        corner, np.hypot(*np.gradient(known.astype(np.float64), pitch)), np.hypot(*slopes(area.heights, pitch))
     )
     nearer = cv2.dilate(known, np.ones((3, 3), np.uint8)) - known
     bent = pitch**2 / (4 * radius) * np.hypot(1.0, np.minimum(rise, STEEPEST)) ** 3
     return np.asarray(square * np.hypot(1.0, rise) + bent + np.where(corner, nearer, 0.0))
 
 
-def _across(own: tuple[Floats, Floats], asked: FamilyRequest) -> Floats:
+def _across(own: tuple[Floats, Floats], requested: FamilyRequest) -> Floats:
     """Return how steep places are across passes."""
-    return np.asarray(np.abs(own[1] * math.cos(asked.angle) - own[0] * math.sin(asked.angle)))
+    return np.asarray(np.abs(own[1] * math.cos(requested.angle) - own[0] * math.sin(requested.angle)))
 
 
 def _wide(mask: Mask) -> Mask:
@@ -209,25 +215,31 @@ def _wide(mask: Mask) -> Mask:
     return np.asarray(kept[labels])
 
 
-def _level(asked: FamilyRequest) -> float:
+def _level(requested: FamilyRequest) -> float:
     """Return how high ridges are on a level floor, mm."""
-    return asked.ridge if asked.ridge is not None else float(ridges(asked.wish.cutter, asked.spacing, np.zeros(1))[0])
+    return (
+        requested.ridge
+        if requested.ridge is not None
+        else float(ridges(requested.requested.cutter, requested.spacing, np.zeros(1))[0])
+    )
 
 
-def _ridge(sheet: SurfaceGrid, over: Heights, mask: Mask, low: Heights, asked: Sequence[FamilyRequest]) -> Ridge | None:
+def _ridge(
+    area: SurfaceGrid, over: Heights, mask: Mask, low: Heights, requested: Sequence[FamilyRequest]
+) -> Ridge | None:
     """Return the highest ridge on the surfaces: of what is not left, and where the tools come down to them."""
-    own = slopes(sheet.heights, sheet.grid.pitch)
+    own = slopes(area.heights, area.grid.pitch)
     rise = np.hypot(*own)
-    leave = min(each.wish.leave for each in asked)
+    leave = min(each.requested.leave for each in requested)
     with np.errstate(invalid="ignore"):
-        here = ~mask & np.isfinite(sheet.heights) & (low <= sheet.heights + leave * np.hypot(1.0, rise) + TOLERANCE)
+        here = ~mask & np.isfinite(area.heights) & (low <= area.heights + leave * np.hypot(1.0, rise) + TOLERANCE)
     if not here.any():
         return None
     square = np.where(here, over / np.hypot(1.0, rise), -np.inf)
     cell = int(np.argmax(square))
-    row, col = divmod(cell, sheet.grid.cols)
-    x, y = sheet.grid.place(cell)
-    level = min(_level(each) for each in asked)
+    row, col = divmod(cell, area.grid.cols)
+    x, y = area.grid.place(cell)
+    level = min(_level(each) for each in requested)
     return Ridge(max(float(square[row, col]), 0.0), x, y, math.degrees(math.atan(float(rise[row, col]))), level)
 
 

@@ -58,7 +58,7 @@ class SceneCut:
     taken.
     """
 
-    metal: Workpiece
+    workpiece: Workpiece
     findings: tuple[Finding, ...]
 
 
@@ -85,8 +85,8 @@ class SceneBlank:
         )
         block = BoxStock(StockBox(*low.tolist(), *high.tolist()))
         side = max(stock.x1 - stock.x0, stock.y1 - stock.y0)
-        wanted = min(max(CELLS_A_PASS * side / self.spacing, CELLS), MOST_CELLS, side * MOST_REACH / widest)
-        return block.over(Grid.over(block.box, max(int(wanted), 1)))
+        workpiece = min(max(CELLS_A_PASS * side / self.spacing, CELLS), MOST_CELLS, side * MOST_REACH / widest)
+        return block.over(Grid.over(block.box, max(int(workpiece), 1)))
 
 
 def scene_cut(
@@ -105,23 +105,27 @@ def scene_cut(
     Raises:
         Cancelled: the job was asked to stop.
     """
-    metal, worst = block.metal(max(tool.radius for mine in tools for tool in mine.values())), dict[int, _Load]()
+    workpiece, worst = block.metal(max(tool.radius for mine in tools for tool in mine.values())), dict[int, _Load]()
     known: dict[int, Tool] = {}
     for k, (program, mine) in enumerate(zip(programs, tools, strict=True)):
         course = course_of(program).course
         cutters = {number: cutter_of(tool) for number, tool in mine.items()}
         done = trim(
-            metal, course, cutters, TrimOptions(trace=True), progress.part(k / len(programs), (k + 1) / len(programs))
+            workpiece,
+            course,
+            cutters,
+            TrimOptions(trace=True),
+            progress.part(k / len(programs), (k + 1) / len(programs)),
         )
-        metal = done.workpiece
+        workpiece = done.workpiece
         for number, tool in mine.items():
-            if tool.diameter < LEAST_CELLS * metal.grid.pitch:
+            if tool.diameter < LEAST_CELLS * workpiece.grid.pitch:
                 continue
             known[tool.number] = tool
             for load in _loads(course, done.volume, number, tool):
                 if tool.number not in worst or load.depth > worst[tool.number].depth:
                     worst[tool.number] = load
-    return SceneCut(metal, tuple(_heavy(worst, known, block.origin)))
+    return SceneCut(workpiece, tuple(_heavy(worst, known, block.origin)))
 
 
 def _heavy(worst: Mapping[int, _Load], known: Mapping[int, Tool], origin: Floats) -> Iterator[Finding]:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.scene import Scene
-from ..model.scene_curves import Sources
+from ..model.scene_curves import SceneFiles
 from ..model.stock_box import StockBox
 from ..simulation.field.solid import SolidStock
 from ..surfaces.cutter_contact.scene_facets import scene_facets
@@ -23,7 +23,7 @@ Origin = tuple[float, float, float]
 
 
 def scene_part(
-    scene: Scene, sources: Sources, zero: Origin | None, leave: float | None, tolerance: float | None
+    scene: Scene, sources: SceneFiles, zero: Origin | None, leave: float | None, tolerance: float | None
 ) -> SolidPart:
     """Return what is to come out of the metal, in program coordinates.
 

@@ -93,7 +93,7 @@ def slopes(heights: Heights, pitch: float) -> tuple[Floats, Floats]:
     return found[0], found[1]
 
 
-def reached(triangles: Floats, grid: Grid, wish: FamilyReach, progress: Progress = NO_PROGRESS) -> Heights:
+def reached(triangles: Floats, grid: Grid, requested: FamilyReach, progress: Progress = NO_PROGRESS) -> Heights:
     """Return (rows, cols) the lowest that a tool cuts without going into surfaces; infinite where it does not come.
 
     Args:
@@ -102,15 +102,15 @@ def reached(triangles: Floats, grid: Grid, wish: FamilyReach, progress: Progress
     Raises:
         Cancelled: the job was asked to stop.
     """
-    pitch = max(grid.pitch, wish.cutter.radius / MOST_REACH)
-    reach = math.ceil((wish.cutter.radius + min(wish.leave, wish.cutter.radius)) / pitch) + 1
+    pitch = max(grid.pitch, requested.cutter.radius / MOST_REACH)
+    reach = math.ceil((requested.cutter.radius + min(requested.leave, requested.cutter.radius)) / pitch) + 1
     wide = _over(grid, pitch, reach)
-    sheet = SurfaceGrid.of(triangles, wide).left_thick(wish.leave)
-    form = cutter_profile(wish.cutter, pitch)
-    tip = np.maximum(dilated(sheet.heights, form, progress), np.float32(wish.lowest))
-    if wish.area is not None:
+    area = SurfaceGrid.of(triangles, wide).left_thick(requested.leave)
+    form = cutter_profile(requested.cutter, pitch)
+    tip = np.maximum(dilated(area.heights, form, progress), np.float32(requested.lowest))
+    if requested.area is not None:
         xs, ys = np.meshgrid(wide.xs(), wide.ys())
-        tip[~shapely.contains_xy(wish.area, xs, ys)] = np.inf
+        tip[~shapely.contains_xy(requested.area, xs, ys)] = np.inf
     low = -dilated(-tip, form, progress)
     rows, cols = (
         np.clip(((at - start) / pitch).astype(np.int64), 0, most - 1)

@@ -20,27 +20,27 @@ from ..model.job import Copies, Job, OriginXY, OriginZ
 from ..model.job import Stock as JobStock
 from ..model.motion import Floats, MotionKind
 from ..model.moves import DogBone, Tab
-from ..model.operation import Cut, Operation, PocketOperation
+from ..model.operation import CutParameters, Operation, PocketOperation
 from ..model.part import Contour, Region, Units
 from ..model.part import Part as DrawnPart
 from ..model.read_options import AS_DRAWN, DrawingOptions
-from ..model.reading import Reading
+from ..model.reading import ReadingOptions
 from ..model.scene import Scene
 from ..model.stock_box import stock_box, work_origin
 from ..simulation.field.solid import SolidStock, read_solid
-from ..simulation.field.workpiece import BoxStock, Stock
+from ..simulation.field.workpiece import BoxStock, StockShape
 from ..verify.parts import TOLERANCE, FlatPart, Part, SolidPart
 from .cut import CutSetup
-from .examine import Examined
+from .examine import ExaminedProgram
 from .layers import layers_to_read, with_layers_spelled
+from .part_reading import other_length, other_names, other_units, part_reading
 from .plausible import read_plausible
-from .setup_stock import KnownStock, told_stock
-from .setup_tools import Held, KnownTool, ToolsTold, other_tools, with_holders, with_tools
-from .told_reading import other_length, other_names, other_units, told_reading
+from .setup_stock import KnownStock, stock_from_comments
+from .setup_tools import KnownTool, ToolHolding, ToolSource, other_tools, with_holders, with_tools
 
 
 @dataclass(frozen=True, eq=False)
-class Wishes:
+class SetupRequest:
     """What was said beside the programs; what was not is as the programs themselves tell, or is assumed.
 
     Attributes:
@@ -60,9 +60,9 @@ class Wishes:
         reading: what else is said about reading the drawing.
     """
 
-    tools: tuple[ToolsTold, ...] = ()
+    tools: tuple[ToolSource, ...] = ()
     job: JobFile | None = None
-    stock: Stock | None = None
+    stock: StockShape | None = None
     against: tuple[str, bytes] | None = None
     beside: Callable[[str], bytes] | None = None
     depth: float | None = None
@@ -72,12 +72,12 @@ class Wishes:
     origin: tuple[OriginXY | None, OriginZ | None] | None = None
     join_tolerance: float | None = None
     tolerance: float | None = None
-    held: Mapping[int, Held] = field(default_factory=dict)
+    held: Mapping[int, ToolHolding] = field(default_factory=dict)
     reading: DrawingOptions = AS_DRAWN
 
 
 @dataclass(frozen=True, eq=False)
-class Ready:
+class ReadySetup:
     """A setup that can be cut, and where it comes from.
 
     Attributes:
@@ -87,18 +87,20 @@ class Ready:
     """
 
     setup: CutSetup
-    programs: tuple[Examined, ...]
+    programs: tuple[ExaminedProgram, ...]
     tools: dict[int, KnownTool]
     stock: KnownStock
     findings: tuple[Finding, ...]
 
 
-def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress: Progress = NO_PROGRESS) -> Ready:
+def setup_of(
+    programs: tuple[ExaminedProgram, ...], request: SetupRequest = SetupRequest(), progress: Progress = NO_PROGRESS
+) -> ReadySetup:
     """Return the setup that programs are cut in.
 
     Args:
         programs: at least one, in the order of cutting.
-        wishes: what was said beside them.
+        request: what was said beside them.
         progress: told of the steps.
 
     Raises:
@@ -109,18 +111,18 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
     for examined in programs:
         _ensure_readable(examined)
     progress.step(0.0, "Looking for tools and stock")
-    scene = _scene(wishes)
-    told = () if scene is None else (ToolsTold("the scene", {tool.number: tool for tool in scene.tools}),)
-    programs, tools, assumed = with_tools(programs, (*wishes.tools, *told))
-    tools = with_holders(tools, wishes.held)
+    scene = _scene(request)
+    noted = () if scene is None else (ToolSource("the scene", {tool.number: tool for tool in scene.tools}),)
+    programs, tools, assumed = with_tools(programs, (*request.tools, *noted))
+    tools = with_holders(tools, request.held)
     part: Part | None = None
     said: tuple[Finding, ...] = ()
     if scene is not None:
-        part = _surfaces(scene, _header(programs), wishes)
-    elif wishes.against is not None:
-        part, said = _part(programs, tools, wishes)
+        part = _surfaces(scene, _header(programs), request)
+    elif request.against is not None:
+        part, said = _part(programs, tools, request)
     progress.step(0.8)
-    stock = _stock(programs, tools, part, wishes)
+    stock = _stock(programs, tools, part, request)
     setup = CutSetup(
         tuple(each.program for each in programs),
         {number: each.tool for number, each in tools.items()},
@@ -136,31 +138,31 @@ def setup_of(programs: tuple[Examined, ...], wishes: Wishes = Wishes(), progress
         *((stock.assumed,) if stock.assumed is not None else ()),
         *said,
     )
-    return Ready(setup, programs, tools, stock, found)
+    return ReadySetup(setup, programs, tools, stock, found)
 
 
-def _unfollowed(programs: tuple[Examined, ...]) -> Iterator[Finding]:
+def _unfollowed(programs: tuple[ExaminedProgram, ...]) -> Iterator[Finding]:
     """Yield a finding for each axis that a program turns and nobody follows: what it really cuts is not known."""
     for each in programs:
         for problem in each.problems:
             if problem.word and problem.word.lower() in ROTARY:
                 text = (
-                    f"{problem.told(each.name)} What it turns is cut here as if it stood; leave it out, or try it on "
-                    "the machine."
+                    f"{problem.message(each.name)} What it turns is cut here as if it stood; leave it out, or try it "
+                    "on the machine."
                 )
                 yield Finding(FindingKind.LEFT_OUT, text, line=problem.line)
 
 
-def _header(programs: tuple[Examined, ...]) -> HeaderNote:
+def _header(programs: tuple[ExaminedProgram, ...]) -> HeaderNote:
     """Return the first header of our own; an empty one where there is none."""
     return next((each.program.header for each in programs if each.program.header is not None), HeaderNote())
 
 
-def _ensure_readable(examined: Examined) -> None:
+def _ensure_readable(examined: ExaminedProgram) -> None:
     error = examined.program.error
     if error is not None:
         raise InputError(
-            f"{error.told(examined.name)} What stands behind it cannot be cut; correct it, or choose the control: "
+            f"{error.message(examined.name)} What stands behind it cannot be cut; correct it, or choose the control: "
             "--dialect."
         )
     motions = examined.program.motions
@@ -169,19 +171,19 @@ def _ensure_readable(examined: Examined) -> None:
 
 
 def _stock(
-    programs: tuple[Examined, ...], tools: dict[int, KnownTool], part: Part | None, wishes: Wishes
+    programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], part: Part | None, request: SetupRequest
 ) -> KnownStock:
     """Return the metal: what was asked for, the job's, or what the programs tell."""
-    if wishes.stock is not None:
-        return KnownStock(wishes.stock, "as given")
+    if request.stock is not None:
+        return KnownStock(request.stock, "as given")
     noted = any(each.program.stock is not None for each in programs)
     if isinstance(part, SolidPart) and part.block is not None and not noted:
         return KnownStock(BoxStock(part.block), "the scene")
-    if wishes.job is not None and "stock" in wishes.job.tables and isinstance(part, FlatPart):
+    if request.job is not None and "stock" in request.job.tables and isinstance(part, FlatPart):
         box, (x, y, z) = stock_box(part.job, part.regions, part.lines), part.origin
         moved = replace(box, x0=box.x0 - x, y0=box.y0 - y, z0=box.z0 - z, x1=box.x1 - x, y1=box.y1 - y, z1=box.z1 - z)
         return KnownStock(BoxStock(moved), "the job file, round the drawing")
-    return told_stock(
+    return stock_from_comments(
         programs, max(each.tool.radius for each in tools.values()), None if part is None else _part_box(part)
     )
 
@@ -197,35 +199,35 @@ def _part_box(part: Part) -> Floats:
 
 
 def _part(
-    programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes
+    programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest
 ) -> tuple[Part, tuple[Finding, ...]]:
-    assert wishes.against is not None
-    name, data = wishes.against
+    assert request.against is not None
+    name, data = request.against
     suffix = PurePath(name).suffix.lower()
     if suffix == ".stl":
         solid = read_solid(name, data)
-        return _solid(solid, wishes), _wound(name, solid)
-    return _flat(programs, tools, wishes)
+        return _solid(solid, request), _wound(name, solid)
+    return _flat(programs, tools, request)
 
 
-def _scene(wishes: Wishes) -> Scene | None:
+def _scene(request: SetupRequest) -> Scene | None:
     """Return the scene to compare with, if it is one."""
-    if wishes.against is None or PurePath(wishes.against[0]).suffix.lower() != ".toml":
+    if request.against is None or PurePath(request.against[0]).suffix.lower() != ".toml":
         return None
     from ..formats.scene.toml import read_scene
 
-    return read_scene(*wishes.against)
+    return read_scene(*request.against)
 
 
-def _surfaces(scene: Scene, header: HeaderNote, wishes: Wishes) -> SolidPart:
+def _surfaces(scene: Scene, header: HeaderNote, request: SetupRequest) -> SolidPart:
     """Return the surfaces of a scene in program coordinates."""
     from ..formats.scene.toml import sources_of
     from .scene_part import scene_part
 
-    xy, z = wishes.origin or (None, None)
+    xy, z = request.origin or (None, None)
     scene = replace(scene, origin_xy=xy or scene.origin_xy, origin_z=z or scene.origin_z)
-    zero = header.origin if wishes.origin is None else None
-    return scene_part(scene, sources_of(wishes.beside or _nothing_beside), zero, wishes.leave, wishes.tolerance)
+    zero = header.origin if request.origin is None else None
+    return scene_part(scene, sources_of(request.beside or _nothing_beside), zero, request.leave, request.tolerance)
 
 
 def _nothing_beside(name: str) -> bytes:
@@ -240,11 +242,11 @@ def _wound(name: str, solid: SolidStock) -> tuple[Finding, ...]:
     return (Finding(FindingKind.ASSUMED, said, counts=False, amount=float(solid.turned)),) if said else ()
 
 
-def _solid(solid: SolidStock, wishes: Wishes) -> SolidPart:
+def _solid(solid: SolidStock, request: SetupRequest) -> SolidPart:
     """Return a solid in program coordinates."""
-    triangles = solid.triangles * (wishes.units or Units.MM).value
+    triangles = solid.triangles * (request.units or Units.MM).value
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
-    xy, z = wishes.origin or (None, None)
+    xy, z = request.origin or (None, None)
     zero = np.zeros(3)
     if xy is OriginXY.LOWER_LEFT:
         zero[:2] = low[:2]
@@ -252,35 +254,37 @@ def _solid(solid: SolidStock, wishes: Wishes) -> SolidPart:
         zero[:2] = (low[:2] + high[:2]) / 2
     if z is not None:
         zero[2] = high[2] if z is OriginZ.TOP else low[2]
-    tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
-    return SolidPart(replace(solid, triangles=triangles - zero), wishes.leave or 0.0, tolerance)
+    tolerance = TOLERANCE if request.tolerance is None else request.tolerance
+    return SolidPart(replace(solid, triangles=triangles - zero), request.leave or 0.0, tolerance)
 
 
 def _flat(
-    programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes
+    programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest
 ) -> tuple[FlatPart, tuple[Finding, ...]]:
     """Return the drawing and what of it is milled, and what there is to say about it."""
-    from ..operations.compute import about_drawing, followed_lines, machined
-    from ..operations.missed import missed
-    from ..toolpath.coverage.wanted import CHORD
-    from ..toolpath.drawn import drawn
-    from ..toolpath.sheets import Sheets
-    from ..toolpath.witness import about_floors
+    from ..operations.compute import drawing_findings, followed_lines, machined_regions
+    from ..operations.unmachined import unmachined_findings
+    from ..toolpath.coverage.floor_target import CHORD
+    from ..toolpath.drawn_contours import drawn_contours
+    from ..toolpath.machining_areas import MachiningAreas
+    from ..toolpath.witness import floor_findings
 
-    assert wishes.against is not None
-    header, (name, data) = _header(programs), wishes.against
-    asked = _job(DrawnPart(), programs, tools, wishes)
+    assert request.against is not None
+    header, (name, data) = _header(programs), request.against
+    requested = _job(DrawnPart(), programs, tools, request)
     diameters = [each.tool.diameter for each in tools.values()]
-    reading = told_reading(wishes.reading, header.reading, name, wishes.units)
+    reading = part_reading(request.reading, header.reading, name, request.units)
     units = (
-        wishes.units
-        or (wishes.job.units if wishes.job else None)
+        request.units
+        or (request.job.units if request.job else None)
         or (None if reading.how.pixels_per_inch else header.drawing_units)
     )
-    drawing = read_plausible(name, data, Reading(units, layers_to_read(asked), reading.how), lambda _: diameters)
-    job = with_layers_spelled(replace(asked, part=drawing.part))
-    parts = drawn(job)
-    made, lines = machined(parts), followed_lines(job, parts)
+    drawing = read_plausible(
+        name, data, ReadingOptions(units, layers_to_read(requested), reading.how), lambda _: diameters
+    )
+    job = with_layers_spelled(replace(requested, part=drawing.part))
+    parts = drawn_contours(job)
+    made, lines = machined_regions(parts), followed_lines(job, parts)
     regions = made.regions
     if not regions and not lines:
         said = " ".join(finding.text for finding in parts.findings[:3])
@@ -288,15 +292,15 @@ def _flat(
             f"{name}: there is no closed contour to compare with; choose other layers, or join loose ends: "
             f"--join-tolerance. {said}".rstrip()
         )
-    proven = header.path_tolerance if wishes.tolerance is None else None
-    tolerance = TOLERANCE if wishes.tolerance is None else wishes.tolerance
+    proven = header.path_tolerance if request.tolerance is None else None
+    tolerance = TOLERANCE if request.tolerance is None else request.tolerance
     tabs, dog_bones = _on_purpose(programs)
-    sheets = Sheets(job, parts)
+    sheets = MachiningAreas(job, parts)
     areas = sheets.areas()
     part = FlatPart(
         job,
         regions,
-        _origin(job, (regions, lines), wishes, header),
+        _origin(job, (regions, lines), request, header),
         tolerance if proven is None else proven,
         tolerance,
         header.allowance or 0.0,
@@ -306,120 +310,124 @@ def _flat(
         tabs=tabs,
         dog_bones=dog_bones,
     )
-    told = (*reading.findings, *_differing(wishes, header, drawing.part.units))
+    noted = (*reading.findings, *_differing(request, header, drawing.part.units))
     return part, (
-        *told,
+        *noted,
         *drawing.findings,
-        *about_drawing(job, parts, lines),
+        *drawing_findings(job, parts, lines),
         *made.findings,
         *sheets.findings,
-        *about_floors(areas, CHORD),
-        *missed(sheets, regions),
+        *floor_findings(areas, CHORD),
+        *unmachined_findings(sheets, regions),
     )
 
 
-def _differing(wishes: Wishes, header: HeaderNote, units: Units) -> Iterator[Finding]:
+def _differing(request: SetupRequest, header: HeaderNote, units: Units) -> Iterator[Finding]:
     """Yield where what was asked about the drawing is not what the program tells of how it was made."""
-    yield from other_units(wishes.units, header.drawing_units, units)
-    yield from other_names("--layer", wishes.layers, header.layers)
-    yield from other_length("--join-tolerance", wishes.join_tolerance, header.join_tolerance)
+    yield from other_units(request.units, header.drawing_units, units)
+    yield from other_names("--layer", request.layers, header.layers)
+    yield from other_length("--join-tolerance", request.join_tolerance, header.join_tolerance)
 
 
-def _on_purpose(programs: tuple[Examined, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:
+def _on_purpose(programs: tuple[ExaminedProgram, ...]) -> tuple[tuple[Tab, ...], tuple[DogBone, ...]]:
     """Return tabs and dog-bones that headers of our own tell of, each once."""
     headers = [each.program.header for each in programs if each.program.header is not None]
     return (
         tuple(dict.fromkeys(tab for header in headers for tab in header.tabs)),
-        tuple(dict.fromkeys(bone for header in headers for bone in header.dog_bones)),
+        tuple(dict.fromkeys(dog_bone for header in headers for dog_bone in header.dog_bones)),
     )
 
 
 def _origin(
     job: Job,
     milled: tuple[tuple[Region, ...], tuple[Contour, ...]],
-    wishes: Wishes,
+    request: SetupRequest,
     header: HeaderNote,
 ) -> tuple[float, float, float]:
     """Return the program's zero in the drawing's coordinates."""
-    asked = wishes.origin is not None or (wishes.job is not None and "origin" in wishes.job.tables)
-    if not asked:
+    requested = request.origin is not None or (request.job is not None and "origin" in request.job.tables)
+    if not requested:
         return header.origin or (0.0, 0.0, 0.0)
     return work_origin(job, stock_box(job, *milled))
 
 
-def _job(part: DrawnPart, programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> Job:
+def _job(
+    part: DrawnPart, programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest
+) -> Job:
     """Return the job that the programs do: the one that is given, with what was asked for put in."""
-    base = wishes.job.job if wishes.job is not None else Job(part)
-    operations = _operations(programs, tools, wishes)
+    base = request.job.job if request.job is not None else Job(part)
+    operations = _operations(programs, tools, request)
     missing = dict.fromkeys(each.cut.tool for each in operations if each.cut.tool not in tools)
     mine = {
         tool.number: tool
-        for tool in (*(each.tool for each in tools.values()), *other_tools(missing, wishes.tools, programs))
+        for tool in (*(each.tool for each in tools.values()), *other_tools(missing, request.tools, programs))
     }
     operations = tuple(each for each in operations if each.cut.tool in mine)
     header = _header(programs)
-    xy, z = wishes.origin or (base.origin_xy, base.origin_z)
+    xy, z = request.origin or (base.origin_xy, base.origin_z)
     join = next(
         (
             t
-            for t in (wishes.join_tolerance, base.join_tolerance if wishes.job else header.join_tolerance)
+            for t in (request.join_tolerance, base.join_tolerance if request.job else header.join_tolerance)
             if t is not None
         ),
         None,
     )
-    layers = wishes.layers or (base.layer_names if wishes.job else ()) or header.layers
+    layers = request.layers or (base.layer_names if request.job else ()) or header.layers
     copies, (clamps, height) = base.copies, (base.keep_out_layers, base.keep_out_height)
     return replace(
         base,
         part=part,
         tools=tuple(mine.values()),
         operations=operations,
-        stock=_job_stock(base, operations, programs, wishes),
+        stock=_job_stock(base, operations, programs, request),
         origin_xy=xy or OriginXY.DRAWING,
         origin_z=z or OriginZ.TOP,
         join_tolerance=base.join_tolerance if join is None else join,
         layer_names=layers,
-        copies=copies if wishes.job and "copies" in wishes.job.tables else header.copies or Copies(),
+        copies=copies if request.job and "copies" in request.job.tables else header.copies or Copies(),
         keep_out_layers=clamps or header.keep_out[0],
         keep_out_height=height or header.keep_out[1],
     )
 
 
 def _job_stock(
-    base: Job, operations: tuple[Operation, ...], programs: tuple[Examined, ...], wishes: Wishes
+    base: Job, operations: tuple[Operation, ...], programs: tuple[ExaminedProgram, ...], request: SetupRequest
 ) -> JobStock:
     """Return the stock's margin, and how thick it is: as given, told by a comment, or as the job has it."""
     note = next((each.program.stock for each in programs if each.program.stock is not None), None)
-    if isinstance(wishes.stock, BoxStock):
-        thickness = wishes.stock.solid.size[2]
+    if isinstance(request.stock, BoxStock):
+        thickness = request.stock.solid.size[2]
     elif note is not None and note.size[2] > 0:
         thickness = note.size[2]
     else:
         thickness = max([base.stock.thickness, *(each.cut.depth for each in operations)])
-    told = (each.program.header.under for each in programs if each.program.header is not None)
-    return replace(base.stock, thickness=thickness, under=max([base.stock.under, *told]))
+    noted = (each.program.header.under for each in programs if each.program.header is not None)
+    return replace(base.stock, thickness=thickness, under=max([base.stock.under, *noted]))
 
 
-def _operations(programs: tuple[Examined, ...], tools: dict[int, KnownTool], wishes: Wishes) -> tuple[Operation, ...]:
+def _operations(
+    programs: tuple[ExaminedProgram, ...], tools: dict[int, KnownTool], request: SetupRequest
+) -> tuple[Operation, ...]:
     """Return what is milled how deep: as the job or the header of our own says, else a pocket a tool, as deep as was
     asked.
     """
-    told = (
-        wishes.job.job.operations
-        if wishes.job is not None and "operation" in wishes.job.tables
+    noted = (
+        request.job.job.operations
+        if request.job is not None and "operation" in request.job.tables
         else tuple(_noted(programs))
     )
-    if not told and wishes.depth is None:
-        assert wishes.against is not None
+    if not noted and request.depth is None:
+        assert request.against is not None
         raise InputError(
-            f"{wishes.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top "
+            f"{request.against[0]}: nobody tells how deep the part is milled; give --depth, mm from the stock's top "
             "down to the floor, or a job file with operations."
         )
-    asked = told or tuple(PocketOperation(Cut(number)) for number in tools)
-    return tuple(_with(operation, wishes) for operation in asked)
+    requested = noted or tuple(PocketOperation(CutParameters(number)) for number in tools)
+    return tuple(_with(operation, request) for operation in requested)
 
 
-def _noted(programs: tuple[Examined, ...]) -> list[Operation]:
+def _noted(programs: tuple[ExaminedProgram, ...]) -> list[Operation]:
     """Return the operations that headers of our own tell of, each once."""
     notes = dict.fromkeys(
         note for each in programs if each.program.header is not None for note in each.program.header.operations
@@ -439,10 +447,10 @@ def _as_noted(note: OperationNote) -> Operation:
         raise InputError(f"The program's comments tell of an operation that is none: {error}") from error
 
 
-def _with(operation: Operation, wishes: Wishes) -> Operation:
+def _with(operation: Operation, request: SetupRequest) -> Operation:
     """Return an operation with the depth and the stock to leave that were asked for; a step is never in the way of a
     depth.
     """
-    depth = operation.cut.depth if wishes.depth is None else wishes.depth
-    leave = operation.cut.stock_to_leave if wishes.leave is None else wishes.leave
+    depth = operation.cut.depth if request.depth is None else request.depth
+    leave = operation.cut.stock_to_leave if request.leave is None else request.leave
     return replace(operation, cut=replace(operation.cut, depth=depth, stepdown=depth, stock_to_leave=leave))

@@ -16,9 +16,9 @@ from ..model.finding import Finding, FindingKind
 from ..model.motion import Floats, MotionKind
 from ..model.stock_box import StockBox
 from ..simulation.field.solid import read_solid
-from ..simulation.field.workpiece import MOST_CELLS, BoxStock, Stock
+from ..simulation.field.workpiece import MOST_CELLS, BoxStock, StockShape
 from ..simulation.heights_file import read_heights
-from .examine import Examined
+from .examine import ExaminedProgram
 
 FINEST = MOST_CELLS
 """Cells along a side of a grid, at most."""
@@ -35,12 +35,12 @@ class KnownStock:
         assumed: what of it was not told; None = nothing.
     """
 
-    stock: Stock
+    stock: StockShape
     source: str
     assumed: Finding | None = None
 
 
-def box_stock(corners: Sequence[float]) -> Stock:
+def box_stock(corners: Sequence[float]) -> StockShape:
     """Return a box of metal.
 
     Args:
@@ -52,7 +52,7 @@ def box_stock(corners: Sequence[float]) -> Stock:
     return BoxStock(StockBox(*corners))
 
 
-def read_stock(name: str, data: bytes, beside: bytes) -> Stock:
+def read_stock(name: str, data: bytes, beside: bytes) -> StockShape:
     """Return the metal that a file describes.
 
     Args:
@@ -65,7 +65,7 @@ def read_stock(name: str, data: bytes, beside: bytes) -> Stock:
     return read_heights(name, data, beside) if PurePath(name).suffix.lower() == ".npy" else read_solid(name, data)
 
 
-def cut_box(programs: tuple[Examined, ...]) -> Floats:
+def cut_box(programs: tuple[ExaminedProgram, ...]) -> Floats:
     """Return (2, 3) lower and upper corner of the motions at feed rate of all programs, mm; NaN along an axis that none
     moves.
     """
@@ -74,7 +74,7 @@ def cut_box(programs: tuple[Examined, ...]) -> Floats:
     return np.array([np.fmin.reduce(low), np.fmax.reduce(high)])
 
 
-def told_stock(programs: tuple[Examined, ...], radius: float, part: Floats | None = None) -> KnownStock:
+def stock_from_comments(programs: tuple[ExaminedProgram, ...], radius: float, part: Floats | None = None) -> KnownStock:
     """Return the stock that comments tell of, or else a box round the cuts, and round the part.
 
     Args:

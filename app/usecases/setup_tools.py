@@ -17,7 +17,7 @@ from ..model.finding import Finding, FindingKind
 from ..model.motion import MotionKind
 from ..model.tool import HolderPoint, Tool
 from ..model.tool_kind import ToolKind, shape_keys
-from .examine import Examined
+from .examine import ExaminedProgram
 
 NAMELESS = 0
 """Number of the tool of a program that names none."""
@@ -38,7 +38,7 @@ class KnownTool:
 
 
 @dataclass(frozen=True, slots=True)
-class ToolsTold:
+class ToolSource:
     """Tools that somebody has given, best first.
 
     Attributes:
@@ -53,9 +53,9 @@ class ToolsTold:
 
 
 def with_tools(
-    programs: tuple[Examined, ...],
-    told: tuple[ToolsTold, ...],
-) -> tuple[tuple[Examined, ...], dict[int, KnownTool], tuple[Finding, ...]]:
+    programs: tuple[ExaminedProgram, ...],
+    noted: tuple[ToolSource, ...],
+) -> tuple[tuple[ExaminedProgram, ...], dict[int, KnownTool], tuple[Finding, ...]]:
     """Return the programs, what each tool is that cuts, by T number, and what was assumed.
 
     A program that cuts without naming a tool gets the number of the one that its comments tell of, else that of the
@@ -66,15 +66,15 @@ def with_tools(
     """
     known: dict[int, KnownTool] = {}
     taken = {number for examined in programs for number in _cutting(examined.program)} - {NAMELESS}
-    named: list[Examined] = []
+    named: list[ExaminedProgram] = []
     for examined in programs:
         if NAMELESS in _cutting(examined.program):
-            examined = _with_name(examined, told, known, taken)
+            examined = _with_name(examined, noted, known, taken)
         named.append(examined)
     for examined in named:
         for number, line in _cutting(examined.program).items():
             if number not in known:
-                known[number] = _known(examined, number, line, told, [each.program for each in named])
+                known[number] = _known(examined, number, line, noted, [each.program for each in named])
     findings = tuple(
         Finding(FindingKind.ASSUMED, each.assumed, counts=False) for each in known.values() if each.assumed
     )
@@ -82,14 +82,14 @@ def with_tools(
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class ToolHolding:
     """How a tool is held: how far it sticks out, mm, and the outline of its holder, as `Tool` has them."""
 
     stick_out: float
     holder: tuple[HolderPoint, ...]
 
 
-def with_holders(tools: Mapping[int, KnownTool], held: Mapping[int, Held]) -> dict[int, KnownTool]:
+def with_holders(tools: Mapping[int, KnownTool], held: Mapping[int, ToolHolding]) -> dict[int, KnownTool]:
     """Return tools held as was said, whoever tells of them.
 
     Args:
@@ -113,10 +113,12 @@ def with_holders(tools: Mapping[int, KnownTool], held: Mapping[int, Held]) -> di
     return made
 
 
-def other_tools(numbers: Iterable[int], told: tuple[ToolsTold, ...], programs: tuple[Examined, ...]) -> Iterator[Tool]:
+def other_tools(
+    numbers: Iterable[int], noted: tuple[ToolSource, ...], programs: tuple[ExaminedProgram, ...]
+) -> Iterator[Tool]:
     """Yield, of tools that do not cut, those that somebody tells of."""
     for number in numbers:
-        found = _told(number, told, [each.program for each in programs])
+        found = _told(number, noted, [each.program for each in programs])
         if found is not None:
             yield found.tool
 
@@ -131,17 +133,17 @@ def _cutting(program: NcProgram) -> dict[int, int]:
 
 
 def _with_name(
-    examined: Examined, told: tuple[ToolsTold, ...], known: dict[int, KnownTool], taken: set[int]
-) -> Examined:
+    examined: ExaminedProgram, noted: tuple[ToolSource, ...], known: dict[int, KnownTool], taken: set[int]
+) -> ExaminedProgram:
     """Return a program with a number for the tool that it does not name; the number is taken, the tool known."""
     own = dict.fromkeys(note.number for note in examined.program.tools)
     # our own header tells first of the tool that cuts
     sure = len(own) == 1 or (own and examined.program.header is not None)
     if sure and NAMELESS not in own and not own.keys() & _cutting(examined.program).keys():
         number = next(iter(own))
-        known[number] = _known(examined, number, 0, told, [examined.program])
+        known[number] = _known(examined, number, 0, noted, [examined.program])
     else:
-        found = _only(examined, told)
+        found = _only(examined, noted)
         alike = (number for number, each in known.items() if replace(each.tool, number=found.tool.number) == found.tool)
         free = found.tool.number if found.tool.number not in taken else min(set(range(1, 9999)) - taken)
         number = next(alike, free)
@@ -152,10 +154,10 @@ def _with_name(
     return replace(examined, program=program, time=duration(program, examined.machine))
 
 
-def _only(examined: Examined, told: tuple[ToolsTold, ...]) -> KnownTool:
+def _only(examined: ExaminedProgram, noted: tuple[ToolSource, ...]) -> KnownTool:
     """Return the tool of a program that names none: the one for it, or the only one that somebody tells of."""
     cutting = _cutting(examined.program)
-    for each in told:
+    for each in noted:
         others = {number: tool for number, tool in each.tools.items() if number not in cutting}
         number = NAMELESS if NAMELESS in each.tools else next(iter(others), NAMELESS) if len(others) == 1 else NAMELESS
         if number in each.tools:
@@ -171,9 +173,9 @@ def _only(examined: Examined, told: tuple[ToolsTold, ...]) -> KnownTool:
 
 
 def _known(
-    examined: Examined, number: int, line: int, told: tuple[ToolsTold, ...], programs: list[NcProgram]
+    examined: ExaminedProgram, number: int, line: int, noted: tuple[ToolSource, ...], programs: list[NcProgram]
 ) -> KnownTool:
-    found = _told(number, told, programs)
+    found = _told(number, noted, programs)
     if found is None:
         raise InputError(
             f"{examined.name}:{line}: T{number} cuts from here on, and nobody says what it is; give its shape, "
@@ -182,9 +184,9 @@ def _known(
     return found
 
 
-def _told(number: int, told: tuple[ToolsTold, ...], programs: list[NcProgram]) -> KnownTool | None:
+def _told(number: int, noted: tuple[ToolSource, ...], programs: list[NcProgram]) -> KnownTool | None:
     """Return what the first one says who knows a tool."""
-    for each in told:
+    for each in noted:
         if number in each.tools:
             return _by(each, number)
     for program in programs:
@@ -194,21 +196,21 @@ def _told(number: int, told: tuple[ToolsTold, ...], programs: list[NcProgram]) -
     return None
 
 
-def _by(told: ToolsTold, number: int) -> KnownTool:
-    tool = told.tools[number]
+def _by(noted: ToolSource, number: int) -> KnownTool:
+    tool = noted.tools[number]
     assumed = ""
-    if told.shapeless:
+    if noted.shapeless:
         assumed = (
-            f"T{number}: {told.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says "
+            f"T{number}: {noted.source} tells no shapes, so it is taken to be flat, {tool.diameter:g} mm; --tool says "
             "otherwise."
         )
     elif tool.kind.assumed_angle and not tool.tip_angle:
         assumed = (
-            f"T{number}: {told.source} tells a {tool.kind.value} of {tool.diameter:g} mm but no angle; "
+            f"T{number}: {noted.source} tells a {tool.kind.value} of {tool.diameter:g} mm but no angle; "
             f"it is taken to have {np.degrees(tool.kind.assumed_angle):g} degrees; --tool "
             f"{number}={tool.kind.spelled(f'{tool.diameter:g}')} says otherwise."
         )
-    return KnownTool(tool, told.source, assumed)
+    return KnownTool(tool, noted.source, assumed)
 
 
 def _noted(note: ToolNote, place: str) -> KnownTool:
@@ -223,8 +225,8 @@ def _noted(note: ToolNote, place: str) -> KnownTool:
             f"T{note.number}: {place} tells of a {kind.value} tool of {note.diameter:g} mm but not of its angle; "
             f"give it: --tool {note.number}={kind.spelled('DIAMETER')}."
         )
-    told = {"corner_radius": note.corner_radius, "tip_angle": note.angle, "tip_diameter": note.tip_diameter}
-    shape: dict[str, Any] = {key: value for key, value in told.items() if key in shape_keys(kind)}
+    noted = {"corner_radius": note.corner_radius, "tip_angle": note.angle, "tip_diameter": note.tip_diameter}
+    shape: dict[str, Any] = {key: value for key, value in noted.items() if key in shape_keys(kind)}
     try:
         tool = Tool(note.number, note.diameter, kind, **shape)
     except HitofudeError as error:

@@ -22,25 +22,25 @@ from ..fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from ..fitting.point_curves.smoothness import of_curve, of_points
 from ..fitting.point_curves.space_curve import SpaceCurve, curve_of_motions, joined
 from ..fitting.point_curves.through_points import through_points
-from ..fitting.point_curves.tube import Answer, Judgement, Tube, judge
+from ..fitting.point_curves.tube import ToleranceTube, TubeAnswer, TubeJudgement, judge
 from ..gcode.interpreter.options import PATIENT, ReadOptions
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.interpreter.reader import read_program
-from ..gcode.interpreter.text import Text
+from ..gcode.interpreter.text import ProgramBuffer
 from ..gcode.posts.post import NurbsForm
-from ..gcode.rework.rewrite import Rewritten, rewrite
-from ..gcode.rework.stretches import Found, find_stretches
+from ..gcode.rework.rewrite import RewrittenText, rewrite
+from ..gcode.rework.stretches import FoundStretches, find_stretches
 from ..gcode.writer.blocks import Blocks
-from ..gcode.writer.curve_blocks import Spelling, curve_blocks
+from ..gcode.writer.curve_blocks import BlockFormat, curve_blocks
 from ..gcode.writer.linuxcnc_biarcs import driven
-from ..geometry.same_places import near
+from ..geometry.coincident_points import near
 from ..model.motion import Floats, MotionKind, Motions, Nurbs
 from .effort import smooth_effort
 from .smooth_report import certificate
+from .smooth_result import REACH, TOLERANCES, OutputForm, SmoothedProgram, SmoothedStretch, SmoothOptions
 from .smooth_source import SourceProgram, read_source
-from .smoothed import REACH, TOLERANCES, Form, Piece, Smoothed, SmoothOptions
 
-__all__ = ["TOLERANCES", "Form", "Piece", "SmoothOptions", "Smoothed", "smooth"]
+__all__ = ["TOLERANCES", "OutputForm", "SmoothOptions", "SmoothedProgram", "SmoothedStretch", "smooth"]
 
 _FOR_CUBICS = 0.25
 """Of the tolerance: what cubics in place of a spline of degree 5 take up."""
@@ -51,7 +51,7 @@ LARGEST_RADIUS = 10_000.0
 """mm; what is flatter is written as a line."""
 
 
-def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> Smoothed:
+def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = NO_PROGRESS) -> SmoothedProgram:
     """Return a program whose stretches of straight feed moves are written anew.
 
     Args:
@@ -65,7 +65,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         Cancelled: the job was asked to stop.
     """
     ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
-    found = find_stretches(ready.program, Text(ready.data), progress.part(0.15, 0.2))
+    found = find_stretches(ready.program, ProgramBuffer(ready.data), progress.part(0.15, 0.2))
     announce(smooth_effort(found.stretches, options.form, options.effective), progress)
     work = _SmoothingRun(options, ready, found)
     blocks, kept = work.written(progress.part(0.2, 0.7))
@@ -73,7 +73,7 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         new = rewrite(ready.data, found.stretches, blocks, ())
         after = read_program(new.data, ReadOptions(ready.post.dialect, limits=PATIENT), progress.part(0.7, 0.8))
         if after.error is not None:
-            raise InputError(f"{ready.post.title} does not read what is written for it: {after.error.told(name)}")
+            raise InputError(f"{ready.post.title} does not read what is written for it: {after.error.message(name)}")
         judged = work.judged(after, new, progress.part(0.8, 1.0))
         failed = {k: each.fault for k, each in judged.items() if each.fault}
         if not failed:
@@ -86,12 +86,14 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         work.piece(k, judged.get(k), kept.get(k, ""), len(blocks.get(k, ()))) for k in range(len(found.stretches))
     )
     dialects = ready.dialect, ready.post.dialect
-    done = Smoothed(name, options, ready.source, ready.program, after, new.data, pieces, found, dialects, ready.off)
+    done = SmoothedProgram(
+        name, options, ready.source, ready.program, after, new.data, pieces, found, dialects, ready.off
+    )
     done = replace(done, nearness=work.nearness)
     return replace(done, data=rewrite(ready.data, found.stretches, blocks, _comments(done, ready)).data)
 
 
-def _comments(done: Smoothed, ready: SourceProgram) -> list[str]:
+def _comments(done: SmoothedProgram, ready: SourceProgram) -> list[str]:
     """Return the certificate as comment lines."""
     head = Blocks(ready.post, ready.program.states[0].units)
     for line in certificate(done):
@@ -100,7 +102,7 @@ def _comments(done: Smoothed, ready: SourceProgram) -> list[str]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Judged:
+class _JudgedStretch:
     """A stretch as it was written.
 
     Attributes:
@@ -109,17 +111,17 @@ class _Judged:
     """
 
     curve: SpaceCurve
-    judgement: Judgement
-    near: Judgement | None
+    judgement: TubeJudgement
+    near: TubeJudgement | None
     cut: bool
     rounded: int
 
     @property
     def fault(self) -> str:
         """Why it cannot stay as it was written, or ""."""
-        if self.judgement.answer is not Answer.INSIDE:
+        if self.judgement.answer is not TubeAnswer.INSIDE:
             return "as it was written it is not proven to keep to the tolerance"
-        if self.near is not None and self.near.answer is not Answer.INSIDE:
+        if self.near is not None and self.near.answer is not TubeAnswer.INSIDE:
             return "as it was written it is not proven to go near the effective points"
         return "as it was written it would lose a corner" if self.cut else ""
 
@@ -127,7 +129,7 @@ class _Judged:
 class _SmoothingRun:
     """A program's stretches, on their way."""
 
-    def __init__(self, options: SmoothOptions, source: SourceProgram, found: Found) -> None:
+    def __init__(self, options: SmoothOptions, source: SourceProgram, found: FoundStretches) -> None:
         self._options, self._source, self._found = options, source, found
         self._post, self._program = source.post, source.program
         own = [source.points(stretch) for stretch in found.stretches]
@@ -136,7 +138,7 @@ class _SmoothingRun:
             without_repeats(stretch.points if points is None else points)
             for stretch, points in zip(found.stretches, own, strict=True)
         ]
-        self._tube = Tube(options.tolerance, options.middle)
+        self._tube = ToleranceTube(options.tolerance, options.middle)
         self._classes: dict[int, PointClasses] = {}
 
     def written(self, progress: Progress) -> tuple[dict[int, tuple[str, ...]], dict[int, str]]:
@@ -151,17 +153,17 @@ class _SmoothingRun:
                 continue
             share = progress.part(k / count, (k + 1) / count)
             state = self._program.states[self._program.motions.state[stretch.first]]
-            spelling = Spelling(self._post, state, stretch.feed, stretch.resumed)
+            spelling = BlockFormat(self._post, state, stretch.feed, stretch.resumed)
             made = curve_blocks(self._fitted(k, self._options.form, share).motions, spelling)
-            if len(made) >= len(stretch.points) - 1 and self._options.form is Form.NURBS:
-                made = curve_blocks(self._fitted(k, Form.ARCS, share).motions, spelling)
+            if len(made) >= len(stretch.points) - 1 and self._options.form is OutputForm.NURBS:
+                made = curve_blocks(self._fitted(k, OutputForm.ARCS, share).motions, spelling)
             if len(made) >= len(stretch.points) - 1:
                 kept[k] = "it would not take fewer blocks"
             else:
                 blocks[k] = made
         return blocks, kept
 
-    def _fitted(self, k: int, form: Form, progress: Progress) -> FittedPath:
+    def _fitted(self, k: int, form: OutputForm, progress: Progress) -> FittedPath:
         points, stretch = self._points[k], self._found.stretches[k]
         state = self._program.states[self._program.motions.state[stretch.first]]
         step = 10.0 ** -self._post.digits(state.units).X * state.units.value
@@ -186,7 +188,7 @@ class _SmoothingRun:
             tube = self._near(self._options.effective, slack, self._tube.widest - slack - spent)
             if self._options.effective.on_shape:
                 fine = _FINE * tube.radius
-                tube = Tube(tube.radius - fine)
+                tube = ToleranceTube(tube.radius - fine)
                 at = corners(points, self._options.corner, REACH * self._tube.widest)
                 points = through_points(points, at, fine, self._tube.widest - slack - spent - tube.radius)
         else:
@@ -194,9 +196,9 @@ class _SmoothingRun:
         nurbs = self._post.nurbs.form
         largest = min(self._post.arcs.largest_radius_mm, LARGEST_RADIUS)
         arcs = ArcOptions(
-            tube.radius, self._options.corner, largest, form is not Form.LINES, tube.middle, self._options.bend
+            tube.radius, self._options.corner, largest, form is not OutputForm.LINES, tube.middle, self._options.bend
         )
-        if form is not Form.NURBS or nurbs is NurbsForm.NONE:
+        if form is not OutputForm.NURBS or nurbs is NurbsForm.NONE:
             return fit_arcs(points, arcs, progress)
         level = nurbs is NurbsForm.BEZIER
         blocks, uncut = _quarters if level else _knots, replace(arcs, corner=math.pi)
@@ -213,7 +215,7 @@ class _SmoothingRun:
         )
         return fit_splines(points, splines, progress)
 
-    def _near(self, method: EffectiveMethod, slack: float, between: float) -> Tube:
+    def _near(self, method: EffectiveMethod, slack: float, between: float) -> ToleranceTube:
         """Return the region round the points that method D goes by: near to them, as wide as may be between them."""
         nearness = method.nearness_for(self._step)
         if not nearness > slack:
@@ -221,9 +223,9 @@ class _SmoothingRun:
                 f"a nearness of {nearness:g} mm is too near to the last decimal of {self._post.title}; use more than "
                 f"{slack:g} mm, or a post with more decimals."
             )
-        return Tube(min(nearness - slack, between), between)
+        return ToleranceTube(min(nearness - slack, between), between)
 
-    def judged(self, after: NcProgram, new: Rewritten, progress: Progress) -> dict[int, _Judged]:
+    def judged(self, after: NcProgram, new: RewrittenText, progress: Progress) -> dict[int, _JudgedStretch]:
         """Return what each stretch that was written anew has become, and the judge's answer."""
         order = np.argsort(after.motions.line, kind="stable")
         lines, answers = after.motions.line[order], {}
@@ -234,14 +236,14 @@ class _SmoothingRun:
             curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
             near_by = self._judged_near(k, curve)
             judgement = judge(curve, self._points[k], self._tube)
-            answers[k] = _Judged(curve, judgement, near_by, *self._lost(self._points[k], ends))
+            answers[k] = _JudgedStretch(curve, judgement, near_by, *self._lost(self._points[k], ends))
         return answers
 
-    def _judged_near(self, k: int, curve: SpaceCurve) -> Judgement | None:
+    def _judged_near(self, k: int, curve: SpaceCurve) -> TubeJudgement | None:
         """Return how near a curve goes to the points of method D; between them it may be as far as the tolerance."""
         if (nearness := self.nearness) is None:
             return None
-        return judge(curve, self._classes[k].passed, Tube(nearness, max(self._tube.widest, nearness)))
+        return judge(curve, self._classes[k].passed, ToleranceTube(nearness, max(self._tube.widest, nearness)))
 
     def _lost(self, points: Floats, ends: Floats) -> tuple[bool, int]:
         """Return whether a corner is kept no more, and how many bends beside shorter legs are not: no written motion
@@ -252,7 +254,7 @@ class _SmoothingRun:
         corner = legs >= self._options.least_leg * (1 - 1e-9)
         return bool(np.any(away & corner)), int(np.sum(away & ~corner))
 
-    def require_the_rest(self, after: NcProgram, new: Rewritten) -> None:
+    def require_the_rest(self, after: NcProgram, new: RewrittenText) -> None:
         """Make sure that all motions outside of what was written anew are those of the text before, one by one.
 
         Raises:
@@ -309,13 +311,13 @@ class _SmoothingRun:
         parts += [curve_of_motions(motions, at, stop)] if stop > at else []
         return joined(parts)
 
-    def piece(self, k: int, judged: _Judged | None, kept: str, blocks: int) -> Piece:
+    def piece(self, k: int, judged: _JudgedStretch | None, kept: str, blocks: int) -> SmoothedStretch:
         """Return one stretch, before and after."""
         stretch, points, classes = self._found.stretches[k], self._points[k], self._classes.get(k)
         count = stretch.stop - stretch.first
         at = corners(points, self._options.corner, REACH * self._tube.widest) if len(points) > 2 else np.array([0])
         before = of_points(points, points[at])
-        alike = Piece(
+        alike = SmoothedStretch(
             stretch,
             points,
             (count, count),

@@ -10,25 +10,27 @@ import numpy as np
 
 from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.effective_points import PointState
-from ..gcode.interpreter.dialect import HABITS
+from ..gcode.interpreter.dialect import DIALECT_RULES
 from ..model.finding import Finding, FindingKind
-from .smoothed import Piece, Smoothed
+from .smooth_result import SmoothedProgram, SmoothedStretch
 
 Json = dict[str, Any]
 LISTED = 1000
 """Stretches that the report lists singly, those that changed first; and of each its ranges and points, by method D."""
 
 
-def certificate(done: Smoothed) -> tuple[str, ...]:
+def certificate(done: SmoothedProgram) -> tuple[str, ...]:
     """Return the proof in a few sentences, for the program's head."""
     changed = _changed(done)
     came, left = _blocks(done)
-    told = f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
+    reported = (
+        f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
+    )
     if not changed:
-        return (told, *_other_control(done))
+        return (reported, *_other_control(done))
     bend, step = _most(done, "bend"), _most(done, "curvature_step")
     return (
-        f"{told}, {came} blocks before, {left} after",
+        f"{reported}, {came} blocks before, {left} after",
         f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
         f"moves {max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
@@ -45,25 +47,29 @@ def certificate(done: Smoothed) -> tuple[str, ...]:
     )
 
 
-def _bend_words(done: Smoothed) -> str:
+def _bend_words(done: SmoothedProgram) -> str:
     """Return by how much neighbours were allowed to bend, where it is not what they always may."""
-    asked = done.options.form.value == "arcs" and done.options.bend != BEND
-    return f", where up to {math.degrees(done.options.bend):g} deg or the moves' own bend was allowed" if asked else ""
+    requested = done.options.form.value == "arcs" and done.options.bend != BEND
+    return (
+        f", where up to {math.degrees(done.options.bend):g} deg or the moves' own bend was allowed" if requested else ""
+    )
 
 
-def _corner_words(done: Smoothed) -> str:
+def _corner_words(done: SmoothedProgram) -> str:
     """Return which corners are kept, and how many bends as sharp are not: those of steps as small as the tolerance."""
     angle, rounded = f"{math.degrees(done.options.corner):g} deg", sum(piece.rounded for piece in done.pieces)
-    told = f"corners above {angle} kept where both legs are {done.options.least_leg:g} mm or longer"
+    reported = f"corners above {angle} kept where both legs are {done.options.least_leg:g} mm or longer"
     bends = "1 bend" if rounded == 1 else f"{rounded} bends"
-    return f"{told}; {bends} above {angle} beside a shorter leg rounded, within the tolerance" if rounded else told
+    return (
+        f"{reported}; {bends} above {angle} beside a shorter leg rounded, within the tolerance" if rounded else reported
+    )
 
 
-def _other_control(done: Smoothed) -> tuple[str, ...]:
+def _other_control(done: SmoothedProgram) -> tuple[str, ...]:
     """Return for which control the program was written, where it came for another one, and how far all else is from
     what it was.
     """
-    came, left = (HABITS[dialect].title for dialect in done.dialects)
+    came, left = (DIALECT_RULES[dialect].title for dialect in done.dialects)
     if came == left:
         return ()
     return (
@@ -72,7 +78,7 @@ def _other_control(done: Smoothed) -> tuple[str, ...]:
     )
 
 
-def findings(done: Smoothed) -> tuple[Finding, ...]:
+def findings(done: SmoothedProgram) -> tuple[Finding, ...]:
     """Return what somebody has to know: stretches whose curve could not be proven."""
     lost = [piece for piece in done.pieces if piece.kept.startswith("as it was written")]
     return tuple(
@@ -81,7 +87,7 @@ def findings(done: Smoothed) -> tuple[Finding, ...]:
     )
 
 
-def report(done: Smoothed) -> Json:
+def report(done: SmoothedProgram) -> Json:
     """Return everything that smoothing found, lengths in mm, angles in degrees."""
     came, left = _blocks(done)
     bend, step = _most(done, "bend"), _most(done, "curvature_step")
@@ -94,7 +100,7 @@ def report(done: Smoothed) -> Json:
             "written_for": done.dialects[1].value,
             "elsewhere_mm": done.off,
         },
-        "warnings": [problem.told(done.name) for problem in done.source.problems],
+        "warnings": [problem.message(done.name) for problem in done.source.problems],
         "as": done.options.form.value,
         "tolerance": {
             "asked_mm": done.options.tolerance,
@@ -127,21 +133,21 @@ def report(done: Smoothed) -> Json:
     }
 
 
-def report_text(done: Smoothed) -> str:
+def report_text(done: SmoothedProgram) -> str:
     """Return the report as JSON."""
     return json.dumps(report(done), indent=1) + "\n"
 
 
-def _listed(piece: Piece) -> Json:
-    told: Json = {
+def _listed(piece: SmoothedStretch) -> Json:
+    reported: Json = {
         "lines": list(piece.lines),
         "blocks": {"before": piece.blocks[0], "after": piece.blocks[1]},
     }
     if piece.judgement is None:
-        return told | {"kept": piece.kept}
+        return reported | {"kept": piece.kept}
     judgement = piece.judgement
     x, y, z = judgement.place
-    return told | {
+    return reported | {
         "proven_mm": judgement.bound,
         "curve_to_moves_found_mm": judgement.from_curve,
         "moves_to_curve_found_mm": judgement.from_points,
@@ -150,15 +156,15 @@ def _listed(piece: Piece) -> Json:
     }
 
 
-def _changed(done: Smoothed) -> list[Piece]:
+def _changed(done: SmoothedProgram) -> list[SmoothedStretch]:
     return [piece for piece in done.pieces if piece.judgement is not None]
 
 
-def _blocks(done: Smoothed) -> tuple[int, int]:
+def _blocks(done: SmoothedProgram) -> tuple[int, int]:
     return sum(piece.blocks[0] for piece in done.pieces), sum(piece.blocks[1] for piece in done.pieces)
 
 
-def _points(done: Smoothed) -> list[Json]:
+def _points(done: SmoothedProgram) -> list[Json]:
     """Return how many points of the stretches that changed are effective and corrected, of how many; nothing without
     method D.
     """
@@ -178,7 +184,7 @@ def _points(done: Smoothed) -> list[Json]:
     ]
 
 
-def _points_of(piece: Piece) -> Json:
+def _points_of(piece: SmoothedStretch) -> Json:
     """Return the ranges of a stretch, and what each of its points is to the curve."""
     if (classes := piece.classes) is None:
         return {}
@@ -194,7 +200,7 @@ def _points_of(piece: Piece) -> Json:
     }
 
 
-def _most(done: Smoothed, name: str) -> tuple[float, float]:
+def _most(done: SmoothedProgram, name: str) -> tuple[float, float]:
     """Return the largest value before and after, of the stretches that changed."""
     changed = _changed(done)
     before, after = ([getattr(getattr(piece, side), name) for piece in changed] for side in ("before", "after"))

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from ..core.errors import InputError
 from ..core.progress import NO_PROGRESS, Progress
 from ..gcode.interpreter.dialect import Dialect
-from ..gcode.interpreter.guess import guess_dialect
+from ..gcode.interpreter.dialect_guess import guess_dialect
 from ..gcode.interpreter.options import PATIENT, ReadOptions
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.interpreter.reader import read_program
 from ..gcode.posts.post import Post
 from ..gcode.posts.posts import load_post
-from ..gcode.rework.stretches import Stretch
+from ..gcode.rework.stretches import FeedStretch
 from ..gcode.translate.program import translated
 from ..model.motion import Floats
 
@@ -52,14 +52,14 @@ class SourceProgram:
     off: float
     rows: NDArray[np.int64]
 
-    def points(self, stretch: Stretch) -> Floats | None:
+    def points(self, stretch: FeedStretch) -> Floats | None:
         """Return the places of a stretch as the source has them; None where it has them not one by one."""
         rows = self.rows[stretch.first : stretch.stop]
         if np.any(rows < 0) or np.any(np.diff(rows) != 1):
             return None
         return np.vstack([self.source.motions.start[rows[:1]], self.source.motions.end[rows]])
 
-    def lines(self, stretch: Stretch) -> tuple[int, int]:
+    def lines(self, stretch: FeedStretch) -> tuple[int, int]:
         """Return first and last line of a stretch in the text that came in; in the new text where it is not there one
         by one.
         """
@@ -91,7 +91,7 @@ def read_source(
     read = ReadOptions(dialect, limits=PATIENT)
     source = read_program(data, read, progress.part(0.0, 0.3))
     if source.error is not None:
-        raise InputError(f"{source.error.told(name)} Mend it there; check tells more.")
+        raise InputError(f"{source.error.message(name)} Mend it there; check tells more.")
     if post.dialect is dialect:
         return SourceProgram(dialect, source, post, data, source, 0.0, np.arange(len(source.motions)))
     made = translated(name, data, read, post, progress.part(0.3, 1.0))

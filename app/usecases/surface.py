@@ -21,18 +21,18 @@ from ..geometry.buffer import buffered
 from ..model.finding import Finding
 from ..model.job import Job, OriginXY, OriginZ
 from ..model.part import Part
-from ..model.scene import Boundary, Centre, Passes, Scene
-from ..model.scene_curves import Sources
+from ..model.scene import Boundary, CentreLimit, Passes, Scene
+from ..model.scene_curves import SceneFiles
 from ..model.stock_box import StockBox
 from ..model.tool import Tool
-from ..operations.parallel.surface_moves import Milling, SurfaceMoves, surface_moves
+from ..operations.parallel.surface_moves import PassFamily, SurfaceMoves, surface_moves
 from ..surfaces.cutter_contact.scene_facets import SceneFacets, region_area, scene_facets
 from ..surfaces.passes.facet_crossings import facet_crossings
 from ..surfaces.passes.path import Follower, FollowOptions, Overrun, cutter_path
 from ..surfaces.passes.scallop import corner_radius, scallop_planes, stepover_for_scallop
-from ..surfaces.patches.build import Built, build, regions_of
-from ..surfaces.patches.facets import Facets, joined
-from ..surfaces.sections.compound import Compound, Planes
+from ..surfaces.patches.build import BuiltSurface, build, regions_of
+from ..surfaces.patches.facets import SurfaceFacets, joined
+from ..surfaces.sections.compound import CompoundSurface, CuttingPlanes
 from ..surfaces.sections.planes import even_planes, widened
 from ..surfaces.sections.section import compound_surface
 from .effort import scene_effort
@@ -43,7 +43,7 @@ FLOOR = "floor"
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class ComputedFamily:
     """One family of passes, computed.
 
     Attributes:
@@ -55,23 +55,23 @@ class Family:
 
     passes: Passes
     tool: Tool
-    surface: Compound
-    path: Compound
+    surface: CompoundSurface
+    path: CompoundSurface
     follower: Follower
     area: shapely.Geometry | None = None
 
     @property
-    def planes(self) -> Planes:
+    def planes(self) -> CuttingPlanes:
         """Its cutting planes."""
         return self.path.planes
 
-    def numbered(self, numbers: NDArray[np.int64]) -> Family:
+    def numbered(self, numbers: NDArray[np.int64]) -> ComputedFamily:
         """Return it with other numbers of surfaces: `numbers[k]` for k."""
         return replace(self, surface=self.surface.numbered(numbers), path=self.path.numbered(numbers))
 
 
 @dataclass(frozen=True, eq=False)
-class Computed:
+class ComputedScene:
     """A scene, computed.
 
     Attributes:
@@ -84,9 +84,9 @@ class Computed:
     """
 
     scene: Scene
-    built: tuple[Built, ...]
+    built: tuple[BuiltSurface, ...]
     facets: SceneFacets
-    families: tuple[Family, ...]
+    families: tuple[ComputedFamily, ...]
     moves: SurfaceMoves
     stock: StockBox
     origin: tuple[float, float, float]
@@ -99,7 +99,7 @@ class Computed:
         return (*(surface.name for surface in self.scene.surfaces), FLOOR)
 
 
-def read_and_compute(name: str, data: bytes, sources: Sources, progress: Progress = NO_PROGRESS) -> Computed:
+def read_and_compute(name: str, data: bytes, sources: SceneFiles, progress: Progress = NO_PROGRESS) -> ComputedScene:
     """Compute a scene file.
 
     Args:
@@ -112,7 +112,7 @@ def read_and_compute(name: str, data: bytes, sources: Sources, progress: Progres
     return compute(read_scene(name, data), sources, progress)
 
 
-def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) -> Computed:
+def compute(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS) -> ComputedScene:
     """Compute all passes of a scene that are switched on.
 
     Raises:
@@ -143,10 +143,12 @@ def compute(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) ->
     trimmed, uncut = (replace(each, owner=numbers[each.owner]) for each in (facets.facets, facets.uncut))
     own = SceneFacets(trimmed, uncut, {order[number]: area for number, area in facets.areas.items()})
     found += tuple(moves_findings(moves, stock, tools))
-    return Computed(scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid, found)
+    return ComputedScene(
+        scene, built, own, tuple(families), moves, stock, (origin[0], origin[1], origin[2]), grid, found
+    )
 
 
-def stock_of(scene: Scene, facets: Facets) -> StockBox:
+def stock_of(scene: Scene, facets: SurfaceFacets) -> StockBox:
     """Return the block: as the scene gives it, or the surfaces' extent and the margin round it."""
     if scene.stock.box:
         return StockBox(*scene.stock.box)
@@ -172,17 +174,17 @@ class _PlannedPasses:
     passes: Passes
     tool: Tool
     overrun: Overrun
-    planes: Planes
+    planes: CuttingPlanes
 
 
-def _plan(facets: Facets, passes: Passes, tool: Tool, stock: StockBox) -> _PlannedPasses:
+def _plan(facets: SurfaceFacets, passes: Passes, tool: Tool, stock: StockBox) -> _PlannedPasses:
     overrun = _overrun(passes, tool, stock)
     return _PlannedPasses(passes, tool, overrun, _planes(facets, passes, tool, overrun.far))
 
 
 def _family(
-    scene: Scene, facets: SceneFacets, plan: _PlannedPasses, rest: tuple[float, Sources], progress: Progress
-) -> Family:
+    scene: Scene, facets: SceneFacets, plan: _PlannedPasses, rest: tuple[float, SceneFiles], progress: Progress
+) -> ComputedFamily:
     """Compute one family of passes; `rest` is the grid, and what reads files."""
     grid, sources = rest
     passes, tool, overrun, planes = plan.passes, plan.tool, plan.overrun, plan.planes
@@ -198,10 +200,10 @@ def _family(
         name = passes.name or f"with T{tool.number}"
         raise GeometryError(f"passes {name} touch no surface; check their boundary and the surfaces' trims.")
     surface = compound_surface(facets.uncut, path.planes, passes.chord_tolerance, facets.areas, progress.part(0.7, 1.0))
-    return Family(passes, tool, surface, path, follower, area)
+    return ComputedFamily(passes, tool, surface, path, follower, area)
 
 
-def _planes(facets: Facets, passes: Passes, tool: Tool, far: float) -> Planes:
+def _planes(facets: SurfaceFacets, passes: Passes, tool: Tool, far: float) -> CuttingPlanes:
     """Return the planes of passes, those within `far` mm beside the surfaces among them."""
     places = facets.triangles[:, :, :2].reshape(-1, 2)
     if passes.pitch is not None:
@@ -236,32 +238,32 @@ def _tool(scene: Scene, passes: Passes) -> Tool:
     return replace(tool, **own)
 
 
-def _with_floor(facets: Facets, floor: float, number: int, far: float) -> Facets:
+def _with_floor(facets: SurfaceFacets, floor: float, number: int, far: float) -> SurfaceFacets:
     """Return facets with a level one below everything, as wide as a tool's centre comes."""
     places = facets.triangles[:, :, :2]
     (x0, y0), (x1, y1) = (places.min(axis=(0, 1)) - far).tolist(), (places.max(axis=(0, 1)) + far).tolist()
     if not math.isfinite(floor):
         raise ParameterError("The floor is no number; give a height in mm.")
     a, b, c, d = ([x, y, floor] for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
-    return joined([facets, Facets.of_mesh(np.array([[a, b, c], [a, c, d]]), number)])
+    return joined([facets, SurfaceFacets.of_mesh(np.array([[a, b, c], [a, c, d]]), number)])
 
 
-def _area(boundaries: Sequence[Boundary], tool: Tool, sources: Sources) -> shapely.Geometry | None:
+def _area(boundaries: Sequence[Boundary], tool: Tool, sources: SceneFiles) -> shapely.Geometry | None:
     """Return where the cutter's centre may be."""
     if not boundaries:
         return None
     parts = []
     for boundary in boundaries:
         area = region_area(regions_of(boundary, sources))
-        parts.append(buffered(area, -tool.radius, 64) if boundary.centre is Centre.INSIDE else area)
+        parts.append(buffered(area, -tool.radius, 64) if boundary.centre is CentreLimit.INSIDE else area)
     return shapely.union_all(parts)
 
 
-def _milling(family: Family) -> Milling:
+def _milling(family: ComputedFamily) -> PassFamily:
     passes, offsets = family.passes, family.planes.offsets
     widest = max(np.diff(offsets).max() if len(offsets) > 1 else 0.0, 0.0)
     gap = passes.link_gap if passes.link_gap is not None else max(1.5 * float(widest), family.tool.diameter)
-    return Milling(family.path, family.follower, family.tool, passes.strategy, gap)
+    return PassFamily(family.path, family.follower, family.tool, passes.strategy, gap)
 
 
 def job_of(scene: Scene, tools: Mapping[int, Tool] | None = None) -> Job:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..core.progress import NO_PROGRESS, Progress
-from ..model.scene_curves import Sources
+from ..model.scene_curves import SceneFiles
 from .cut import CutOptions, cut
 from .cut_report import cut_report
 from .examine import ExamineOptions, examine
@@ -26,7 +26,7 @@ Json = dict[str, Any]
 Texts = tuple[tuple[str, bytes], ...]
 
 
-def closed_loop(written: WrittenScene, sources: Sources, tolerance: float, progress: Progress = NO_PROGRESS) -> Json:
+def closed_loop(written: WrittenScene, sources: SceneFiles, tolerance: float, progress: Progress = NO_PROGRESS) -> Json:
     """Return what the cut of a scene's program leaves of its surfaces, what smoothing makes of it, and what the cut of
     that leaves.
 
@@ -60,7 +60,7 @@ def closed_loop(written: WrittenScene, sources: Sources, tolerance: float, progr
     }
 
 
-def _cut(written: WrittenScene, sources: Sources, texts: Texts, progress: Progress) -> Json:
+def _cut(written: WrittenScene, sources: SceneFiles, texts: Texts, progress: Progress) -> Json:
     """Return what programs leave of the stock, beside the scene's surfaces."""
     dialect = written.post.dialect
     ready = setup_of(tuple(examine(*text, ExamineOptions(dialect), progress.part(0.0, 0.3)) for text in texts))

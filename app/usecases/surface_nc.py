@@ -28,10 +28,10 @@ from ..model.motion_path import anchored
 from ..model.tool import Tool
 from ..surfaces.passes.path import ALLOWED
 from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind
+from .family_requests import closest_passes, left_in
 from .scene_left import SceneLeft, left_findings
 from .scene_load import SceneBlank, SceneCut, scene_cut
-from .scene_wishes import closest_passes, left_in
-from .surface import Computed, Family, job_of
+from .surface import ComputedFamily, ComputedScene, job_of
 
 Floats = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ class WrittenScene:
         left: what they leave of what they reach.
     """
 
-    computed: Computed
+    computed: ComputedScene
     post: Post
     files: tuple[NcFile, ...]
     programs: tuple[NcProgram, ...]
@@ -88,7 +88,7 @@ class WrittenScene:
             yield from left_findings(self.left, np.array(self.computed.origin), angles)
 
 
-def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> WrittenScene:
+def write_scene_nc(computed: ComputedScene, progress: Progress = NO_PROGRESS) -> WrittenScene:
     """Write a computed scene, read it back, and prove it.
 
     Raises:
@@ -116,11 +116,13 @@ def write_scene_nc(computed: Computed, progress: Progress = NO_PROGRESS) -> Writ
         unproven.append(_unproven(computed, file, motions, share.part(0.3, 1.0)))
         programs.append(program)
     done = _cut(computed, files, programs, progress.part(0.9, 0.97))
-    left = left_in(computed, done.metal, progress.part(0.97, 1.0))
+    left = left_in(computed, done.workpiece, progress.part(0.97, 1.0))
     return WrittenScene(computed, post, files, tuple(programs), np.concatenate(unproven), done.findings, left)
 
 
-def _cut(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgram], progress: Progress) -> SceneCut:
+def _cut(
+    computed: ComputedScene, files: Sequence[NcFile], programs: Sequence[NcProgram], progress: Progress
+) -> SceneCut:
     """Cut the program out of the stock; a file that names no tool has the one of its first move."""
     tools = {family.tool.number: family.tool for family in computed.families}
     numbers = computed.moves.moves.tool
@@ -131,7 +133,7 @@ def _cut(computed: Computed, files: Sequence[NcFile], programs: Sequence[NcProgr
     )
 
 
-def _require_same(computed: Computed, file: NcFile, motions: Motions) -> None:
+def _require_same(computed: ComputedScene, file: NcFile, motions: Motions) -> None:
     """Refuse a text whose motions do not end where the moves do that it was written for."""
     lines = file.nc.lines
     last = np.append(lines[1:] != lines[:-1], True)
@@ -142,7 +144,7 @@ def _require_same(computed: Computed, file: NcFile, motions: Motions) -> None:
         raise GeometryError(f"what was written is {off:.5f} mm from the path; please report this with the scene.")
 
 
-def _unproven(computed: Computed, file: NcFile, motions: Motions, progress: Progress) -> Floats:
+def _unproven(computed: ComputedScene, file: NcFile, motions: Motions, progress: Progress) -> Floats:
     """Return the ends of motions that cannot be proven."""
     origin = np.array(computed.origin)
     chords = np.concatenate([motions.start + origin, motions.end + origin], axis=1)
@@ -162,7 +164,7 @@ def _unproven(computed: Computed, file: NcFile, motions: Motions, progress: Prog
     return np.concatenate(found)
 
 
-def _remarks(computed: Computed, post: Post) -> Remarks:
+def _remarks(computed: ComputedScene, post: Post) -> Remarks:
     """Return what the program says: what it mills, and before each part of a pass on which surface it is."""
 
     def operation(number: int) -> str:
@@ -171,7 +173,7 @@ def _remarks(computed: Computed, post: Post) -> Remarks:
     return Remarks(tuple(_head(computed, post)), tuple(_notes(computed)), operation, _provenance(computed))
 
 
-def pass_words(family: Family) -> str:
+def pass_words(family: ComputedFamily) -> str:
     """Return a family of passes in words."""
     passes, count = family.passes, len(family.planes.offsets)
     apart = f"pitch {passes.pitch:g} mm" if passes.pitch is not None else f"scallop {passes.scallop:g} mm"
@@ -182,7 +184,7 @@ def pass_words(family: Family) -> str:
     )
 
 
-def _head(computed: Computed, post: Post) -> list[str]:
+def _head(computed: ComputedScene, post: Post) -> list[str]:
     scene, box = computed.scene, computed.stock
     units = scene.out_units
     origin = ", ".join(f"{axis} {value:.4f}" for axis, value in zip("XYZ", computed.origin, strict=True))
@@ -204,7 +206,7 @@ def _head(computed: Computed, post: Post) -> list[str]:
     ]
 
 
-def _notes(computed: Computed) -> list[str]:
+def _notes(computed: ComputedScene) -> list[str]:
     """Return the comments that `hitofude cut` reads."""
     scene, box = computed.scene, computed.stock
     tools = {family.tool.number: family.tool for family in computed.families}
@@ -225,7 +227,7 @@ def _notes(computed: Computed) -> list[str]:
     return [f"hitofude: {note}" for note in notes]
 
 
-def _provenance(computed: Computed) -> dict[int, tuple[str, ...]]:
+def _provenance(computed: ComputedScene) -> dict[int, tuple[str, ...]]:
     """Return the comments before moves: on which surface the cutter comes to be, and at which boundary point."""
     found: dict[int, tuple[str, ...]] = {}
     surface = computed.moves.surface
@@ -247,7 +249,7 @@ def _provenance(computed: Computed) -> dict[int, tuple[str, ...]]:
     return found
 
 
-def _marks(computed: Computed) -> dict[tuple[object, ...], str]:
+def _marks(computed: ComputedScene) -> dict[tuple[object, ...], str]:
     """Return boundary points in words, by family and place."""
     found: dict[tuple[object, ...], str] = {}
     for number, family in enumerate(computed.families):

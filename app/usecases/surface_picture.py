@@ -14,8 +14,8 @@ from ..model.tool import Tool
 from ..surfaces.cutter_contact.drop_cutter import shape_of
 from ..surfaces.cutter_contact.scene_facets import scene_facets
 from ..surfaces.sections.compound import BoundaryKind
-from .strands import BoundaryPoint, Role, Strand
-from .surface import Computed
+from .scene_lines import BoundaryPoint, LineRole, SceneLines
+from .surface import ComputedScene
 from .surface_plot import boundary_name
 
 Floats = NDArray[np.float64]
@@ -27,16 +27,16 @@ quickly.
 _COARSER = 4.0
 
 
-_ROLES = {Purpose.CONTOUR: Role.PATH, Purpose.LINK: Role.LINK, Purpose.PLUNGE: Role.PLUNGE}
+_ROLES = {Purpose.CONTOUR: LineRole.PATH, Purpose.LINK: LineRole.LINK, Purpose.PLUNGE: LineRole.PLUNGE}
 
 
-def move_strands(computed: Computed) -> Iterator[Strand]:
+def move_lines(computed: ComputedScene) -> Iterator[SceneLines]:
     """Yield all moves but the first, since nobody knows where the tool stands before it: by role, surface and tool."""
     moves, surface = computed.moves.moves, computed.moves.surface
     start, end = moves.start, moves.end
-    role = np.array([list(Role).index(_ROLES.get(Purpose(value), Role.RAPID)) for value in range(len(Purpose))])[
-        moves.purpose
-    ]
+    role = np.array(
+        [list(LineRole).index(_ROLES.get(Purpose(value), LineRole.RAPID)) for value in range(len(Purpose))]
+    )[moves.purpose]
     keys = np.stack([role, surface, moves.tool.astype(np.int64)], axis=1)
     known = np.isfinite(start).all(axis=1) & np.isfinite(end).all(axis=1)
     for key in sorted(set(map(tuple, keys[known].tolist()))):
@@ -46,10 +46,10 @@ def move_strands(computed: Computed) -> Iterator[Strand]:
         points, joined = np.empty((len(rows) + int(first.sum()), 3)), np.zeros(len(rows) + int(first.sum()), np.bool_)
         points[at], points[at[first] - 1] = end[rows], start[rows[first]]
         joined[at - 1] = True
-        yield Strand(list(Role)[key[0]], points, joined, key[1], key[2])
+        yield SceneLines(list(LineRole)[key[0]], points, joined, key[1], key[2])
 
 
-def boundary_points(computed: Computed) -> tuple[BoundaryPoint, ...]:
+def boundary_points(computed: ComputedScene) -> tuple[BoundaryPoint, ...]:
     """Return the boundary points of the compound surface, family by family, as its sections mark them."""
     rows, first = [], 0
     for family in computed.families:
@@ -84,7 +84,7 @@ def outline(tool: Tool) -> Floats:
     return np.array(rows)
 
 
-def looked_at(computed: Computed) -> tuple[Floats, Ints]:
+def looked_at(computed: ComputedScene) -> tuple[Floats, Ints]:
     """Return triangles (n, 3, 3), mm, of the surfaces that are shown, and whose each is, (n,)."""
     built = [replace(each, surface=replace(each.surface, enabled=each.surface.visible)) for each in computed.built]
     if not any(each.surface.visible for each in built):

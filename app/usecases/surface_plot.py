@@ -19,13 +19,13 @@ from ..formats.plot.surface_plot import VIEWS, BySurface, PlotColouring, Plotted
 from ..model.moves import Purpose
 from ..model.scene import Passes
 from ..model.tool import Tool
-from ..surfaces.sections.compound import NO_SURFACE, Boundaries, BoundaryKind
-from .surface import Computed, Family
+from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind, BoundaryPoints
+from .surface import ComputedFamily, ComputedScene
 
 FORMATS = (".svg", ".pdf", ".png", ".hpgl", ".plt")
 
 
-class Drawn(Enum):
+class PlottedPart(Enum):
     """What of a scene is drawn."""
 
     PATHS = "paths"
@@ -46,14 +46,16 @@ class PlotScene:
 
     view: Projection = VIEWS["isometric"]
     look: PlotColouring = PlotColouring.COLOURS
-    drawn: Drawn = Drawn.PATHS
+    drawn: PlottedPart = PlottedPart.PATHS
     marks: bool = True
     labels: bool = True
     legend: bool = True
     layout: PlotOptions = field(default_factory=PlotOptions)
 
 
-def plot_surface(computed: Computed, suffix: str, what: PlotScene = PlotScene(), date: str = "") -> tuple[bytes, ...]:
+def plot_surface(
+    computed: ComputedScene, suffix: str, what: PlotScene = PlotScene(), date: str = ""
+) -> tuple[bytes, ...]:
     """Return a plot as a file's bytes: one of FORMATS; of SVG and PNG one a sheet, otherwise one for all.
 
     Args:
@@ -76,19 +78,19 @@ def plot_surface(computed: Computed, suffix: str, what: PlotScene = PlotScene(),
     return (pages_pdf(pages, shown.title) if suffix == ".pdf" else hpgl_bytes(pages),)
 
 
-def by_surface(computed: Computed, what: PlotScene = PlotScene()) -> BySurface:
+def by_surface(computed: ComputedScene, what: PlotScene = PlotScene()) -> BySurface:
     """Return what is drawn of a computed scene, for `lay_out`."""
     tools = list({family.tool.number: family.tool for family in computed.families}.values())
     number = {tool.number: at for at, tool in enumerate(tools)}
     pieces: list[RunPiece] = []
     marks: list[tuple[NDArray[np.float64], str]] = []
-    if what.drawn is not Drawn.PATHS:
+    if what.drawn is not PlottedPart.PATHS:
         for family in computed.families:
             pieces += _surface_pieces(family, number[family.tool.number])
             marks += _boundary_marks(family.surface.boundaries)
-    if what.drawn is not Drawn.SURFACE:
+    if what.drawn is not PlottedPart.SURFACE:
         pieces += _path_pieces(computed, number)
-        if what.drawn is Drawn.PATHS:
+        if what.drawn is PlottedPart.PATHS:
             marks = [mark for family in computed.families for mark in _boundary_marks(family.path.boundaries)]
     surfaces = [
         *(PlottedKind(surface.name, surface.colour, surface.line) for surface in computed.scene.surfaces),
@@ -109,13 +111,13 @@ def by_surface(computed: Computed, what: PlotScene = PlotScene()) -> BySurface:
     )
 
 
-def _surface_pieces(family: Family, tool: int) -> Iterator[RunPiece]:
+def _surface_pieces(family: ComputedFamily, tool: int) -> Iterator[RunPiece]:
     for run in family.surface.runs:
         for first, last in _stretches(run.owner):
             yield RunPiece(int(run.owner[first]), tool, run.points[first : last + 1], fine=True)
 
 
-def _path_pieces(computed: Computed, tools: dict[int, int]) -> Iterator[RunPiece]:
+def _path_pieces(computed: ComputedScene, tools: dict[int, int]) -> Iterator[RunPiece]:
     """Yield what the cutters follow on the surfaces, in the order of the moves."""
     moves, start = computed.moves.moves, computed.moves.moves.start
     on = np.where(moves.purpose == Purpose.CONTOUR, computed.moves.surface, NO_SURFACE)
@@ -135,7 +137,7 @@ def _stretches(keys: NDArray[np.int64]) -> Iterator[tuple[int, int]]:
     yield from pairwise([0, *at.tolist(), len(rows)])
 
 
-def _boundary_marks(found: Boundaries) -> Iterator[tuple[NDArray[np.float64], str]]:
+def _boundary_marks(found: BoundaryPoints) -> Iterator[tuple[NDArray[np.float64], str]]:
     """Yield place and name of the boundary points between two surfaces; of a jump also its other height."""
     numbers = (found.before.tolist(), found.after.tolist(), found.kind.tolist())
     for i, j, kind, place, end in zip(*numbers, found.place, found.end, strict=True):

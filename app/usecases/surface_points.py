@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..surfaces.sections.compound import NO_SURFACE, Boundaries, BoundaryKind, Compound, Run
-from .surface import Computed
+from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind, BoundaryPoints, CompoundSurface, SectionRun
+from .surface import ComputedScene
 
 COLUMNS = (
     "kind",
@@ -39,13 +39,13 @@ COLUMNS = (
 _NONE = ",,,,,,,"
 
 
-def scene_points_csv(computed: Computed) -> bytes:
+def scene_points_csv(computed: ComputedScene) -> bytes:
     """Return the compound surfaces of all families of passes, one after another under one header."""
     rows = (row for family in computed.families for row in _rows(family.surface, computed.names, family.tool.number))
     return _text(rows)
 
 
-def points_csv(compound: Compound, names: Sequence[str], tool: int | None = None) -> bytes:
+def points_csv(compound: CompoundSurface, names: Sequence[str], tool: int | None = None) -> bytes:
     """Return a compound surface as a table: a row a point in the order of generation, then a row a boundary point.
 
     Args:
@@ -61,7 +61,7 @@ def _text(rows: Iterator[str]) -> bytes:
     return "\r\n".join([",".join(COLUMNS), *rows, ""]).encode()
 
 
-def _rows(compound: Compound, names: Sequence[str], tool: int | None) -> Iterator[str]:
+def _rows(compound: CompoundSurface, names: Sequence[str], tool: int | None) -> Iterator[str]:
     known = [_quoted(name) for name in names]
     head = "" if tool is None else str(tool)
     parameters = _Parameters(compound)
@@ -72,14 +72,14 @@ def _rows(compound: Compound, names: Sequence[str], tool: int | None) -> Iterato
     yield from _boundaries(compound.boundaries, head, known)
 
 
-def _points(run: Run, head: str, names: Sequence[str], parameters: _Parameters) -> Iterator[str]:
+def _points(run: SectionRun, head: str, names: Sequence[str], parameters: _Parameters) -> Iterator[str]:
     owner = np.append(run.owner, run.owner[-1])
     at = parameters.of(run, owner)
     for number, (surface, (x, y, z), (u, v)) in enumerate(zip(owner.tolist(), run.points.tolist(), at, strict=True), 1):
         yield f"{head},{number},{surface + 1},{names[surface]},{x!r},{y!r},{z!r},{u},{v}{_NONE}"
 
 
-def _boundaries(found: Boundaries, head: str, names: Sequence[str]) -> Iterator[str]:
+def _boundaries(found: BoundaryPoints, head: str, names: Sequence[str]) -> Iterator[str]:
     columns = (
         found.plane,
         found.before,
@@ -104,7 +104,7 @@ def _boundaries(found: Boundaries, head: str, names: Sequence[str]) -> Iterator[
 class _Parameters:
     """u, v of a compound surface's points: those of the surfaces' own section curves at the same places."""
 
-    def __init__(self, compound: Compound) -> None:
+    def __init__(self, compound: CompoundSurface) -> None:
         self._by_curve: dict[tuple[int, int], dict[tuple[float, ...], tuple[str, str]]] = {}
         for curve in compound.curves:
             places = self._by_curve.setdefault((curve.plane, curve.owner), {})
@@ -120,7 +120,7 @@ class _Parameters:
             ):
                 self._by_curve.setdefault((plane, owner), {}).setdefault(tuple(point), (_known(u), _known(v)))
 
-    def of(self, run: Run, owner: NDArray[np.int64]) -> list[tuple[str, str]]:
+    def of(self, run: SectionRun, owner: NDArray[np.int64]) -> list[tuple[str, str]]:
         """Return u and v of a run's points as texts, empty where they are not known."""
         nothing: dict[tuple[float, ...], tuple[str, str]] = {}
         return [

@@ -17,8 +17,8 @@ from ..model.finding import Finding
 from ..model.motion import MotionKind
 from ..model.moves import Purpose
 from ..surfaces.passes.path import ALLOWED
-from ..surfaces.sections.compound import NO_SURFACE, Boundaries, BoundaryKind, Compound
-from .surface import Computed, Family
+from ..surfaces.sections.compound import NO_SURFACE, BoundaryKind, BoundaryPoints, CompoundSurface
+from .surface import ComputedFamily, ComputedScene
 from .surface_nc import WrittenScene
 
 ENGINE = "cutters over rational Bezier patches and triangles, exact where they touch; every chord proven"
@@ -58,7 +58,7 @@ class SurfaceReport:
         return "\n".join(_summary(self.data))
 
 
-def surface_report(computed: Computed, written: WrittenScene | None = None) -> SurfaceReport:
+def surface_report(computed: ComputedScene, written: WrittenScene | None = None) -> SurfaceReport:
     """Return the report of a computed scene, and of its program if one was written."""
     findings = written.findings() if written is not None else computed.findings
     data = {
@@ -131,7 +131,7 @@ def _left(written: WrittenScene) -> Json | None:
     if left is None:
         return None
     x, y, _ = written.computed.origin
-    told: Json = {
+    reported: Json = {
         "reachable_mm2": left.area_mm2,
         "places": left.places,
         "worst_mm": left.worst_mm,
@@ -144,14 +144,14 @@ def _left(written: WrittenScene) -> Json | None:
         "method": LEFT_METHOD,
     }
     if (ridge := left.ridge) is not None:
-        told["ridge"] = {
+        reported["ridge"] = {
             "max_mm": ridge.height_mm,
             "x": ridge.x + x,
             "y": ridge.y + y,
             "slope_deg": ridge.slope_deg,
             "level_mm": ridge.level_mm,
         }
-    return told
+    return reported
 
 
 def _low_rapids(written: WrittenScene) -> Iterator[Json]:
@@ -174,14 +174,14 @@ def _low_rapids(written: WrittenScene) -> Iterator[Json]:
             yield {"x": x, "y": y, "z": z, "line": int(motions.line[row])}
 
 
-def _lengths(computed: Computed) -> dict[str, float]:
+def _lengths(computed: ComputedScene) -> dict[str, float]:
     """Return the lengths of moves by what they are for, mm."""
     moves = computed.moves.moves
     length = np.append(0.0, np.linalg.norm(np.diff(moves.end, axis=0), axis=1))[: len(moves)]
     return {name: float(length[moves.purpose == purpose].sum()) for name, purpose in _LENGTHS.items()}
 
 
-def _surfaces(computed: Computed) -> Iterator[Json]:
+def _surfaces(computed: ComputedScene) -> Iterator[Json]:
     """Yield what there is to say of each surface."""
     moves, on = computed.moves.moves, computed.moves.surface
     length = np.append(0.0, np.linalg.norm(np.diff(moves.end, axis=0), axis=1))[: len(moves)]
@@ -198,7 +198,7 @@ def _surfaces(computed: Computed) -> Iterator[Json]:
         }
 
 
-def _passes(computed: Computed, family: Family) -> Json:
+def _passes(computed: ComputedScene, family: ComputedFamily) -> Json:
     passes, tool = family.passes, family.tool
     return {
         "name": passes.name,
@@ -217,7 +217,7 @@ def _passes(computed: Computed, family: Family) -> Json:
     }
 
 
-def _compound(computed: Computed, compound: Compound) -> Json:
+def _compound(computed: ComputedScene, compound: CompoundSurface) -> Json:
     marks = compound.boundaries
     kinds = {kind.name.lower(): int(np.sum(marks.kind == kind)) for kind in BoundaryKind}
     return {
@@ -228,7 +228,7 @@ def _compound(computed: Computed, compound: Compound) -> Json:
     }
 
 
-def boundary_rows(computed: Computed, marks: Boundaries) -> Iterator[Json]:
+def boundary_rows(computed: ComputedScene, marks: BoundaryPoints) -> Iterator[Json]:
     """Yield boundary points as plain values; surfaces count from 1, parameters are None where there are none."""
     names = (*computed.names, None)
 

@@ -18,7 +18,7 @@ Ints = NDArray[np.int32]
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class TimelinePlace:
     """A place on the way.
 
     Attributes:
@@ -30,7 +30,7 @@ class Moment:
 
 
 @dataclass(frozen=True, eq=False)
-class Sampled:
+class TimelineColumns:
     """A timeline in columns, as it is plotted.
 
     Attributes:
@@ -100,11 +100,11 @@ class Timeline:
         return len(self.ends)
 
     @property
-    def last(self) -> Moment:
+    def last(self) -> TimelinePlace:
         """When all motions are done."""
-        return Moment(len(self))
+        return TimelinePlace(len(self))
 
-    def at(self, time: float) -> Moment:
+    def at(self, time: float) -> TimelinePlace:
         """Return the moment at a time, s; while the control waits nothing changes. Within a motion time and way go
         alike.
         """
@@ -112,7 +112,7 @@ class Timeline:
         if motion >= len(self):
             return self.last
         begin, end = float(self.begins[motion]), float(self.ends[motion])
-        return Moment(motion, max(time - begin, 0.0) / (end - begin) if end > begin else 0.0)
+        return TimelinePlace(motion, max(time - begin, 0.0) / (end - begin) if end > begin else 0.0)
 
     def wait_at(self, time: float) -> float:
         """Return how long the control waits in all where it waits at a time, s; 0 where it moves."""
@@ -121,7 +121,7 @@ class Timeline:
         end = float(self.begins[row]) if row < len(self) else self.total
         return end - begin if begin <= time < end else 0.0
 
-    def at_share(self, share: float) -> Moment:
+    def at_share(self, share: float) -> TimelinePlace:
         """Return the moment when a share of the time is gone in which anything moves."""
         moving = self._moving
         if not len(moving) or share >= 1.0:
@@ -131,21 +131,21 @@ class Timeline:
         if row >= len(self):
             return self.last
         own = float(self.ends[row] - self.begins[row])
-        return Moment(row, max(gone - (float(moving[row]) - own), 0.0) / own if own > 0 else 0.0)
+        return TimelinePlace(row, max(gone - (float(moving[row]) - own), 0.0) / own if own > 0 else 0.0)
 
-    def time(self, moment: Moment) -> float:
+    def time(self, moment: TimelinePlace) -> float:
         """Return when a moment is, s: with no motion begun as soon as the one before has ended."""
         if moment.fraction > 0 and moment.motion < len(self):
             begin, end = self.begins[moment.motion], self.ends[moment.motion]
             return float(begin + (end - begin) * moment.fraction)
         return float(self.ends[min(moment.motion, len(self)) - 1]) if moment.motion > 0 and len(self) else 0.0
 
-    def place(self, moment: Moment) -> Floats | None:
+    def place(self, moment: TimelinePlace) -> Floats | None:
         """Return (3,) where the tip is, mm; None where there is no motion, or the place is not known."""
         if not len(self):
             return None
         row, fraction = (moment.motion, moment.fraction) if moment.fraction > 0 else (max(moment.motion - 1, 0), 1.0)
-        if moment == Moment(0):
+        if moment == TimelinePlace(0):
             fraction = 0.0
         motions, own = self.own(row)
         if self.nowhere[row] or (fraction < 1 and own > 0 and self.nowhere[row - 1]):
@@ -163,7 +163,7 @@ class Timeline:
         program, own = self.program_of(row)
         return self.programs[program], own
 
-    def current(self, moment: Moment) -> int:
+    def current(self, moment: TimelinePlace) -> int:
         """Return the row of the motion that is being done, or was done last; the first one at the start."""
         return min(moment.motion if moment.fraction > 0 else max(moment.motion - 1, 0), max(len(self) - 1, 0))
 
@@ -190,16 +190,16 @@ class Timeline:
         """(n,) mm³ taken behind each motion."""
         return np.cumsum(self.volume) if len(self.volume) else np.zeros(len(self))
 
-    def removed_at(self, moment: Moment) -> float:
+    def removed_at(self, moment: TimelinePlace) -> float:
         """Return the metal taken so far, mm³; within a motion it goes with the way."""
         done = float(self.removed[moment.motion - 1]) if moment.motion > 0 and len(self) else 0.0
         more = float(self.volume[moment.motion]) * moment.fraction if moment.fraction > 0 and len(self.volume) else 0.0
         return done + more
 
-    def sampled(self, columns: int) -> Sampled:
+    def sampled(self, columns: int) -> TimelineColumns:
         """Return what is plotted along time, evenly in some columns, >= 1."""
         if not len(self) or self.total <= 0:
-            return Sampled(np.zeros(columns), np.zeros(columns), np.zeros(columns + 1))
+            return TimelineColumns(np.zeros(columns), np.zeros(columns), np.zeros(columns + 1))
         borders = np.linspace(0.0, self.total, columns + 1)
         knots = np.column_stack([self.begins, self.ends]).ravel()
         removed, gone = (
@@ -215,7 +215,7 @@ class Timeline:
         )
         np.maximum.at(most, first, section)
         np.maximum.at(most, last, section)
-        return Sampled(mean, np.maximum(most, mean), removed)
+        return TimelineColumns(mean, np.maximum(most, mean), removed)
 
     @property
     def _volume(self) -> Floats:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..formats.machine_toml import DEFAULT_MACHINE, load_machine
-from ..gcode.checks.check import Check, Meant, check
+from ..gcode.checks.check import Check, CheckReference, check
 from ..gcode.interpreter.program import NcProgram
 from ..gcode.posts.post import Post
 from ..gcode.timing.duration import Duration, duration
@@ -146,7 +146,7 @@ def write_and_check(
     for k, file in enumerate(files):
         share = progress.part(0.6 + 0.4 * k / len(files), 0.6 + 0.4 * (k + 1) / len(files))
         share.step(0.0, "Reading the program back")
-        checks.append(check(file.nc.text.encode(), file, Meant(program, job, post), share))
+        checks.append(check(file.nc.text.encode(), file, CheckReference(program, job, post), share))
         checks[-1].require(f"{post.title} program{_in_file(file)}")
     return WrittenProgram(post, files, tuple(checks), machine)
 

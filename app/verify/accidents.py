@@ -15,15 +15,15 @@ from ..model.finding import Finding, FindingKind
 from ..model.motion import MotionKind, Motions
 from ..model.motion_path import reach
 from ..model.tool import Tool
-from ..simulation.bodies.holder import Part
+from ..simulation.bodies.holder import HolderPart
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
-from ..simulation.sweeps.trim import Cut, RapidHit
-from .closer import Metal, Way
+from ..simulation.sweeps.trim import CutResult, RapidHit
 from .course import KnownCourse
 from .fast_plunges import fast_plunges
-from .holder_contacts import Contact, HolderLook, holder_contacts
-from .narrow_rapids import Looked, narrow_rapids
+from .fine_stock import CutterTravel, FineStock
+from .holder_contacts import HolderContact, HolderReport, holder_contacts
+from .narrow_rapids import NarrowRapids, narrow_rapids
 from .plunges import plunges
 
 NAMED = 50
@@ -34,7 +34,7 @@ ALMOST = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Stage:
+class ProgramStage:
     """One program of a setup: what it is cut along, out of what, with what, and what it leaves.
 
     Attributes:
@@ -46,8 +46,8 @@ class Stage:
 
     known: KnownCourse
     before: Workpiece
-    cut: Cut
-    metal: Metal
+    cut: CutResult
+    metal: FineStock
     tools: Mapping[int, Tool]
     where: Callable[[int], str]
     plunge_rates: Mapping[int, float]
@@ -68,7 +68,7 @@ class Stage:
         """No metal is higher before the program, mm."""
         return float(self.before.heights.max())
 
-    def told(self, kind: FindingKind, text: str, row: int, place: tuple[float, float], amount: float) -> Finding:
+    def finding(self, kind: FindingKind, text: str, row: int, place: tuple[float, float], amount: float) -> Finding:
         """Return an accident of a motion."""
         x, y = place
         return Finding(kind, text, x, y, amount=amount, line=int(self.motions.line[row]))
@@ -86,10 +86,10 @@ class Accidents:
 
     findings: tuple[Finding, ...]
     rapids: tuple[RapidHit, ...]
-    holders: HolderLook
+    holders: HolderReport
 
 
-def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
+def accidents(stage: ProgramStage, progress: Progress = NO_PROGRESS) -> Accidents:
     """Return what goes wrong while a program is cut.
 
     Raises:
@@ -110,24 +110,24 @@ def accidents(stage: Stage, progress: Progress = NO_PROGRESS) -> Accidents:
     return Accidents(findings, looked.rapids, holders)
 
 
-def _start(stage: Stage) -> Iterator[Finding]:
+def _start(stage: ProgramStage) -> Iterator[Finding]:
     """Yield that the program begins with the tool in the metal."""
     first, course = stage.known.first, stage.known.course
     cutter = stage.cutters.get(int(course.tool[first])) if first < len(stage.motions) else None
     if cutter is None:
         return
     places = stage.motions.start if stage.known.begins else stage.motions.end
-    hit = stage.metal.met(Way(first, places[first : first + 1], cutter), stage.top, stage.before.grid.pitch)
+    hit = stage.metal.met(CutterTravel(first, places[first : first + 1], cutter), stage.top, stage.before.grid.pitch)
     if hit is not None:
         x, y, z = places[first].tolist()
         text = (
             f"The first place that the program names, X {x:.3f} Y {y:.3f} Z {z:.3f} in {stage.where(first)}, is "
             f"{hit.depth:.3f} mm deep in the stock; go above the stock first (G0 Z...), or tell the stock as it is."
         )
-        yield stage.told(FindingKind.START_IN_STOCK, text, first, (x, y), hit.depth)
+        yield stage.finding(FindingKind.START_IN_STOCK, text, first, (x, y), hit.depth)
 
 
-def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
+def _rapids(stage: ProgramStage, looked: NarrowRapids) -> Iterator[Finding]:
     """Yield the rapids that go through metal, the first ones one by one."""
     hits = looked.rapids
     for hit in hits[:NAMED]:
@@ -135,7 +135,7 @@ def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
             f"A rapid goes through metal, {hit.depth:.3f} mm deep at ({hit.x:.3f}, {hit.y:.3f}, {hit.z:.3f}), "
             f"{stage.where(hit.motion)}; do not run this program."
         )
-        yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, hit.motion, (hit.x, hit.y), hit.depth)
+        yield stage.finding(FindingKind.RAPID_IN_MATERIAL, text, hit.motion, (hit.x, hit.y), hit.depth)
     if len(hits) > NAMED:
         yield Finding(
             FindingKind.RAPID_IN_MATERIAL,
@@ -145,7 +145,7 @@ def _rapids(stage: Stage, looked: Looked) -> Iterator[Finding]:
     yield from _unseen(stage, looked.unseen, "rapids")
 
 
-def _unseen(stage: Stage, count: int, what: str) -> Iterator[Finding]:
+def _unseen(stage: ProgramStage, count: int, what: str) -> Iterator[Finding]:
     """Yield a remark where there was too much to look at between the cells."""
     if count:
         text = (
@@ -155,7 +155,7 @@ def _unseen(stage: Stage, count: int, what: str) -> Iterator[Finding]:
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(count))
 
 
-def _sideways_out(stage: Stage) -> Iterator[Finding]:
+def _sideways_out(stage: ProgramStage) -> Iterator[Finding]:
     """Yield the rapids that set out for a place of the machine beside while metal stands higher than the tool."""
     motions, nowhere = stage.motions, stage.known.nowhere
     known_before = np.concatenate([[False], ~nowhere[:-1].any(axis=1)])
@@ -170,10 +170,10 @@ def _sideways_out(stage: Stage) -> Iterator[Finding]:
                 f"nobody knows, and the metal there stands {depth:.3f} mm higher than the tool; lift it first, such "
                 "as by G53 G0 Z0."
             )
-            yield stage.told(FindingKind.RAPID_IN_MATERIAL, text, row, (x, y), depth)
+            yield stage.finding(FindingKind.RAPID_IN_MATERIAL, text, row, (x, y), depth)
 
 
-def _beside(stage: Stage, row: int, place: np.ndarray, cutter: Cutter) -> float:
+def _beside(stage: ProgramStage, row: int, place: np.ndarray, cutter: Cutter) -> float:
     """Return how much higher than a tool over the stock the metal stands that it may meet on its way, mm."""
     x0, y0, x1, y1 = stage.metal.stock.box
     if not (x0 - cutter.radius < place[0] < x1 + cutter.radius and y0 - cutter.radius < place[1] < y1 + cutter.radius):
@@ -183,11 +183,11 @@ def _beside(stage: Stage, row: int, place: np.ndarray, cutter: Cutter) -> float:
         return float(stage.metal.over(stage.before.grid, row).heights.max()) - float(place[2])
     ends = np.array([place, place])
     ends[:, 0 if free[0] else 1] = (x0, x1) if free[0] else (y0, y1)
-    hit = stage.metal.met(Way(row, ends, cutter), stage.top, stage.before.grid.pitch)
+    hit = stage.metal.met(CutterTravel(row, ends, cutter), stage.top, stage.before.grid.pitch)
     return hit.depth if hit is not None else 0.0
 
 
-def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
+def _at_unknown_places(stage: ProgramStage) -> Iterator[Finding]:
     """Yield that motions at feed rate are not cut as nobody knows where they are, unless they surely stay above the
     stock.
     """
@@ -214,7 +214,7 @@ def _at_unknown_places(stage: Stage) -> Iterator[Finding]:
     yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(rows)), line=int(motions.line[row]))
 
 
-def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
+def _plunges(stage: ProgramStage, progress: Progress) -> Iterator[Finding]:
     """Yield the ways down into metal of mills that do not cut at their centre, the first ones one by one."""
     all_found = plunges(stage.metal, stage.before, progress)
     found = all_found.found
@@ -224,7 +224,7 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
             f"T{each.tool} goes {aside} into metal at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}, and "
             "does not cut at its centre; ramp in, or use a cutter that does."
         )
-        yield stage.told(FindingKind.PLUNGE, text, each.motion, (each.x, each.y), each.depth)
+        yield stage.finding(FindingKind.PLUNGE, text, each.motion, (each.x, each.y), each.depth)
     if len(found) > NAMED:
         yield Finding(
             FindingKind.PLUNGE,
@@ -234,7 +234,7 @@ def _plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
     yield from _unseen(stage, all_found.unseen, "ways down")
 
 
-def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
+def _fast_plunges(stage: ProgramStage, progress: Progress) -> Iterator[Finding]:
     """Yield, for each tool, its descents into metal at the feed for going sideways."""
     looked = fast_plunges(stage.metal, stage.before, stage.tools, stage.plunge_rates, progress)
     for each in looked.found:
@@ -249,14 +249,14 @@ def _fast_plunges(stage: Stage, progress: Progress) -> Iterator[Finding]:
             f"T{each.tool} goes straight down into metal at {each.feed:.0f} mm/min, {said}: {each.depth:.3f} mm deep "
             f"at ({each.x:.3f}, {each.y:.3f}), {stage.where(each.motion)}{others}; {remedy}."
         )
-        found = stage.told(FindingKind.FEED, text, each.motion, (each.x, each.y), each.depth)
+        found = stage.finding(FindingKind.FEED, text, each.motion, (each.x, each.y), each.depth)
         yield replace(found, counts=each.rate is not None)
     yield from _unseen(stage, looked.unseen, "fast ways down")
 
 
-def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
+def _holders(stage: ProgramStage, looked: HolderReport) -> Iterator[Finding]:
     """Yield the shanks and holders that meet metal, the first ones of each one by one."""
-    for part, kind in ((Part.HOLDER, FindingKind.HOLDER_CONTACT), (Part.SHANK, FindingKind.SHANK_CONTACT)):
+    for part, kind in ((HolderPart.HOLDER, FindingKind.HOLDER_CONTACT), (HolderPart.SHANK, FindingKind.SHANK_CONTACT)):
         contacts = [each for each in looked.contacts if each.part is part]
         for contact in contacts[:NAMED]:
             text = (
@@ -264,7 +264,7 @@ def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
                 f"({contact.x:.3f}, {contact.y:.3f}, {contact.z:.3f}), "
                 f"{stage.where(contact.motion)}{_through(contact)}; {_remedy(stage, contact, looked)}"
             )
-            yield stage.told(kind, text, contact.motion, (contact.x, contact.y), contact.depth)
+            yield stage.finding(kind, text, contact.motion, (contact.x, contact.y), contact.depth)
         if len(contacts) > NAMED:
             more = len(contacts) - NAMED
             text = (
@@ -280,14 +280,14 @@ def _holders(stage: Stage, looked: HolderLook) -> Iterator[Finding]:
         yield Finding(FindingKind.TOLERANCE, text, counts=False, amount=float(looked.unseen))
 
 
-def _through(contact: Contact) -> str:
+def _through(contact: HolderContact) -> str:
     return f", the deepest of {contact.count} motions" if contact.count > 1 else ""
 
 
-def _remedy(stage: Stage, contact: Contact, looked: HolderLook) -> str:
+def _remedy(stage: ProgramStage, contact: HolderContact, looked: HolderReport) -> str:
     """Return what to do against a contact."""
     tool = stage.tools[contact.tool]
-    if contact.part is Part.HOLDER:
+    if contact.part is HolderPart.HOLDER:
         return f"stick it out {looked.least[contact.tool]:.1f} mm or more, it has {tool.stick_out:g}."
     wider = (
         f"the shank, {tool.shank_diameter:g} mm wide, begins"
@@ -297,7 +297,7 @@ def _remedy(stage: Stage, contact: Contact, looked: HolderLook) -> str:
     return f"{wider} {tool.flute_length:g} mm over the tip; use longer flutes, or clear the metal above first."
 
 
-def _below_table(stage: Stage) -> Iterator[Finding]:
+def _below_table(stage: ProgramStage) -> Iterator[Finding]:
     """Yield that the tool goes below the stock, where the table is; place and line are those of the deepest motion."""
     low = reach(stage.motions)[0][:, 2].copy()
     low[list(stage.known.course.left_out)] = np.inf
@@ -314,4 +314,4 @@ def _below_table(stage: Stage) -> Iterator[Finding]:
         f"is{'' if len(below) == 1 else ', the deepest'} {depth:.3f} mm at ({x:.3f}, {y:.3f}), {stage.where(row)}; "
         "put something under the stock, or cut less deep."
     )
-    yield stage.told(FindingKind.BELOW_TABLE, text, row, (x, y), depth)
+    yield stage.finding(FindingKind.BELOW_TABLE, text, row, (x, y), depth)

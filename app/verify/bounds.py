@@ -18,7 +18,7 @@ from ..model.operation import Operation
 from ..model.part import Contour, Region
 from ..model.tool import Tool
 from ..simulation.cutter import cutter_of
-from ..toolpath.coverage.wanted import areas_of_operations
+from ..toolpath.coverage.floor_target import areas_of_operations
 
 Floats = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ _ON_BONE = 2e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Bound:
+class OperationBound:
     """What holds for some operations alike.
 
     Attributes:
@@ -48,7 +48,7 @@ class Bound:
     carves: bool = False
 
 
-def bounds_of(program: Program, job: Job) -> list[Bound]:
+def bounds_of(program: Program, job: Job) -> list[OperationBound]:
     """Return what holds for the operations of a job that are switched on; tools without one may do what any other
     may.
     """
@@ -62,7 +62,7 @@ def bounds_of(program: Program, job: Job) -> list[Bound]:
     busy = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
     idle = tuple(tool.number for tool in job.tools if tool.number not in busy)
     return [
-        Bound(
+        OperationBound(
             tuple(group),
             (*dict.fromkeys(job.operations[k].cut.tool for k in group), *idle),
             areas[group[0]],
@@ -110,8 +110,8 @@ def cutting_radius(moves: Moves, job: Job) -> Floats:
 def in_dog_bones(rows: Floats, dog_bones: Sequence[DogBone]) -> NDArray[np.bool_]:
     """Return (n,) whether a straight move (n, 8) lies on the way of a dog-bone."""
     on = np.zeros(len(rows), np.bool_)
-    for bone in dog_bones:
-        a, b = np.array([bone.x0, bone.y0]), np.array([bone.x1, bone.y1])
+    for dog_bone in dog_bones:
+        a, b = np.array([dog_bone.x0, dog_bone.y0]), np.array([dog_bone.x1, dog_bone.y1])
         near = (rows[:, 7] == 0) & _near_segment(rows[:, :2], a, b) & _near_segment(rows[:, 2:4], a, b)
         on |= near
     return on

@@ -82,11 +82,11 @@ class RoofProof:
     gap_mm: float
 
 
-def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progress = NO_PROGRESS) -> RoofProof:
+def prove_roof(path: ConePath, walls: Primitives, reported: float, progress: Progress = NO_PROGRESS) -> RoofProof:
     """Return what a path leaves of the roof over regions.
 
     Args:
-        told: mm of height; what is left beyond it is counted.
+        reported: mm of height; what is left beyond it is counted.
 
     Raises:
         Cancelled: by progress.
@@ -109,7 +109,7 @@ def prove_roof(path: ConePath, walls: Primitives, told: float, progress: Progres
         max(0.0, float(height[worst])),
         x,
         y,
-        int(np.count_nonzero(height > told)),
+        int(np.count_nonzero(height > reported)),
         _blunt_length(elements, discs, blunt),
         float(discs.gaps().max(initial=0.0)),
     )

@@ -20,10 +20,10 @@ from ..simulation.field.target import by_strips, frozen
 from ..simulation.field.workpiece import Heights, Workpiece
 from ..simulation.sweeps.course import Rapids, TrimOptions
 from ..simulation.sweeps.pieces import helix_chord
-from .judge import Wanted
+from .judge import PartTarget
 from .judgement import Certificate
 from .parts import SolidPart
-from .solid_depth import Columns, DepthInSolid
+from .solid_depth import CutColumns, DepthInSolid
 
 ROUNDING = 2e-5
 """mm that heights in float32 and chords of curves may be off."""
@@ -39,7 +39,11 @@ Trimming = Callable[[Mapping[int, Cutter], TrimOptions, Progress], Heights]
 
 
 def certify(
-    before: Workpiece, part: Wanted, cutters: Mapping[int, Cutter], trimming: Trimming, progress: Progress = NO_PROGRESS
+    before: Workpiece,
+    part: PartTarget,
+    cutters: Mapping[int, Cutter],
+    trimming: Trimming,
+    progress: Progress = NO_PROGRESS,
 ) -> Certificate:
     """Return how far from the part any point can be that was cut or left.
 
@@ -59,13 +63,13 @@ def certify(
     progress.step(0.0, "Looking between the cells")
     low = trimming(wide, TrimOptions(Rapids.CUT), progress.part(0.0, 0.4))
     high = trimming(slim, TrimOptions(Rapids.IGNORED), progress.part(0.4, 0.8))
-    wanted, stock = frozen(part.target.around), frozen(before.heights)
+    target, stock = frozen(part.target.around), frozen(before.heights)
     spoken = frozen(np.where(part.reach, part.target.high, np.float32(np.inf)))
 
     def worst(heights: Heights, counts: Heights, sign: int) -> float:
         fixed, where = frozen(heights), (pitch, half)
         return (
-            max(by_strips(len(stock), lambda a, b: float(farthest(fixed, wanted, counts, where, sign, a, b)), progress))
+            max(by_strips(len(stock), lambda a, b: float(farthest(fixed, target, counts, where, sign, a, b)), progress))
             + ROUNDING
         )
 
@@ -75,7 +79,7 @@ def certify(
     return Certificate(gouge, worst(high, spoken, -1), pitch)
 
 
-def _in_solid(part: SolidPart, wanted: Wanted, low: Heights, before: Workpiece, half: float) -> float:
+def _in_solid(part: SolidPart, target: PartTarget, low: Heights, before: Workpiece, half: float) -> float:
     """Return how deep any point can be that was cut, mm: by the solid itself where the cells round it promise too much.
 
     No point of a cell's column is deeper than the deepest of its middle line and half the cell's diagonal. The cells
@@ -86,16 +90,16 @@ def _in_solid(part: SolidPart, wanted: Wanted, low: Heights, before: Workpiece, 
     grid = before.grid
     cut = np.flatnonzero(low < before.heights)
     seems = np.empty(len(cut))
-    ways_out(frozen(wanted.target.around), frozen(low), cut, (grid.pitch, half), seems)
+    ways_out(frozen(target.target.around), frozen(low), cut, (grid.pitch, half), seems)
     order = np.argsort(-seems, kind="stable")
     cut, seems = cut[order], seems[order]
     rows, cols = np.divmod(cut, grid.cols)
     places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
-    columns = Columns(places, low.ravel()[cut].astype(np.float64), before.heights.ravel()[cut].astype(np.float64))
+    columns = CutColumns(places, low.ravel()[cut].astype(np.float64), before.heights.ravel()[cut].astype(np.float64))
     depth_in, fine, worst = DepthInSolid(part.solid, part.leave), part.tolerance / 10, part.leave + half
     for first in range(0, len(cut), PORTION):
         if seems[first] <= worst or first >= MOST_ASKED:
             return max(worst, float(seems[first]) if first >= MOST_ASKED else 0.0)
-        asked = slice(first, first + PORTION)
-        worst = max(worst, float(depth_in.of(columns.only(asked), worst - half, fine).max()) + half + fine)
+        requested = slice(first, first + PORTION)
+        worst = max(worst, float(depth_in.of(columns.only(requested), worst - half, fine).max()) + half + fine)
     return worst

@@ -66,7 +66,7 @@ class CutterPath:
 
 
 @dataclass(frozen=True)
-class Engaged:
+class EngagedPlace:
     """How much is engaged at a motion.
 
     Attributes:
@@ -92,8 +92,8 @@ class EngagementProof:
         entries: how many there are.
     """
 
-    greatest: Engaged
-    above: tuple[Engaged, ...]
+    greatest: EngagedPlace
+    above: tuple[EngagedPlace, ...]
     entry_mm: float
     entries: int
 
@@ -141,8 +141,8 @@ class _Prover:
     def __init__(self, path: CutterPath, limit: float) -> None:
         self._path, self._limit, self._radius = path, limit, path.radius
         self._levels: dict[float, _Clear] = {}
-        self._greatest = Engaged(0.0, -1, math.nan, math.nan)
-        self._above: list[Engaged] = []
+        self._greatest = EngagedPlace(0.0, -1, math.nan, math.nan)
+        self._above: list[EngagedPlace] = []
         self._entry, self._entries, self._entering = 0.0, 0, False
         self._foot: tuple[float, float, float] | None = None
 
@@ -186,7 +186,7 @@ class _Prover:
             self._entry += size
         else:
             self._entering = False
-            found = Engaged(bound, k, x, y)
+            found = EngagedPlace(bound, k, x, y)
             if bound > self._greatest.angle:
                 self._greatest = found
             if bound > self._limit:

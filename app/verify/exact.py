@@ -16,11 +16,11 @@ from ..simulation.sweeps.course import Course
 from ..toolpath.coverage.coverage import Coverage, measure
 from .motion_moves import moves_of
 from .parts import FlatPart
-from .verdict import Depths, gouge_depths
+from .verdict import MoveDepths, gouge_depths
 
 
 @dataclass(frozen=True, eq=False)
-class Exact:
+class ExactDeviations:
     """What closed forms say of a drawing that was milled, part coordinates.
 
     Attributes:
@@ -28,11 +28,13 @@ class Exact:
         coverage: what is left on the floor; None where a tool that cuts is not flat at its end.
     """
 
-    depths: Depths
+    depths: MoveDepths
     coverage: Coverage | None
 
 
-def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox, progress: Progress = NO_PROGRESS) -> Exact:
+def exact_of(
+    part: FlatPart, courses: Sequence[Course], stock: StockBox, progress: Progress = NO_PROGRESS
+) -> ExactDeviations:
     """Measure programs that were cut one after the other.
 
     Args:
@@ -51,8 +53,8 @@ def exact_of(part: FlatPart, courses: Sequence[Course], stock: StockBox, progres
     box = StockBox(stock.x0 + x, stock.y0 + y, stock.z0 + z, stock.x1 + x, stock.y1 + y, stock.z1 + z)
     depths = gouge_depths(program, part.job, box, by_tool=True, progress=progress.part(0.0, 0.2))
     flat = _flat(moves, part.job)
-    coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance, part.wanted) if flat else None
-    return Exact(replace(depths, move=motion[depths.move]), coverage)
+    coverage = measure(program, part.job, progress.part(0.2, 1.0), part.tolerance, part.targets) if flat else None
+    return ExactDeviations(replace(depths, move=motion[depths.move]), coverage)
 
 
 def _joined(parts: Sequence[Moves]) -> Moves:

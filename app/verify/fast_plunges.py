@@ -20,8 +20,8 @@ from ..model.motion import Floats, MotionKind
 from ..model.tool import Tool
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
-from .closer import NARROW, Metal, Way
-from .led_ways import hits_along
+from .fine_stock import NARROW, CutterTravel, FineStock
+from .path_hits import hits_along
 from .plunges import PIN, alike_runs
 
 STEEP = math.tan(math.radians(60.0))
@@ -78,7 +78,7 @@ class FastPlunges:
 
 
 def fast_plunges(
-    metal: Metal,
+    stock: FineStock,
     before: Workpiece,
     tools: Mapping[int, Tool],
     rates: Mapping[int, float],
@@ -93,8 +93,8 @@ def fast_plunges(
     Raises:
         Cancelled: the job was asked to stop.
     """
-    course, top = metal.courses[-1], float(before.heights.max())
-    known = _rates(metal, tools, rates, top)
+    course, top = stock.courses[-1], float(before.heights.max())
+    known = _rates(stock, tools, rates, top)
     limit = np.full(int(course.tool.max(initial=0)) + 1, math.inf)
     for number, rate in known.items():
         limit[number] = MORE * rate if rate is not None else 0.0
@@ -106,7 +106,7 @@ def fast_plunges(
     )
     fast[list(course.left_out)] = False
     spans = [
-        span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(metal, tools, known, span, top)
+        span for span in alike_runs(fast.astype(np.int64), course.tool) if _may_be_deep(stock, tools, known, span, top)
     ]
     if not spans:
         return FastPlunges()
@@ -114,7 +114,7 @@ def fast_plunges(
     wide = NARROW * before.grid.pitch
     radius = {number: max(tool.radius * PIN, min(wide, tool.radius)) for number, tool in tools.items()}
     ways = [
-        Way(
+        CutterTravel(
             first,
             np.concatenate([motions.start[first : first + 1], motions.end[first : last + 1]]),
             Cutter(radius[int(course.tool[first])], radius[int(course.tool[first])]),
@@ -122,7 +122,7 @@ def fast_plunges(
         for first, last in spans
     ]
     deepest: dict[int, list[FastPlunge]] = {}
-    looked = hits_along(metal, before, ways, progress)
+    looked = hits_along(stock, before, ways, progress)
     for k, hits in looked.hits.items():
         (first, last), hit = spans[k], max(hits, key=lambda each: each.depth)
         number = int(course.tool[first])
@@ -149,9 +149,11 @@ def _descends(way: Floats, kind: NDArray[np.uint8]) -> NDArray[np.bool_]:
     )
 
 
-def _rates(metal: Metal, tools: Mapping[int, Tool], rates: Mapping[int, float], top: float) -> dict[int, float | None]:
+def _rates(
+    stock: FineStock, tools: Mapping[int, Tool], rates: Mapping[int, float], top: float
+) -> dict[int, float | None]:
     """Return the plunge rate of each mill that cuts, None where nothing tells of it."""
-    course = metal.courses[-1]
+    course = stock.courses[-1]
     motions, way = course.motions, course.motions.end - course.motions.start
     sideways = (
         (motions.kind != MotionKind.RAPID)
@@ -163,7 +165,7 @@ def _rates(metal: Metal, tools: Mapping[int, Tool], rates: Mapping[int, float], 
     for number, tool in tools.items():
         mine = (course.tool == number) & (motions.feed > 0)
         along, slowly = motions.feed[mine & sideways], motions.feed[mine & down]
-        if tool.kind.drills or number not in metal.cutters or not len(slowly) or not (len(along) or number in rates):
+        if tool.kind.drills or number not in stock.cutters or not len(slowly) or not (len(along) or number in rates):
             continue
         least = float(slowly.min())
         found[number] = rates.get(number, least if len(along) and least < SHARE * float(along.max()) else None)
@@ -176,10 +178,10 @@ def _least(tool: Tool, rate: float | None) -> float:
 
 
 def _may_be_deep(
-    metal: Metal, tools: Mapping[int, Tool], known: Mapping[int, float | None], span: tuple[int, int], top: float
+    stock: FineStock, tools: Mapping[int, Tool], known: Mapping[int, float | None], span: tuple[int, int], top: float
 ) -> bool:
     """Return whether motions go down so far below the top that they may go deep into metal."""
-    course, (first, last) = metal.courses[-1], span
+    course, (first, last) = stock.courses[-1], span
     number = int(course.tool[first])
     low, high = float(course.motions.end[last, 2]), min(float(course.motions.start[first, 2]), top)
     return number in known and high - low >= _least(tools[number], known[number])

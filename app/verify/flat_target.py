@@ -13,13 +13,13 @@ from ..geometry.distance import DistanceField
 from ..geometry.primitives import pack
 from ..model.tool import ToolKind
 from ..simulation.field.outline import beside, inside
-from ..simulation.field.target import MARGIN, Target
+from ..simulation.field.target import MARGIN, TargetHeights
 from ..simulation.field.workpiece import Grid
 from ..toolpath.build import MovesBuilder
 from ..toolpath.coverage.areas import united
 from ..toolpath.coverage.flat import grown, region_shapes
-from ..toolpath.coverage.wanted import CHORD, bone_shape
-from .bounds import Bound, bounds_of
+from ..toolpath.coverage.floor_target import CHORD, dog_bone_shape
+from .bounds import OperationBound, bounds_of
 from .parts import FlatPart
 
 Mask = NDArray[np.bool_]
@@ -31,7 +31,7 @@ NO_MOVES = MovesBuilder().moves()
 class FlatTarget:
     """Wanted heights, and which cells some tool of the job reaches, (rows, cols)."""
 
-    target: Target
+    target: TargetHeights
     reach: Mask
 
 
@@ -41,36 +41,36 @@ def flat_target(part: FlatPart, grid: Grid) -> FlatTarget:
     Within the walls and their stock to leave metal is wanted down to the floor; it is gouged below the deepest
     operation that may be there. Elsewhere the part's top is wanted, and what stands on it is not spoken of.
     """
-    found, cells = part.wanted, _Cells(part, grid)
+    found, cells = part.targets, _Cells(part, grid)
     top, shape = np.float32(-part.origin[2]), (grid.rows, grid.cols)
-    wanted, low = np.full(shape, top, np.float32), np.full(shape, top, np.float32)
+    goal, low = np.full(shape, top, np.float32), np.full(shape, top, np.float32)
     high, reach = np.full(shape, np.inf, np.float32), np.zeros(shape, bool)
     slack, pockets = part.wall_tolerance + CHORD, any(each.whole for each in found)
     for each in found:  # from the shallowest to the deepest, which has the last word
         floor = top - np.float32(each.depth)
         mine = cells.within(each.floor)
-        wanted[mine if each.whole or not pockets else cells.within(each.wanted)] = floor
+        goal[mine if each.whole or not pockets else cells.within(each.target)] = floor
         within = cells.within(each.reach, -slack)
         if each.out_of_reach is not None:
             within &= ~cells.within(each.out_of_reach, slack)
-        high[within if each.wanted is each.reach else cells.within(each.wanted, -slack)] = floor
+        high[within if each.target is each.reach else cells.within(each.target, -slack)] = floor
         high[cells.within(each.beyond, -slack)] = floor
         reach[mine] = False  # what a tool reaches that does not go as deep is no reach here
         reach |= within
     for bound in bounds_of(part.program(NO_MOVES), part.job):
         if bound.carves:
-            _carve(part, bound, FlatTarget(Target(grid, wanted, low, high), reach))
+            _carve(part, bound, FlatTarget(TargetHeights(grid, goal, low, high), reach))
             continue
         # drilled holes may cross, and cells are told inside by crossings of all outlines together
         mine = cells.within(united(region_shapes(bound.area.regions, CHORD)), slack - bound.leave)
         low[mine] = np.minimum(low[mine], top - np.float32(bound.floor))
-        for bone in part.dog_bones:
-            near = cells.within(bone_shape(bone), slack)
+        for dog_bone in part.dog_bones:
+            near = cells.within(dog_bone_shape(dog_bone), slack)
             low[near] = np.minimum(low[near], top - np.float32(bound.floor))
-    return FlatTarget(Target(grid, np.pad(wanted, MARGIN, mode="edge"), low, high), reach)
+    return FlatTarget(TargetHeights(grid, np.pad(goal, MARGIN, mode="edge"), low, high), reach)
 
 
-def _carve(part: FlatPart, bound: Bound, target: FlatTarget) -> None:
+def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
     """Put in the slanted walls that a cone makes: as high as the nearest wall is far, divided by the cone's slope.
 
     What is left is spoken of where a pointed cone gets to the drawn depth; a flat tip leaves corners, and the middle of
@@ -92,10 +92,10 @@ def _carve(part: FlatPart, bound: Bound, target: FlatTarget) -> None:
     surface = (top - depth).astype(np.float32)
     inside = (far > 0).reshape(depth.shape)
     slack = np.float32(CHORD * steepest)
-    low, high, wanted = target.target.low, target.target.high, target.target.around
+    low, high, goal = target.target.low, target.target.high, target.target.around
     low[inside] = np.minimum(low, surface - slack)[inside]
     spoken = inside & np.isinf(high)
-    wanted[spoken] = surface[spoken]
+    goal[spoken] = surface[spoken]
     if all(tool.tip_diameter == 0 for tool in cones) and len(cones) == 1:
         sharp = spoken & (depth < bound.floor)
         high[sharp] = surface[sharp] + slack

@@ -3,7 +3,7 @@ none.
 
 Time is cut into blocks of motions. The metal after a block stands all through it, so what a body meets there it surely
 meets; the metal before it is all that it may meet. Where the two agree nothing else is asked; only the motions between
-are asked one by one, on the metal as it is then (`asked_bodies`).
+are asked one by one, on the metal as it is then (`body_contacts`).
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..model.motion import Floats
 from ..model.motion_path import reach
 from ..model.tool import Tool
-from ..simulation.bodies.holder import Body, Part, bodies_of
-from ..simulation.bodies.pyramid import Led, Pyramid, shape_rows
+from ..simulation.bodies.holder import Body, HolderPart, bodies_of
+from ..simulation.bodies.pyramid import BodyPaths, HeightPyramid, shape_rows
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course, Rapids, TrimOptions
 from ..simulation.sweeps.trim import trim
-from .asked_bodies import STEP, TOUCH, Asking, Chords, Key, Rows, Touch, chords_of
+from .body_contacts import STEP, TOUCH, BodyContact, BodyContactQuery, Key, MotionChords, Rows, chords_of
 from .course import picked
 
 BLOCKS, FEW = 32, 6
@@ -43,7 +43,7 @@ DIGIT = 10
 
 
 @dataclass(frozen=True, slots=True)
-class Contact:
+class HolderContact:
     """A shank or a holder in metal, through motions that follow one another or are in metal near each other.
 
     Attributes:
@@ -53,7 +53,7 @@ class Contact:
     """
 
     tool: int
-    part: Part
+    part: HolderPart
     first: int
     count: int
     motion: int
@@ -64,7 +64,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class HolderLook:
+class HolderReport:
     """What was found.
 
     Attributes:
@@ -74,17 +74,17 @@ class HolderLook:
         unseen: motions of which it is not known whether a shank or holder meets metal: there are too many to ask each.
     """
 
-    contacts: tuple[Contact, ...] = ()
+    contacts: tuple[HolderContact, ...] = ()
     least: Mapping[int, float] = field(default_factory=dict)
     unseen: int = 0
 
-    def followed(self, then: HolderLook, motions: int) -> HolderLook:
+    def followed(self, then: HolderReport, motions: int) -> HolderReport:
         """Return this and the look at the next program as one; `motions` came before that."""
         moved = (replace(each, first=each.first + motions, motion=each.motion + motions) for each in then.contacts)
         least = {
             number: max(look.least.get(number, 0.0) for look in (self, then)) for number in {**self.least, **then.least}
         }
-        return HolderLook((*self.contacts, *moved), least, self.unseen + then.unseen)
+        return HolderReport((*self.contacts, *moved), least, self.unseen + then.unseen)
 
 
 def holder_contacts(
@@ -93,7 +93,7 @@ def holder_contacts(
     cutters: Mapping[int, Cutter],
     tools: Mapping[int, Tool],
     progress: Progress = NO_PROGRESS,
-) -> HolderLook:
+) -> HolderReport:
     """Return where shanks and holders meet metal in a program, and how far tools must stick out.
 
     A contact is told at most `STEP` too deep, and none that is deeper than `TOUCH` at a cell's centre is missed, but
@@ -109,11 +109,11 @@ def holder_contacts(
     """
     used = set(np.unique(course.tool).tolist()) & cutters.keys()
     bodies = {number: found for number, tool in tools.items() if number in used and (found := bodies_of(tool))}
-    look = _Look(course, before, cutters, {number: tools[number] for number in bodies}, bodies)
-    return look.done(progress) if bodies else HolderLook()
+    look = _HolderCheck(course, before, cutters, {number: tools[number] for number in bodies}, bodies)
+    return look.done(progress) if bodies else HolderReport()
 
 
-class _Look:
+class _HolderCheck:
     """One look at a program."""
 
     def __init__(
@@ -130,40 +130,42 @@ class _Look:
             self._first[number], done = done, done + len(each)
         self._shapes = shape_rows([body.shape for each in bodies.values() for body in each], TOUCH)
         self._owner = np.repeat(list(bodies), [len(each) for each in bodies.values()])
-        self._is_holder = np.array([body.part is Part.HOLDER for each in bodies.values() for body in each])
+        self._is_holder = np.array([body.part is HolderPart.HOLDER for each in bodies.values() for body in each])
         self._stands = np.array([float(tools[number].stick_out) for number in self._owner.tolist()])
-        self._least = {number: 0.0 for number, each in bodies.items() if any(body.part is Part.HOLDER for body in each)}
-        self._touched: dict[Key, Touch] = {}
+        self._least = {
+            number: 0.0 for number, each in bodies.items() if any(body.part is HolderPart.HOLDER for body in each)
+        }
+        self._touched: dict[Key, BodyContact] = {}
         self._open: set[Key] = set()
         self._may: dict[int, float] = {}
 
-    def done(self, progress: Progress) -> HolderLook:
+    def done(self, progress: Progress) -> HolderReport:
         """Look."""
         rows = self._in_question()
         if not len(rows):
-            return HolderLook(least=self._least)
+            return HolderReport(least=self._least)
         chords = chords_of(self._course, rows)
         self._through_blocks(chords, progress.part(0.0, 0.5))
         unseen = self._close(chords, progress.part(0.5, 0.75))
         self._settle_least(chords, progress.part(0.75, 1.0))
         least = {number: math.ceil(value * DIGIT - 1e-6) / DIGIT for number, value in self._least.items()}
-        return HolderLook(self._contacts(), least, unseen)
+        return HolderReport(self._contacts(), least, unseen)
 
     def _in_question(self) -> Rows:
         """Return the motions in which a body may meet metal, or might if the holder stood on the tip."""
         motions, top = self._course.motions, float(self._before.heights.max())
         low, high = reach(motions)
         x0, y0, x1, y1 = self._before.grid.box
-        asked = np.zeros(len(motions), bool)
+        requested = np.zeros(len(motions), bool)
         for number, each in self._bodies.items():
             wide = max(body.shape.radius for body in each)
             lift = 0.0 if number in self._least else min(body.shape.lift for body in each)
             over = ((low[:, :2] - wide < (x1, y1)) & (high[:, :2] + wide > (x0, y0))).all(axis=1)
-            asked |= (self._course.tool == number) & over & (low[:, 2] + lift < top - TOUCH)
-        asked[list(self._course.left_out)] = False
-        return np.flatnonzero(asked)
+            requested |= (self._course.tool == number) & over & (low[:, 2] + lift < top - TOUCH)
+        requested[list(self._course.left_out)] = False
+        return np.flatnonzero(requested)
 
-    def _through_blocks(self, chords: Chords, progress: Progress) -> None:
+    def _through_blocks(self, chords: MotionChords, progress: Progress) -> None:
         """Look at all motions on the metal before and after blocks of them."""
         rows, top = np.unique(chords.row), float(self._before.heights.max())
         lifts = [
@@ -175,30 +177,30 @@ class _Look:
         count = min(BLOCKS if touches.any() else FEW, len(rows))
         edges = [0, *(int(part[0]) for part in np.array_split(rows, count)[1:]), int(rows[-1]) + 1]
         edge = np.searchsorted(chords.row, edges)
-        metal, before = self._before, Pyramid.of(self._before)
+        stock, before = self._before, HeightPyramid.of(self._before)
         for k, (first, last) in enumerate(pairwise(edges)):
             part = progress.part(k / (len(edges) - 1), (k + 1) / (len(edges) - 1))
-            metal = trim(
-                metal, picked(self._course, np.arange(first, last)), self._cutters, TrimOptions(Rapids.IGNORED), part
+            stock = trim(
+                stock, picked(self._course, np.arange(first, last)), self._cutters, TrimOptions(Rapids.IGNORED), part
             ).workpiece
-            after = Pyramid.of(metal)
+            after = HeightPyramid.of(stock)
             mine = np.arange(edge[k], edge[k + 1])
             self._look(before, after, chords, mine)
             before = after
 
-    def _look(self, before: Pyramid, after: Pyramid, chords: Chords, mine: NDArray[np.intp]) -> None:
+    def _look(self, before: HeightPyramid, after: HeightPyramid, chords: MotionChords, mine: NDArray[np.intp]) -> None:
         """Look at a block's chords."""
         body, chord = self._items(chords.row[mine])
-        every = Led(
+        every = BodyPaths(
             np.column_stack([chords.start[mine], chords.end[mine]]), self._shapes, chord, body, np.zeros(len(body))
         )
         low, top = np.minimum(chords.start[mine], chords.end[mine])[chord, 2], float(before.heights[-1])
         near = np.flatnonzero(low + self._shapes[body, 3] < top - TOUCH)
-        led, row, body = every.of(near), chords.row[mine][chord[near]], body[near]
-        surely, cell = after.deeper(led, np.full(len(led), TOUCH))
+        paths, row, body = every.of(near), chords.row[mine][chord[near]], body[near]
+        surely, cell = after.deeper(paths, np.full(len(paths), TOUCH))
         for k in np.flatnonzero(cell >= 0).tolist():
             self._keep(self._touch(after, int(row[k]), int(body[k]), int(cell[k]), float(surely[k])))
-        _, cell = before.deeper(led, np.where(cell >= 0, surely + STEP, TOUCH))
+        _, cell = before.deeper(paths, np.where(cell >= 0, surely + STEP, TOUCH))
         self._open |= {(int(row[k]), int(body[k])) for k in np.flatnonzero(cell >= 0).tolist()}
         items = np.flatnonzero(
             top - low - self._shapes[every.shape, 3] + self._stands[every.shape] > self._needed()[every.shape]
@@ -207,13 +209,13 @@ class _Look:
         if len(items):
             self._look_for_least(before, after, every.of(items), chords.row[mine][chord[items]])
 
-    def _look_for_least(self, before: Pyramid, after: Pyramid, led: Led, row: Rows) -> None:
+    def _look_for_least(self, before: HeightPyramid, after: HeightPyramid, paths: BodyPaths, row: Rows) -> None:
         """Note how far tools must stick out for a block's chords, surely and at most; items go from low to high."""
-        low, least = replace(led, low=-self._stands[led.shape]), self._needed()
+        low, least = replace(paths, low=-self._stands[paths.shape]), self._needed()
         after.deepest(low, least)
         for number in self._least:
             self._least[number] = float(least[(self._owner == number) & self._is_holder].max())
-        depth, cell = before.deeper(low, self._needed()[led.shape])
+        depth, cell = before.deeper(low, self._needed()[paths.shape])
         for k in np.flatnonzero(cell >= 0).tolist():
             self._may[int(row[k])] = max(float(depth[k]), self._may.get(int(row[k]), -math.inf))
 
@@ -235,36 +237,36 @@ class _Look:
         order = np.argsort(chord, kind="stable")
         return body[order].astype(np.int64), chord[order].astype(np.int64)
 
-    def _touch(self, metal: Pyramid, row: int, shape: int, cell: int, depth: float) -> Touch:
-        x, y = metal.metal.grid.place(cell)
-        height = float(metal.metal.heights.ravel()[cell])
-        depth = min(depth, height - metal.metal.floor)
-        return Touch(row, shape - self._first[int(self._owner[shape])], x, y, height - depth, depth)
+    def _touch(self, stock: HeightPyramid, row: int, shape: int, cell: int, depth: float) -> BodyContact:
+        x, y = stock.metal.grid.place(cell)
+        height = float(stock.metal.heights.ravel()[cell])
+        depth = min(depth, height - stock.metal.floor)
+        return BodyContact(row, shape - self._first[int(self._owner[shape])], x, y, height - depth, depth)
 
-    def _keep(self, touch: Touch) -> None:
+    def _keep(self, touch: BodyContact) -> None:
         key = (touch.row, touch.body)
         if key not in self._touched or touch.depth > self._touched[key].depth:
             self._touched[key] = touch
 
-    def _close(self, chords: Chords, progress: Progress) -> int:
+    def _close(self, chords: MotionChords, progress: Progress) -> int:
         """Ask the motions that the blocks leave open, those first that may meet nothing; return how many of these are
         left.
         """
-        asking = Asking(self._before, self._course, self._cutters, self._bodies)
+        asking = BodyContactQuery(self._before, self._course, self._cutters, self._bodies)
         keys = {(row, shape - self._first[int(self._owner[shape])]) for row, shape in self._open}
         unsure, left = keys - self._touched.keys(), set[Key]()
         for k, some in enumerate((unsure, keys - unsure)):
             part = progress.part(k / 2, (k + 1) / 2)
             afforded = asking.affordable(chords, some, CELLS / 2)
-            asked = asking.touches(
+            requested = asking.touches(
                 chords.of(np.isin(chords.row, [row for row, _ in afforded])), afforded, CELLS / 2, part
             )
-            for touch in asked.touches.values():
+            for touch in requested.touches.values():
                 self._keep(touch)
-            left |= (some - afforded) | asked.open.keys()
+            left |= (some - afforded) | requested.open.keys()
         return len({row for row, _ in left - self._touched.keys()})
 
-    def _settle_least(self, chords: Chords, progress: Progress) -> None:
+    def _settle_least(self, chords: MotionChords, progress: Progress) -> None:
         """Ask the motions for which tools may have to stick out farther than is sure, those first that may ask for
         most.
         """
@@ -276,19 +278,19 @@ class _Look:
                 number: tuple(
                     body.lifted(least - self._tools[number].stick_out)
                     for body in self._bodies[number]
-                    if body.part is Part.HOLDER
+                    if body.part is HolderPart.HOLDER
                 )
                 for number, least in self._least.items()
             }
-            asking = Asking(self._before, self._course, self._cutters, bodies)
+            asking = BodyContactQuery(self._before, self._course, self._cutters, bodies)
             some = chords.of(np.isin(chords.row, rows))
             keys = {(row, each) for row in rows for each in range(len(bodies[int(self._course.tool[row])]))}
             afforded = asking.affordable(some, keys, CELLS / len(ROUNDS))
-            asked = asking.touches(
+            requested = asking.touches(
                 some, afforded, CELLS / len(ROUNDS), progress.part(k / len(ROUNDS), (k + 1) / len(ROUNDS))
             )
             sure = self._least.copy()
-            for touch in (*asked.touches.values(), *asked.open.values()):
+            for touch in (*requested.touches.values(), *requested.open.values()):
                 number = int(self._course.tool[touch.row])
                 self._least[number] = max(self._least[number], sure[number] + touch.depth)
             for row in {row for row, _ in keys} - {row for row, _ in keys - afforded}:
@@ -302,11 +304,11 @@ class _Look:
         over = {row: may - self._least[int(self._course.tool[row])] for row, may in self._may.items()}
         return sorted((row for row, by in over.items() if by > TOUCH), key=over.__getitem__, reverse=True)
 
-    def _contacts(self) -> tuple[Contact, ...]:
+    def _contacts(self) -> tuple[HolderContact, ...]:
         """Return what was met, each contact with all of its motions."""
-        found: list[Contact] = []
-        for part in Part:
-            runs: list[list[Touch]] = []
+        found: list[HolderContact] = []
+        for part in HolderPart:
+            runs: list[list[BodyContact]] = []
             for touch in self._deepest(part):
                 if runs and self._goes_on(runs[-1][-1], touch):
                     runs[-1].append(touch)
@@ -316,22 +318,22 @@ class _Look:
                 worst = max(run, key=lambda touch: touch.depth)
                 number = int(self._course.tool[worst.row])
                 found.append(
-                    Contact(number, part, run[0].row, len(run), worst.row, worst.x, worst.y, worst.z, worst.depth)
+                    HolderContact(number, part, run[0].row, len(run), worst.row, worst.x, worst.y, worst.z, worst.depth)
                 )
         return tuple(sorted(found, key=lambda each: each.first))
 
-    def _deepest(self, part: Part) -> list[Touch]:
+    def _deepest(self, part: HolderPart) -> list[BodyContact]:
         """Return the deepest touch of a part in each motion."""
         bodies = {
             (number, k) for number, each in self._bodies.items() for k, body in enumerate(each) if body.part is part
         }
-        tool, deepest = self._course.tool.tolist(), dict[int, Touch]()
+        tool, deepest = self._course.tool.tolist(), dict[int, BodyContact]()
         for (row, body), touch in self._touched.items():
             if (tool[row], body) in bodies and (row not in deepest or touch.depth > deepest[row].depth):
                 deepest[row] = touch
         return [deepest[row] for row in sorted(deepest)]
 
-    def _goes_on(self, one: Touch, then: Touch) -> bool:
+    def _goes_on(self, one: BodyContact, then: BodyContact) -> bool:
         """Return whether two touches of a part are of one contact: of one tool, and of motions that follow, or near
         each other.
         """

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from ..core.progress import NO_PROGRESS, Progress
 from ..simulation.cutter import Cutter
-from ..simulation.field.target import MARGIN, Target, frozen, solid_target
-from ..simulation.field.workpiece import Grid, Stock
+from ..simulation.field.target import MARGIN, TargetHeights, frozen, solid_target
+from ..simulation.field.workpiece import Grid, StockShape
 from ..simulation.sweeps.reach import reach_of, reachable
-from ..simulation.sweeps.trim import Cut
-from ..toolpath.coverage.coverage import Place
-from .exact import Exact
+from ..simulation.sweeps.trim import CutResult
+from ..toolpath.coverage.coverage import UncutPlace
+from .exact import ExactDeviations
 from .flat_target import flat_target
 from .judgement import BANDS, Band, Certificate, Judgement, Spot, SpotKind
 from .parts import FlatPart, Part, SolidPart
@@ -42,7 +42,7 @@ STEEPEST = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Wanted:
+class PartTarget:
     """The part over the grid of a cut.
 
     Attributes:
@@ -51,14 +51,14 @@ class Wanted:
         solid: the part, if it is one closed surface, and so can be asked how deep places lie in it.
     """
 
-    target: Target
+    target: TargetHeights
     reach: Mask
     solid: SolidPart | None = None
 
 
-def wanted_over(
-    part: Part, cut: Cut, stock: Stock, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS
-) -> Wanted:
+def part_target(
+    part: Part, cut: CutResult, stock: StockShape, cutters: tuple[Cutter, ...], progress: Progress = NO_PROGRESS
+) -> PartTarget:
     """Return the part over the grid of a cut; metal that was not there is not gouged.
 
     Args:
@@ -86,10 +86,10 @@ def wanted_over(
             reach |= reachable(
                 left, sure, possible, over_part <= part.tolerance, max(3, math.ceil(3 * lowest.grid.pitch / grid.pitch))
             )
-    return Wanted(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
+    return PartTarget(replace(target, low=np.minimum(target.low, cut.before.heights)), reach, solid)
 
 
-def _upright(target: Target, allowance: float) -> NDArray[np.float32]:
+def _upright(target: TargetHeights, allowance: float) -> NDArray[np.float32]:
     """Return what an allowance square to a part's surface is straight up, at each cell; at walls it is as for a slope
     of 10.
     """
@@ -104,7 +104,7 @@ def _upright(target: Target, allowance: float) -> NDArray[np.float32]:
 
 
 @dataclass(frozen=True, eq=False)
-class Judging:
+class JudgementInput:
     """What a judgement is made of: the cut, the part over it, what closed forms say, the lines of the motions.
 
     Attributes:
@@ -113,9 +113,9 @@ class Judging:
     """
 
     part: Part
-    cut: Cut
-    wanted: Wanted
-    exact: Exact | None
+    cut: CutResult
+    part_target: PartTarget
+    exact: ExactDeviations | None
     lines: NDArray[np.int32]
     lowest: Probe | None = None
     probe: WallProbe | None = None
@@ -136,12 +136,12 @@ class Judging:
         return x - origin[0], y - origin[1]
 
 
-def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
+def judge(judging: JudgementInput, certificate: Certificate | None) -> Judgement:
     """Return what is said of a cut."""
     part, tolerance = judging.part, judging.part.tolerance
-    deviation = judging.wanted.target.deviation(judging.cut.heights)
+    deviation = judging.part_target.target.deviation(judging.cut.heights)
     left = deviation > tolerance
-    unreachable = left & ~judging.wanted.reach
+    unreachable = left & ~judging.part_target.reach
     gouges, gouged = _gouges(judging, deviation)
     gouge = _worst(judging, gouges, gouged)
     masks = {SpotKind.LEFT: left & ~unreachable, SpotKind.UNREACHABLE: unreachable}
@@ -176,7 +176,7 @@ def judge(judging: Judging, certificate: Certificate | None) -> Judgement:
     )
 
 
-def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spot, ...], int]:
+def _gouges(judging: JudgementInput, deviation: NDArray[np.float32]) -> tuple[tuple[Spot, ...], int]:
     """Return the gouges, the deepest first, and how many: by closed forms, or where these know of none, those that the
     cells show.
     """
@@ -187,7 +187,7 @@ def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spo
     gouged = np.asarray(deviation < -part.tolerance)
     places, count = places_of(gouged, -deviation, judging.grid)
     if isinstance(part, SolidPart) and judging.lowest is not None:
-        cut, around = judging.cut, judging.wanted.target.around
+        cut, around = judging.cut, judging.part_target.target.around
         measure = SolidGouges(part, judging.lowest, cut.before, cut.heights, gouged, around, judging.lines)
         spots = measure.spots(places, judging.probe)
         return tuple(spots), len(spots) + count - len(places)
@@ -195,26 +195,26 @@ def _gouges(judging: Judging, deviation: NDArray[np.float32]) -> tuple[tuple[Spo
     return tuple(sorted(spots, key=lambda spot: -spot.depth_mm)), len(spots) + count - len(places)
 
 
-def _exact_gouges(judging: Judging) -> Iterator[Spot]:
+def _exact_gouges(judging: JudgementInput) -> Iterator[Spot]:
     """Yield the gouging motions, the deepest first, but for those near a deeper one."""
     part = judging.part
     if judging.exact is None or not isinstance(part, FlatPart):
         return
     depths, origin = judging.exact.depths, np.array(part.origin)
-    told: list[tuple[float, float]] = []
+    reported: list[tuple[float, float]] = []
     for k in np.argsort(-depths.depth, kind="stable")[: np.count_nonzero(depths.depth > part.wall_tolerance)].tolist():
         x, y, z = (depths.places[k] - origin).tolist()
-        if len(told) < MOST_GOUGES and all(np.hypot(x - other[0], y - other[1]) > APART for other in told):
-            told.append((x, y))
+        if len(reported) < MOST_GOUGES and all(np.hypot(x - other[0], y - other[1]) > APART for other in reported):
+            reported.append((x, y))
             motion = int(depths.move[k])
             yield Spot(SpotKind.GOUGE, x, y, z, float(depths.depth[k]), 0.0, 0.0, int(judging.lines[motion]), motion)
 
 
-def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
+def _gouge_of_cells(judging: JudgementInput, place: CellPlace) -> Spot:
     """Return a gouge as the cells show it; its depth is the way out of the part, not straight up."""
     from ..simulation.field.judge_kernels import ways_out
 
-    target, grid, depths = judging.wanted.target, judging.grid, np.zeros(len(place.cells))
+    target, grid, depths = judging.part_target.target, judging.grid, np.zeros(len(place.cells))
     ways_out(frozen(target.around), frozen(judging.cut.heights), place.cells, (grid.pitch, 0.0), depths)
     worst = int(np.argmax(depths))
     row, col = divmod(int(place.cells[worst]), grid.cols)
@@ -224,7 +224,7 @@ def _gouge_of_cells(judging: Judging, place: CellPlace) -> Spot:
     return Spot(SpotKind.GOUGE, x, y, z, depth, place.area_mm2, place.disc_mm, line, motion)
 
 
-def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:
+def _worst(judging: JudgementInput, spots: tuple[Spot, ...], gouged: int) -> Gouge:
     """Return the deepest gouge, of so many; where there is none, how little the path keeps from one."""
     part, worst = judging.part, spots[0] if spots else None
     if judging.exact is None or not isinstance(part, FlatPart):
@@ -240,7 +240,7 @@ def _worst(judging: Judging, spots: tuple[Spot, ...], gouged: int) -> Gouge:
     return Gouge(float(depths.depth[k]), x, y, z, int(depths.move[k]), 0)
 
 
-def _left(judging: Judging, place: CellPlace, kind: SpotKind) -> Spot:
+def _left(judging: JudgementInput, place: CellPlace, kind: SpotKind) -> Spot:
     """Return a place of metal left."""
     row, col = place.cell
     x, y = judging.grid.place(row * judging.grid.cols + col)
@@ -250,7 +250,7 @@ def _left(judging: Judging, place: CellPlace, kind: SpotKind) -> Spot:
     )
 
 
-def _measured(judging: Judging, place: Place) -> Spot:
+def _measured(judging: JudgementInput, place: UncutPlace) -> Spot:
     """Return a piece of floor that is left; how high it stands, and who cut there last, the cells tell."""
     grid, (x, y) = judging.grid, judging.to_program(place.x, place.y)
     row, col = int((y - grid.y0) / grid.pitch), int((x - grid.x0) / grid.pitch)
@@ -258,19 +258,19 @@ def _measured(judging: Judging, place: Place) -> Spot:
     if not (0 <= row < grid.rows and 0 <= col < grid.cols):
         return Spot(kind, x, y, 0.0, 0.0, place.area_mm2, place.disc_mm)
     around = (slice(max(row - 1, 0), row + 2), slice(max(col - 1, 0), col + 2))
-    over = float(np.max(judging.cut.heights[around] - judging.wanted.target.wanted[around], initial=0.0))
-    wanted = float(judging.wanted.target.wanted[around].min())
+    over = float(np.max(judging.cut.heights[around] - judging.part_target.target.heights[around], initial=0.0))
+    target = float(judging.part_target.target.heights[around].min())
     # narrower than the cells: as high as the stock was
     if over <= judging.part.tolerance and place.disc_mm < 3 * grid.pitch:
-        over = max(float(judging.cut.before.heights[around].max()) - wanted, 0.0)
-    return Spot(kind, x, y, wanted + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
+        over = max(float(judging.cut.before.heights[around].max()) - target, 0.0)
+    return Spot(kind, x, y, target + over, over, place.area_mm2, place.disc_mm, *judging.line_at(row, col))
 
 
-def _bands(judging: Judging, deviation: NDArray[np.float32]) -> Iterator[Band]:
+def _bands(judging: JudgementInput, deviation: NDArray[np.float32]) -> Iterator[Band]:
     """Yield the area of each band of deviation, where the part says something."""
     tolerance = judging.part.tolerance
     edges = sorted({-np.inf, np.inf, -tolerance, tolerance, *(edge for edge in BANDS if abs(edge) > tolerance)})
-    told = deviation[np.isfinite(judging.wanted.target.high) | (deviation < 0)]
-    counts, _ = np.histogram(told, np.array(edges))
+    reported = deviation[np.isfinite(judging.part_target.target.high) | (deviation < 0)]
+    counts, _ = np.histogram(reported, np.array(edges))
     for low, high, count in zip(edges[:-1], edges[1:], counts.tolist(), strict=True):
         yield Band(float(low), float(high), count * judging.grid.pitch**2)

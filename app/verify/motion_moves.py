@@ -13,7 +13,7 @@ from ..model.motion import Floats, MotionKind
 from ..model.motion_path import arc_paths
 from ..model.moves import Moves, Purpose
 from ..simulation.sweeps.course import Course
-from ..simulation.sweeps.pieces import Splitter
+from ..simulation.sweeps.pieces import PieceSplitter
 
 STIR = 1e-6
 """mm; the library that measures areas overlooks lines of no length at all."""
@@ -76,7 +76,7 @@ def moves_of(course: Course, job: Job, origin: tuple[float, float, float]) -> Mo
 
 
 @dataclass(frozen=True, eq=False)
-class _Ways:
+class _PlainMoves:
     """Plain ways: starts and ends, the motion that each belongs to, kinds, and centres of arcs."""
 
     start: Floats
@@ -85,25 +85,25 @@ class _Ways:
     kind: NDArray[np.uint8]
     centre: Floats
 
-    def chosen(self, course: Course) -> _Ways:
+    def chosen(self, course: Course) -> _PlainMoves:
         """Return those of motions that are not left out."""
         kept = ~np.isin(self.rows, course.left_out)
-        return _Ways(self.start[kept], self.end[kept], self.rows[kept], self.kind[kept], self.centre[kept])
+        return _PlainMoves(self.start[kept], self.end[kept], self.rows[kept], self.kind[kept], self.centre[kept])
 
 
-def _ways(course: Course) -> _Ways:
+def _ways(course: Course) -> _PlainMoves:
     """Return every motion: plain arcs whole, other curves in chords."""
     motions = course.motions
     arcs = arc_paths(motions)
     even = np.abs(arcs.end_radius - arcs.start_radius) < LEVEL
     plain = arcs.rows[(arcs.axes[:, 2] == 2) & even & (np.abs(arcs.sweep) <= 2 * np.pi * (1 + 1e-12))]
     curved = np.setdiff1d(np.flatnonzero(motions.kind >= MotionKind.ARC_CW), plain)
-    splitter = Splitter(motions, arcs_stay=False)
+    splitter = PieceSplitter(motions, arcs_stay=False)
     counts = np.ones(len(motions), np.int64)
     parts = [splitter.pieces(int(row), int(row) + 1) for row in curved]
     counts[curved] = [len(part) for part in parts]
     rows = np.repeat(np.arange(len(motions)), counts)
-    ways = _Ways(
+    ways = _PlainMoves(
         motions.start[rows].copy(),
         motions.end[rows].copy(),
         rows,

@@ -16,13 +16,13 @@ from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course
 from ..simulation.sweeps.trim import RapidHit
-from .closer import MOST, NARROW, Metal, Way
+from .fine_stock import MOST, NARROW, CutterTravel, FineStock
 
 Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Looked:
+class NarrowRapids:
     """The rapids of a program that go through metal, in their order, and how many could not, or not wholly, be looked
     at closer.
     """
@@ -32,44 +32,44 @@ class Looked:
 
 
 def narrow_rapids(
-    course: Course, metal: Metal, before: Workpiece, seen: tuple[RapidHit, ...], progress: Progress = NO_PROGRESS
-) -> Looked:
+    course: Course, stock: FineStock, before: Workpiece, seen: tuple[RapidHit, ...], progress: Progress = NO_PROGRESS
+) -> NarrowRapids:
     """Return the rapids that go through metal.
 
     Args:
-        course: of the last program of `metal`. before: the metal before it. seen: those that the cells have shown.
+        course: of the last program of `stock`. before: the metal before it. seen: those that the cells have shown.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
     top, pitch = float(before.heights.max()), before.grid.pitch
     rows = np.flatnonzero(
-        _in_question(course, metal, top, pitch) & ~np.isin(np.arange(len(course.motions)), [hit.motion for hit in seen])
+        _in_question(course, stock, top, pitch) & ~np.isin(np.arange(len(course.motions)), [hit.motion for hit in seen])
     )
     rows = rows[~_goes_where_it_was(course, rows)]
     hits, unseen = list(seen), max(0, len(rows) - MOST)
     for k, row in enumerate(rows[:MOST].tolist()):
         progress.step(k / len(rows), "Looking at rapids")
         ends = np.array([course.motions.start[row], course.motions.end[row]])
-        way = Way(row, ends, metal.cutters[int(course.tool[row])])
-        hit = metal.met(way, top, pitch)
+        way = CutterTravel(row, ends, stock.cutters[int(course.tool[row])])
+        hit = stock.met(way, top, pitch)
         hits += [hit] if hit is not None else []
-        unseen += hit is None and not metal.wholly(way, top, pitch)
-    return Looked(tuple(sorted(hits, key=lambda hit: hit.motion)), unseen)
+        unseen += hit is None and not stock.wholly(way, top, pitch)
+    return NarrowRapids(tuple(sorted(hits, key=lambda hit: hit.motion)), unseen)
 
 
-def _in_question(course: Course, metal: Metal, top: float, pitch: float) -> Mask:
+def _in_question(course: Course, stock: FineStock, top: float, pitch: float) -> Mask:
     """Return which motions are rapids below the top, over the stock, of cutters that are narrow down there."""
-    motions, (x0, y0, x1, y1) = course.motions, metal.stock.box
+    motions, (x0, y0, x1, y1) = course.motions, stock.stock.box
     low, high = reach(motions)
-    radius, up_to = _widths(course, metal.cutters, pitch)
+    radius, up_to = _widths(course, stock.cutters, pitch)
     over = (
         (low[:, 0] - radius < x1) & (low[:, 1] - radius < y1) & (high[:, 0] + radius > x0) & (high[:, 1] + radius > y0)
     )
     below = top - low[:, 2]
-    asked = (motions.kind == MotionKind.RAPID) & over & (below > LEVEL) & (below < up_to)
-    asked[list(course.left_out)] = False
-    return np.asarray(asked)
+    requested = (motions.kind == MotionKind.RAPID) & over & (below > LEVEL) & (below < up_to)
+    requested[list(course.left_out)] = False
+    return np.asarray(requested)
 
 
 def _widths(
@@ -89,15 +89,15 @@ def _goes_where_it_was(course: Course, rows: NDArray[np.intp]) -> Mask:
     """Return which rapids go upright over a place where their cutter has cut as deep before."""
     motions, tools = course.motions, course.tool.tolist()
     upright = np.all(motions.start[:, :2] == motions.end[:, :2], axis=1)
-    asked = rows[upright[rows]]
+    requested = rows[upright[rows]]
     cuts = motions.kind != MotionKind.RAPID
     cuts[list(course.left_out)] = False
     plunged = np.flatnonzero(cuts & (upright | np.concatenate([~cuts[1:], [True]])))
     ends, low = motions.end.tolist(), np.minimum(motions.start[:, 2], motions.end[:, 2]).tolist()
     deepest: dict[tuple[int, float, float], float] = {}
     clear: set[int] = set()
-    merged = sorted([(row, False) for row in plunged.tolist()] + [(row, True) for row in asked.tolist()])
-    for row, question in merged if len(asked) else ():
+    merged = sorted([(row, False) for row in plunged.tolist()] + [(row, True) for row in requested.tolist()])
+    for row, question in merged if len(requested) else ():
         place = (tools[row], ends[row][0], ends[row][1])
         if not question:
             deepest[place] = min(deepest.get(place, np.inf), ends[row][2])

@@ -15,7 +15,7 @@ from ..model.stock_box import StockBox, extent
 from ..simulation.field.solid import SolidStock
 
 if TYPE_CHECKING:
-    from ..toolpath.coverage.wanted import Wanted
+    from ..toolpath.coverage.floor_target import FloorTarget
 
 TOLERANCE = 0.01
 """mm; metal within this of the part is neither gouged nor left."""
@@ -48,15 +48,15 @@ class FlatPart:
     clamps: tuple[Region, ...] = ()
     tabs: tuple[Tab, ...] = ()
     dog_bones: tuple[DogBone, ...] = ()
-    floors: tuple[Wanted, ...] | None = None
+    floors: tuple[FloorTarget, ...] | None = None
 
     @cached_property
-    def wanted(self) -> tuple[Wanted, ...]:
+    def targets(self) -> tuple[FloorTarget, ...]:
         """What is to be cleared, the shallowest floor first."""
         from ..toolpath.build import MovesBuilder  # a solid needs none of it
-        from ..toolpath.coverage.wanted import wanted_of
+        from ..toolpath.coverage.floor_target import floor_targets
 
-        return wanted_of(self.program(MovesBuilder().moves()), self.job) if self.floors is None else self.floors
+        return floor_targets(self.program(MovesBuilder().moves()), self.job) if self.floors is None else self.floors
 
     def program(self, moves: Moves) -> Program:
         """Return moves as a program that makes this part."""

@@ -61,6 +61,6 @@ def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -
         mine = cells[order[ends[k] : ends[k + 1]]][::-1]  # the worst first
         area = float(stats[k + 1, cv2.CC_STAT_AREA]) * grid.pitch**2
         disc = (2 * float(inner[mine].max()) - 1) * grid.pitch
-        asked = np.concatenate([mine[:ASKED], mine[ASKED :: 1 + len(mine) // ASKED]])
-        found.append(CellPlace(asked, divmod(int(mine[0]), grid.cols), float(worst[k]), area, disc))
+        requested = np.concatenate([mine[:ASKED], mine[ASKED :: 1 + len(mine) // ASKED]])
+        found.append(CellPlace(requested, divmod(int(mine[0]), grid.cols), float(worst[k]), area, disc))
     return tuple(found), count - 1

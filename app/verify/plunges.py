@@ -15,9 +15,9 @@ from ..model.motion_path import arc_paths
 from ..simulation.cutter import Cutter
 from ..simulation.field.workpiece import Workpiece
 from ..simulation.sweeps.course import Course
-from .closer import Metal, Way
 from .course import picked
-from .led_ways import hits_along
+from .fine_stock import CutterTravel, FineStock
+from .path_hits import hits_along
 
 PIN = 0.25
 """Part of a cutter's radius, round its axis, in which it does not cut if it does not cut at its centre."""
@@ -79,10 +79,10 @@ class _Run:
 
     rows: range
     row: list[int]
-    way: Way
+    way: CutterTravel
 
 
-def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -> Plunges:
+def plunges(stock: FineStock, before: Workpiece, progress: Progress = NO_PROGRESS) -> Plunges:
     """Return where the last program of some plunges with a dead centre.
 
     A mill that goes sideways by no more than the radius of its dead centre leaves metal under it that nothing cuts,
@@ -94,14 +94,14 @@ def plunges(metal: Metal, before: Workpiece, progress: Progress = NO_PROGRESS) -
     Raises:
         Cancelled: the job was asked to stop.
     """
-    course = metal.courses[-1]
-    runs = list(_runs(course, metal.cutters, float(before.heights.max())))
+    course = stock.courses[-1]
+    runs = list(_runs(course, stock.cutters, float(before.heights.max())))
     if not runs:
         return Plunges(())
-    led = hits_along(metal, before, [run.way for run in runs], progress)
-    heights = ((k, max(hit.z + hit.depth for hit in hits)) for k, hits in sorted(led.hits.items()))
+    paths = hits_along(stock, before, [run.way for run in runs], progress)
+    heights = ((k, max(hit.z + hit.depth for hit in hits)) for k, hits in sorted(paths.hits.items()))
     found = [_plunge(runs[k], height, int(course.tool[runs[k].rows.start])) for k, height in heights]
-    return Plunges(tuple(each for each in found if each.aside < metal.cutters[each.tool].radius * PIN), led.unseen)
+    return Plunges(tuple(each for each in found if each.aside < stock.cutters[each.tool].radius * PIN), paths.unseen)
 
 
 def _runs(course: Course, cutters: Mapping[int, Cutter], top: float) -> Iterator[_Run]:
@@ -161,7 +161,7 @@ def _run(course: Course, rows: range, pin: Cutter) -> _Run:
     chords = dict(zip(arcs.rows.tolist(), arcs.points(np.linspace(0.0, 1.0, count + 1)), strict=True))
     legs = [chords[k][1:] if k in chords else mine.motions.end[k : k + 1] for k in range(len(rows))]
     row = np.repeat(np.asarray(rows), [len(leg) for leg in legs]).tolist()
-    return _Run(rows, row, Way(rows.start, np.concatenate([mine.motions.start[:1], *legs]), pin))
+    return _Run(rows, row, CutterTravel(rows.start, np.concatenate([mine.motions.start[:1], *legs]), pin))
 
 
 def _plunge(run: _Run, height: float, tool: int) -> Plunge:

@@ -15,8 +15,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from ..geometry.near import near
 from ..geometry.primitives import CX, TURN, X0, X1, R, sweeps
+from ..geometry.tree_queries import near
 from ..toolpath.coverage.flat import lines
 
 Floats = NDArray[np.float64]

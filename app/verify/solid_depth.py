@@ -22,7 +22,7 @@ ASIDE = 1.3e-7
 
 
 @dataclass(frozen=True, eq=False)
-class Columns:
+class CutColumns:
     """Upright pieces of metal that were cut away, (m,) each.
 
     Attributes:
@@ -36,9 +36,9 @@ class Columns:
     def __len__(self) -> int:
         return len(self.low)
 
-    def only(self, rows: NDArray[np.int64] | slice) -> Columns:
+    def only(self, rows: NDArray[np.int64] | slice) -> CutColumns:
         """Return some of them."""
-        return Columns(self.places[rows], self.low[rows], self.high[rows])
+        return CutColumns(self.places[rows], self.low[rows], self.high[rows])
 
 
 class DepthInSolid:
@@ -48,7 +48,7 @@ class DepthInSolid:
         self._rays, self._leave = SolidRays(solid), leave
         self._tree = solid.tree if solid.shells == 1 else TriangleTree.of(self._outer_faces(solid.triangles))
 
-    def of(self, columns: Columns, known: float = 0.0, fine: float = FINE) -> Floats:
+    def of(self, columns: CutColumns, known: float = 0.0, fine: float = FINE) -> Floats:
         """Return how deep the deepest place of each column lies below the surface of what is wanted, mm, >= 0.
 
         Args:
@@ -78,7 +78,7 @@ class DepthInSolid:
         winds = np.bincount(point, np.where(heights < before[point, 2], -up, 0.0), len(before))
         return np.asarray(triangles[winds < 0.5])
 
-    def _in_solid(self, columns: Columns) -> tuple[NDArray[np.int64], Floats]:
+    def _in_solid(self, columns: CutColumns) -> tuple[NDArray[np.int64], Floats]:
         """Return what of columns lies in the solid, by the winding number: which column, and x, y, low, high (k, 4)."""
         point, heights, up = self._rays.met(columns.places + np.array([ASIDE, ASIDE * 0.7]))
         order = np.lexsort((heights, point))

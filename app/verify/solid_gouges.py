@@ -23,7 +23,7 @@ from ..simulation.field.workpiece import Heights, Workpiece
 from .judgement import Spot, SpotKind
 from .parts import SolidPart
 from .places import MOST, CellPlace
-from .solid_depth import Columns, DepthInSolid
+from .solid_depth import CutColumns, DepthInSolid
 from .wall_probe import Probe, WallProbe, metal_at
 
 ASKED = 4000
@@ -50,7 +50,7 @@ class SolidGouges:
     Attributes:
         part: the solid. lowest: gives the height that is cut down to, and by whom. before: the stock.
         heights: (rows, cols) that are left, on the stock's grid. gouged: which of the cells are. around: the solid, as
-            in `Target`.
+            in `TargetHeights`.
         lines: NC line of each motion.
     """
 
@@ -97,20 +97,21 @@ class SolidGouges:
         cut = walls.cut_places(deep)
         if not len(cut):
             return []
-        columns, fine = Columns(cut.places, cut.heights, metal_at(self.before, cut.places)), self.part.tolerance / 10
+        columns, fine = CutColumns(cut.places, cut.heights, metal_at(self.before, cut.places)), self.part.tolerance / 10
         depth = self._depth_in.of(columns, fine=fine)
         self._measure(
             depth, columns, np.flatnonzero((depth <= self.part.tolerance) & (depth > self.part.tolerance - 2 * fine))
         )
         order = np.argsort(-depth, kind="stable")
         order = order[depth[order] > self.part.tolerance]
-        told = order[apart(cut.places[order])]
-        self._measure(depth, columns, told)
+        reported = order[apart(cut.places[order])]
+        self._measure(depth, columns, reported)
         return [
-            self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k])) for k in told.tolist()
+            self._spot(cut.places[k], float(cut.heights[k]), float(depth[k]), int(cut.motion[k]))
+            for k in reported.tolist()
         ]
 
-    def _measure(self, depth: Floats, columns: Columns, some: NDArray[np.int64]) -> None:
+    def _measure(self, depth: Floats, columns: CutColumns, some: NDArray[np.int64]) -> None:
         """Measure the depths of some columns as finely as can be."""
         depth[some] = np.maximum(depth[some], self._depth_in.of(columns.only(some)))
 
@@ -164,12 +165,12 @@ class SolidGouges:
             np.concatenate([place.cells[order[: most // 2]], place.cells[:: 1 + 2 * len(place.cells) // most]])
         )
 
-    def _columns(self, cells: NDArray[np.int64]) -> Columns:
+    def _columns(self, cells: NDArray[np.int64]) -> CutColumns:
         """Return what was cut away over the centres of cells."""
         grid = self.before.grid
         rows, cols = np.divmod(cells, grid.cols)
         places = np.column_stack([grid.x0 + (cols + 0.5) * grid.pitch, grid.y0 + (rows + 0.5) * grid.pitch])
-        return Columns(
+        return CutColumns(
             places, *(each.ravel()[cells].astype(np.float64) for each in (self.heights, self.before.heights))
         )
 
@@ -197,15 +198,17 @@ class SolidGouges:
         places, reach, each = starts, self.before.grid.pitch, len(around)
         best = np.full(len(starts), -1.0)
         for _ in range(rounds):
-            asked = (places[:, None] + around * reach).reshape(-1, 2)
-            z, motion = self.lowest(asked)
-            depth = self._depth_in.of(Columns(asked, np.where(motion >= 0, z, np.inf), metal_at(self.before, asked)))
+            requested = (places[:, None] + around * reach).reshape(-1, 2)
+            z, motion = self.lowest(requested)
+            depth = self._depth_in.of(
+                CutColumns(requested, np.where(motion >= 0, z, np.inf), metal_at(self.before, requested))
+            )
             deepest = np.argmax(depth.reshape(-1, each), axis=1) + np.arange(len(places)) * each
             better = depth[deepest] > best
-            places, best = np.where(better[:, None], asked[deepest], places), np.where(better, depth[deepest], best)
+            places, best = np.where(better[:, None], requested[deepest], places), np.where(better, depth[deepest], best)
             k = int(deepest[int(np.argmax(depth[deepest]))])
             if depth[k] > spot.depth_mm:
-                (x, y), row = asked[k].tolist(), int(motion[k])
+                (x, y), row = requested[k].tolist(), int(motion[k])
                 spot = replace(
                     spot, x=x, y=y, z=float(z[k]), depth_mm=float(depth[k]), motion=row, line=int(self.lines[row])
                 )
@@ -224,5 +227,7 @@ def apart(places: Floats) -> NDArray[np.int64]:
     beside = squares[:, None] + np.array([dx * high + dy for dx in (-1, 0, 1) for dy in (-1, 0, 1)])
     at = np.minimum(np.searchsorted(squares, beside), len(squares) - 1)
     around = np.where(squares[at] == beside, at, -1)
-    told = np.empty(len(places), np.int64)
-    return told[: told_apart(np.ascontiguousarray(places), own.ravel(), np.ascontiguousarray(around), APART, told)]
+    reported = np.empty(len(places), np.int64)
+    return reported[
+        : told_apart(np.ascontiguousarray(places), own.ravel(), np.ascontiguousarray(around), APART, reported)
+    ]

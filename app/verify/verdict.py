@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 from ..core.progress import NO_PROGRESS, Progress
 from ..core.tolerances import LEVEL
 from ..geometry.distance import DistanceField
-from ..geometry.near import near
 from ..geometry.primitives import TURN, contour_rows, pack, within_half_turn
+from ..geometry.tree_queries import near
 from ..model.job import Job
 from ..model.moves import MoveKind, Moves, Program
 from ..model.part import Region
 from ..model.stock_box import StockBox
 from ..model.tool import ToolKind
 from ..toolpath.coverage.flat import lines, move_rows, region_shapes
-from .bounds import Bound, bounds_of, cutting_radius, in_dog_bones, off_lines, out_of_holes
+from .bounds import OperationBound, bounds_of, cutting_radius, in_dog_bones, off_lines, out_of_holes
 from .clearance import curve_distance, pair_distance
 from .slanted_clearance import SlantedMoves, reach_beyond
 
@@ -74,7 +74,7 @@ def in_stock(moves: Moves, top: float = 0.0) -> NDArray[np.bool_]:
 
 
 @dataclass(frozen=True, eq=False)
-class Depths:
+class MoveDepths:
     """How deep moves in the stock cut into the part, n of them.
 
     Attributes:
@@ -90,7 +90,7 @@ class Depths:
 
 def gouge_depths(
     program: Program, job: Job, stock: StockBox | None = None, by_tool: bool = False, progress: Progress = NO_PROGRESS
-) -> Depths:
+) -> MoveDepths:
     """Return how deep each move in the stock cuts into walls, by exact distances, or below the floor of its operation.
 
     Args:
@@ -134,10 +134,10 @@ def gouge_depths(
         deep[deeper], where[deeper] = too_deep[deeper], rows[mine][deeper, 2:4]
         better = deep < depth[mine]
         depth[mine[better]], places[mine[better]] = deep[better], where[better]
-    return Depths(chosen, depth, np.column_stack([places, low]))
+    return MoveDepths(chosen, depth, np.column_stack([places, low]))
 
 
-def _slanted(bound: Bound, moves: Moves, job: Job) -> tuple[NDArray[np.int64], Floats, Floats]:
+def _slanted(bound: OperationBound, moves: Moves, job: Job) -> tuple[NDArray[np.int64], Floats, Floats]:
     """Return which moves are straight ones of a cone that go up or down, how far they reach beyond walls, each as wide
     as it is there, and where, (n, 2).
     """
@@ -159,14 +159,14 @@ def _slanted(bound: Bound, moves: Moves, job: Job) -> tuple[NDArray[np.int64], F
     return mine, depth, places
 
 
-def clear_moves(moves: Moves, depths: Depths, within: float) -> NDArray[np.bool_]:
+def clear_moves(moves: Moves, depths: MoveDepths, within: float) -> NDArray[np.bool_]:
     """Return (n,) which moves were looked at and reach beyond no wall and no floor by more than so many mm."""
     clear = np.zeros(len(moves), np.bool_)
     clear[depths.move] = depths.depth <= within
     return clear
 
 
-def _beyond(bound: Bound, rows: Floats, need: Floats, progress: Progress) -> tuple[Floats, Floats]:
+def _beyond(bound: OperationBound, rows: Floats, need: Floats, progress: Progress) -> tuple[Floats, Floats]:
     """Return how far moves leave an area, with all the width that they need (<= 0: they do not), mm, and where, (n,
     2).
     """
@@ -184,7 +184,7 @@ def _beyond(bound: Bound, rows: Floats, need: Floats, progress: Progress) -> tup
     return depth, places
 
 
-def clamps_met(program: Program, job: Job, depths: Depths | None = None) -> Depths:
+def clamps_met(program: Program, job: Job, depths: MoveDepths | None = None) -> MoveDepths:
     """Return how far each move below the clamps' tops, rapids too, reaches into a clamp with its cutter.
 
     Args:
@@ -197,7 +197,7 @@ def clamps_met(program: Program, job: Job, depths: Depths | None = None) -> Dept
     if depths is not None:
         chosen = np.setdiff1d(chosen, depths.move[depths.depth > LEVEL])
     if not len(chosen):
-        return Depths(chosen, np.zeros(0), np.zeros((0, 3)))
+        return MoveDepths(chosen, np.zeros(0), np.zeros((0, 3)))
     rows, need = move_rows(moves)[chosen], np.array([job.tool(number).radius for number in moves.tool[chosen].tolist()])
     depth, places = _depths(
         rows, need, np.concatenate([contour_rows(c) for region in program.clamps for c in region.contours])
@@ -205,7 +205,7 @@ def clamps_met(program: Program, job: Job, depths: Depths | None = None) -> Dept
     held = shapely.union_all(region_shapes(program.clamps, _CHORD))
     over = np.asarray(shapely.intersects(shapely.points(rows[:, 2:4]), held))
     depth[over] = np.maximum(depth[over], need[over])
-    return Depths(chosen, depth, np.column_stack([places, low[chosen]]))
+    return MoveDepths(chosen, depth, np.column_stack([places, low[chosen]]))
 
 
 def _touches(moves: Moves, job: Job, stock: StockBox) -> NDArray[np.bool_]:
@@ -238,7 +238,7 @@ def gouge(program: Program, job: Job) -> Gouge:
     return deepest_of(gouge_depths(program, job))
 
 
-def deepest_of(depths: Depths) -> Gouge:
+def deepest_of(depths: MoveDepths) -> Gouge:
     """Return the deepest gouge; moves that reach more than LEVEL into the part are counted."""
     worst = int(np.argmax(depths.depth)) if len(depths.depth) else 0
     if not len(depths.depth) or depths.depth[worst] <= 0:

@@ -81,7 +81,7 @@ class WallProbe:
                 below the top over it.
         """
         part, start = self.part, self.part.tolerance - self.part.leave
-        asking = _Asking(*wall_points(part.solid, self.before.grid.pitch), self, SolidRays(part.solid))
+        asking = _WallPoints(*wall_points(part.solid, self.before.grid.pitch), self, SolidRays(part.solid))
         asking = asking.only(asking.gouged(np.full(len(asking.points), start)))
         known = np.maximum(deep(asking.points) - part.leave + FINER * part.tolerance, start)
         some = asking.gouged(known, np.maximum(known, start))
@@ -94,7 +94,7 @@ class WallProbe:
         cut = motion >= 0
         return CutPlaces(places[cut], heights[cut], motion[cut])
 
-    def _followed(self, asking: _Asking, start: Floats) -> Floats:
+    def _followed(self, asking: _WallPoints, start: Floats) -> Floats:
         """Return depths (m,) at which gouges still are that are at others (m,); where they end sooner than `STRIDES`,
         their end.
         """
@@ -115,7 +115,7 @@ class WallProbe:
 
 
 @dataclass(frozen=True, eq=False)
-class _Asking:
+class _WallPoints:
     """Points on walls, the way into the solid there, and whom to ask."""
 
     points: Floats
@@ -123,9 +123,9 @@ class _Asking:
     probe: WallProbe
     rays: SolidRays
 
-    def only(self, chosen: NDArray[np.bool_] | NDArray[np.int64]) -> _Asking:
+    def only(self, chosen: NDArray[np.bool_] | NDArray[np.int64]) -> _WallPoints:
         """Return some of the points."""
-        return _Asking(self.points[chosen], self.inwards[chosen], self.probe, self.rays)
+        return _WallPoints(self.points[chosen], self.inwards[chosen], self.probe, self.rays)
 
     def gouged(self, depth: Floats, over: Floats | float = 0.0) -> NDArray[np.bool_]:
         """Return whether the solid was cut at depths (m,) in it, < 0 beside it, deeper than its tolerance, and `over`
@@ -135,9 +135,9 @@ class _Asking:
             return np.zeros(0, np.bool_)
         places, part = self.points + self.inwards * depth[:, None], self.probe.part
         heights, motion = self.probe.lowest(places)
-        wanted = self.rays.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
-        metal = np.minimum(wanted, metal_at(self.probe.before, places))
-        return np.asarray((motion >= 0) & (heights < metal - part.tolerance) & (heights < wanted - over))
+        target = self.rays.tops(self.points + self.inwards * np.maximum(depth, ASIDE)[:, None])
+        stock = np.minimum(target, metal_at(self.probe.before, places))
+        return np.asarray((motion >= 0) & (heights < stock - part.tolerance) & (heights < target - over))
 
 
 def metal_at(workpiece: Workpiece, places: Floats) -> Floats:

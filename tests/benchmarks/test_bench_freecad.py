@@ -22,7 +22,7 @@ from app.model.curves import Circle, Line, Primitive
 from app.model.job import Job
 from app.model.motion import MotionKind
 from app.model.moves import Moves, Program, Purpose
-from app.model.operation import Cut, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Region
 from app.model.stock_box import extent
 from app.model.tool import Tool
@@ -125,7 +125,7 @@ def by_freecad(regions: tuple[Region, ...], diameter: float, percent: int, folde
 def test_pocket_against_freecad(name: str, percent: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, diameter = PARTS[name]
     part = read_drawing(path.name, path.read_bytes(), None, ()).part
-    job = Job(part, (Tool(1, diameter),), (PocketOperation(Cut(1, DEPTH, DEPTH)),))
+    job = Job(part, (Tool(1, diameter),), (PocketOperation(CutParameters(1, DEPTH, DEPTH)),))
     begin = time.perf_counter()
     program = compute(job)
     ours = figures(program, job, time.perf_counter() - begin)

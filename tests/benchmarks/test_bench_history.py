@@ -7,7 +7,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from app.exhibits.die_programs import PROGRAMS, block
 from app.simulation.history.history import History, Playhead, changed_box
 from app.simulation.sweeps.course import TrimOptions
-from app.simulation.sweeps.sweeps import Field
+from app.simulation.sweeps.sweeps import CutField
 from app.simulation.sweeps.trim import trim
 from tests.benchmarks.conftest import OURS, record
 
@@ -45,7 +45,7 @@ def test_from_the_start(benchmark: BenchmarkFixture, name: str) -> None:
 def test_a_frame(benchmark: BenchmarkFixture, name: str) -> None:
     """Onward as in playing at 60 pictures a second for 20 s, with what has changed told."""
     head = Playhead(history(name))
-    shown = Field(head.field.heights.copy(), head.field.owner.copy())
+    shown = CutField(head.field.heights.copy(), head.field.owner.copy())
     step = max(head.history.motions // 1200, 1)
 
     def frame() -> None:

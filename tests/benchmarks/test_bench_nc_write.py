@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.gcode.checks.check import Meant, check
+from app.gcode.checks.check import CheckReference, check
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.write import NcFile, write_files
 from app.model.moves import Moves, Program
@@ -88,7 +88,7 @@ def test_proving(benchmark: BenchmarkFixture) -> None:
 
     def prove() -> object:
         begun = time.thread_time()
-        done = check(data, file, Meant(meant, job(), post))
+        done = check(data, file, CheckReference(meant, job(), post))
         spent.append(time.thread_time() - begun)
         return done.problems
 

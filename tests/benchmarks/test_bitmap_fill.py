@@ -8,7 +8,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from app.geometry.primitives import contour_rows, sample
 from app.model.part import Region
 from app.raster.fill import fill
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark
@@ -18,10 +18,10 @@ SUB_PIXEL_BITS = 8
 Named = tuple[str, tuple[Region, ...]]
 
 
-def frame_of(regions: tuple[Region, ...], size: int) -> tuple[Frame, np.ndarray]:
+def frame_of(regions: tuple[Region, ...], size: int) -> tuple[BitmapFrame, np.ndarray]:
     rows = np.concatenate([contour_rows(contour) for region in regions for contour in region.contours])
     points = rows[:, :2]
-    return Frame.around((*points.min(axis=0), *points.max(axis=0)), size), rows
+    return BitmapFrame.around((*points.min(axis=0), *points.max(axis=0)), size), rows
 
 
 @pytest.mark.parametrize("size", SIZES)

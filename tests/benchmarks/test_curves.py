@@ -12,7 +12,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from app.fitting.point_curves.bspline import SplineFit, fit_spline
 from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from app.fitting.point_curves.space_curve import curve_of_motions
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from tests.benchmarks.conftest import OURS, record
 
 pytestmark = pytest.mark.benchmark
@@ -29,9 +29,9 @@ def contour(count: int) -> Floats:
 
 def proven(points: Floats) -> int:
     """Fit, and prove again from nothing; return the spans."""
-    made = fit_splines(points, SplineOptions(Tube(TOLERANCE)))
-    judgement = judge(curve_of_motions(made.motions), points, Tube(TOLERANCE))
-    assert judgement.answer is Answer.INSIDE
+    made = fit_splines(points, SplineOptions(ToleranceTube(TOLERANCE)))
+    judgement = judge(curve_of_motions(made.motions), points, ToleranceTube(TOLERANCE))
+    assert judgement.answer is TubeAnswer.INSIDE
     return sum(len(np.unique(curve.knots)) - 1 for curve in made.motions.splines.values())
 
 
@@ -69,6 +69,6 @@ def test_ten_thousand_points(benchmark: BenchmarkFixture, engine: str) -> None:
 @pytest.mark.parametrize("count", [10_000, 100_000, 1_000_000])
 def test_time_rises_with_the_points(benchmark: BenchmarkFixture, count: int) -> None:
     points = contour(count)
-    fit = benchmark.pedantic(fit_spline, args=(points, Tube(TOLERANCE)), rounds=1)
+    fit = benchmark.pedantic(fit_spline, args=(points, ToleranceTube(TOLERANCE)), rounds=1)
     assert isinstance(fit, SplineFit)
     record(benchmark, f"a spline within 0.05 mm of {count} points", OURS)

@@ -7,7 +7,7 @@ from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.formats.readers import read_drawing
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.engagement.feed import followed
@@ -20,7 +20,10 @@ pytestmark = pytest.mark.benchmark
 def test_followed(benchmark: BenchmarkFixture, name: str) -> None:
     path = DRAWINGS[name]
     part = read_drawing(path.name, path.read_bytes(), None, ()).part
-    operations = PocketOperation(Cut(1), 0.9, most_engaged=0.5), ContourOperation(Cut(2), most_engaged=0.5)
+    operations = (
+        PocketOperation(CutParameters(1), 0.9, most_engaged=0.5),
+        ContourOperation(CutParameters(2), most_engaged=0.5),
+    )
     job = Job(part, (Tool(1, 2.0), Tool(2, 1.0)), operations)
     program = compute(job)
     after = benchmark.pedantic(followed, (program, job), rounds=3, warmup_rounds=1)

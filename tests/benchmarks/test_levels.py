@@ -5,7 +5,7 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.raster.border import Border, borders_of
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.levels import RingSteps, offset_area, ring_index
 from app.raster.walls import Mask, free_pixels
 from tests.benchmarks.conftest import OURS, record
@@ -18,7 +18,7 @@ SIZES = [1600, 8000]
 def area_of(size: int) -> tuple[Mask, RingSteps]:
     """A' of the part at r1 = 0.5 mm, and rings as far apart as the findings take them: R = 1 mm, step 0.9 mm."""
     pixel = 100 / size
-    return offset_area(free_pixels(Frame(size, size, pixel), fig2()), 0.5 / pixel, 1.0), RingSteps(
+    return offset_area(free_pixels(BitmapFrame(size, size, pixel), fig2()), 0.5 / pixel, 1.0), RingSteps(
         1 / pixel, 0.9 / pixel
     )
 

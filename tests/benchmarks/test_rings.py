@@ -15,7 +15,7 @@ import shapely
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from app.geometry.distance import DistanceField
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.primitives import Primitives, contour_rows, pack, sample
 from app.model.part import Region
 from app.operations.pocket.paths import pocket_distances, without_empty
@@ -33,7 +33,7 @@ def polygon_of(regions: tuple[Region, ...]) -> shapely.Geometry:
     return shapely.union_all([shapely.make_valid(shapely.Polygon(boundary, islands)) for boundary, *islands in rings])
 
 
-def own_rings(regions: tuple[Region, ...]) -> tuple[Level, ...]:
+def own_rings(regions: tuple[Region, ...]) -> tuple[OffsetLevel, ...]:
     primitives = pack(regions)
     return without_empty(
         offset_levels(primitives, pocket_distances(FIRST, STEPOVER, DistanceField.of(primitives.rows)))

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.fitting.corner_smoothing.smooth import SmoothOptions, smooth
-from app.raster.frame import Frame
+from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions, smooth
+from app.raster.frame import BitmapFrame
 from tests.benchmarks.conftest import OURS, record
 from tests.fitting.paths import traces, wavy
 
@@ -17,7 +17,7 @@ TOLERANCE = 0.75
 @pytest.fixture(scope="module")
 def path() -> np.ndarray:
     """The trace, in pixels, of a part of 100 mm on 8000 x 8000."""
-    trace: np.ndarray = traces(Frame(8000, 8000, 100 / 8000), [wavy()])[0] / (100 / 8000)
+    trace: np.ndarray = traces(BitmapFrame(8000, 8000, 100 / 8000), [wavy()])[0] / (100 / 8000)
     assert len(trace) == pytest.approx(100_000, rel=0.1)
     return trace
 
@@ -46,7 +46,7 @@ def greedy_lines(points: np.ndarray, tolerance: float) -> int:
 
 
 def test_own_smoothing(benchmark: BenchmarkFixture, path: np.ndarray) -> None:
-    smoothed = benchmark(smooth, path, SmoothOptions(TOLERANCE))
+    smoothed = benchmark(smooth, path, CornerSmoothingOptions(TOLERANCE))
     record(benchmark, TASK, OURS)
     assert smoothed.exact
     assert smoothed.deviation <= 4 * TOLERANCE

@@ -16,7 +16,7 @@ from app.surfaces.cutter_contact.drop_cutter import drop
 from app.surfaces.cutter_contact.scene_facets import scene_facets
 from app.surfaces.passes.path import Follower, FollowOptions, cutter_path
 from app.surfaces.patches.build import build
-from app.surfaces.patches.facets import Facets
+from app.surfaces.patches.facets import SurfaceFacets
 from app.surfaces.sections.planes import even_planes
 from tests.benchmarks.conftest import OURS, record
 from tests.conftest import ROOT
@@ -51,7 +51,7 @@ def test_own_drop(benchmark: BenchmarkFixture, size: str) -> None:
     mesh, where = terrain(CELLS[size]), places()
 
     def work() -> np.ndarray:
-        return drop(Facets.of_mesh(mesh), TOOL, where).height
+        return drop(SurfaceFacets.of_mesh(mesh), TOOL, where).height
 
     heights[size] = benchmark.pedantic(work, rounds=5, warmup_rounds=1)
     record(benchmark, f"ball over {size} triangles, 90,000 places", OURS)

@@ -17,53 +17,59 @@ from app.core.errors import InputError
 from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies
 from app.model.operation import Side
-from app.usecases.machining import Machining
+from app.usecases.machining import MachiningOptions
 
 ROOT = Path(__file__).parents[2]
 FIG2 = ROOT / "resources/samples/fig2.dxf"
 
 
-def asked(text: str, drawing: str = "part.dxf") -> Machining:
+def asked(text: str, drawing: str = "part.dxf") -> MachiningOptions:
     return make_options(
         MAKE.arguments([drawing, "-o", "out.ngc", *text.split(" ")] if text else [drawing, "-o", "out.ngc"])
     ).machining
 
 
 def test_nothing_is_nothing() -> None:
-    assert asked("") == Machining()
+    assert asked("") == MachiningOptions()
 
 
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("--side outside", Machining.of(side=Side.OUTSIDE)),
-        ("--entry predrilled", Machining.of(entry=EntryKind.PREDRILLED)),
-        ("--ramp-angle 5", Machining.of(entry_angle=math.radians(5))),
-        ("--ramp-angle 0.05rad", Machining.of(entry_angle=0.05)),
-        ("--lead none", Machining.of(lead=LeadKind.NONE)),
+        ("--side outside", MachiningOptions.of(side=Side.OUTSIDE)),
+        ("--entry predrilled", MachiningOptions.of(entry=EntryKind.PREDRILLED)),
+        ("--ramp-angle 5", MachiningOptions.of(entry_angle=math.radians(5))),
+        ("--ramp-angle 0.05rad", MachiningOptions.of(entry_angle=0.05)),
+        ("--lead none", MachiningOptions.of(lead=LeadKind.NONE)),
         (
             "--lead line --lead-radius 1/8in --lead-overlap 0",
-            Machining.of(lead=LeadKind.LINE, lead_radius=3.175, lead_overlap=0.0),
+            MachiningOptions.of(lead=LeadKind.LINE, lead_radius=3.175, lead_overlap=0.0),
         ),
-        ("--tabs 4 --tab-width 0.5cm --tab-height 1", Machining.of(tabs=4, tab_width=5.0, tab_height=1.0)),
-        ("--dog-bones --outside-in", Machining.of(dog_bones=True, outside_in=True)),
-        ("--most-engaged 40%", Machining.of(most_engaged=0.4)),
-        ("--most-engaged .4", Machining.of(most_engaged=0.4)),
+        ("--tabs 4 --tab-width 0.5cm --tab-height 1", MachiningOptions.of(tabs=4, tab_width=5.0, tab_height=1.0)),
+        ("--dog-bones --outside-in", MachiningOptions.of(dog_bones=True, outside_in=True)),
+        ("--most-engaged 40%", MachiningOptions.of(most_engaged=0.4)),
+        ("--most-engaged .4", MachiningOptions.of(most_engaged=0.4)),
         (
             "--finish-depth 0.2 --finish-width 0.3 --spring-passes 2",
-            Machining.of(finish_depth=0.2, finish_width=0.3, spring_passes=2),
+            MachiningOptions.of(finish_depth=0.2, finish_width=0.3, spring_passes=2),
         ),
-        ("--floor-to-leave 0.1", Machining.of(floor_to_leave=0.1)),
-        ("--drill 5 --drill 1/4in --peck 2 --through 0.5", Machining.of(drills=(5.0, 6.35), peck=2.0, through=0.5)),
-        ("--copies 3x2@40,-1in", Machining.of(copies=Copies(3, 2, 40.0, -25.4))),
-        ("--copies 4X1@50", Machining.of(copies=Copies(4, 1, 50.0))),
-        ("--copies 2x1@50,0", Machining.of(copies=Copies(2, 1, 50.0))),
-        ("--lead-overlap 50", Machining.of(lead_overlap=50.0)),
-        ("--copies 1x4@50", Machining.of(copies=Copies(1, 4, 0.0, 50.0))),
-        ("--keep-out a --keep-out b --keep-out-height 12", Machining.of(keep_out=("a", "b"), keep_out_height=12.0)),
+        ("--floor-to-leave 0.1", MachiningOptions.of(floor_to_leave=0.1)),
+        (
+            "--drill 5 --drill 1/4in --peck 2 --through 0.5",
+            MachiningOptions.of(drills=(5.0, 6.35), peck=2.0, through=0.5),
+        ),
+        ("--copies 3x2@40,-1in", MachiningOptions.of(copies=Copies(3, 2, 40.0, -25.4))),
+        ("--copies 4X1@50", MachiningOptions.of(copies=Copies(4, 1, 50.0))),
+        ("--copies 2x1@50,0", MachiningOptions.of(copies=Copies(2, 1, 50.0))),
+        ("--lead-overlap 50", MachiningOptions.of(lead_overlap=50.0)),
+        ("--copies 1x4@50", MachiningOptions.of(copies=Copies(1, 4, 0.0, 50.0))),
+        (
+            "--keep-out a --keep-out b --keep-out-height 12",
+            MachiningOptions.of(keep_out=("a", "b"), keep_out_height=12.0),
+        ),
     ],
 )
-def test_options_are_read_with_their_units(text: str, expected: Machining) -> None:
+def test_options_are_read_with_their_units(text: str, expected: MachiningOptions) -> None:
     found = asked(text)
     assert found.values.keys() == expected.values.keys()
     for name, value in expected.values.items():

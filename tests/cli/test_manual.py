@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from app.cli.main import main
-from app.drafting.document import State
+from app.drafting.document import HistoryState
 from app.formats.project.project import Project, write_project
 from app.formats.readers import read_drawing
 from app.model.job import Job
@@ -54,7 +54,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         page.add_circle((x, 8), 2.5)
     document.saveas(tmp_path / "part.dxf")
     job = Job(read_drawing("part.dxf", (tmp_path / "part.dxf").read_bytes()).part)
-    (tmp_path / "part.hito").write_bytes(write_project(Project(State(job))))
+    (tmp_path / "part.hito").write_bytes(write_project(Project(HistoryState(job))))
     for name in ("other.nc", "program.nc"):
         (tmp_path / name).write_text(OTHER)
     scan = np.full((300, 400), 255, np.uint8)

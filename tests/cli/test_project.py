@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from app.cli.main import main
-from app.drafting.history import State
+from app.drafting.history import HistoryState
 from app.formats.job.write import empty_lists, job_lines
 from app.formats.project.project import Project, write_project
 from app.model.job import Job
-from app.model.operation import Cut, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
 from tests.formats.project_cases import plate
@@ -18,9 +18,9 @@ from tests.formats.project_cases import plate
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    job = Job(plate(), (Tool(7, 5.0, feed_rate=777.0),), (PocketOperation(Cut(7, 1.25)),))
+    job = Job(plate(), (Tool(7, 5.0, feed_rate=777.0),), (PocketOperation(CutParameters(7, 1.25)),))
     path = tmp_path / "plate.hito"
-    path.write_bytes(write_project(Project(State(job))))
+    path.write_bytes(write_project(Project(HistoryState(job))))
     return path
 
 
@@ -41,7 +41,7 @@ def test_options_override_it(project: Path) -> None:
 
 
 def test_a_job_file_takes_its_place(project: Path, tmp_path: Path) -> None:
-    other = Job(Part(), (Tool(3, 4.0),), (PocketOperation(Cut(3)),))
+    other = Job(Part(), (Tool(3, 4.0),), (PocketOperation(CutParameters(3)),))
     (tmp_path / "j.toml").write_text("\n".join([*empty_lists(other), *job_lines(other)]))
     assert "T3 M6" in made(project, "--job", str(tmp_path / "j.toml"))
 
@@ -71,6 +71,6 @@ def test_a_newer_project_is_refused_and_stays(project: Path, capsys: pytest.Capt
 
 
 def test_a_project_without_operations_says_so(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    project.write_bytes(write_project(Project(State(replace(Job(plate()), operations=())))))
+    project.write_bytes(write_project(Project(HistoryState(replace(Job(plate()), operations=())))))
     assert main(["make", str(project), "-o", str(project.with_suffix(".ngc"))]) == 2
     assert "no operation" in capsys.readouterr().err

@@ -11,7 +11,7 @@ import pytest
 
 from app.cli.main import main
 from app.gcode.interpreter.dialect import Dialect
-from app.gcode.interpreter.guess import guess_dialect
+from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import EventKind, NcProgram
 from app.gcode.interpreter.reader import read_program

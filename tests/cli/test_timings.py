@@ -13,7 +13,7 @@ import pytest
 
 from app.cli import files as cli_files
 from app.cli.main import main
-from app.cli.signals import Stopping
+from app.cli.signals import StopFlag
 from app.cli.timings import StageTimes
 from app.core.progress import Progress
 
@@ -66,7 +66,7 @@ def test_without_the_option_a_report_is_the_same_each_time(tmp_path: Path) -> No
 def test_a_pipe_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     clock = [100.0]
     monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
-    progress = cli_files.shown_progress(quiet=False, stopped=Stopping())
+    progress = cli_files.shown_progress(quiet=False, stopped=StopFlag())
     for second, fraction in ((101.0, 0.1), (104.9, 0.2), (105.1, 0.3), (109.0, 0.4), (110.2, 0.5)):
         clock[0] = second
         progress.step(fraction, "Link rings")
@@ -76,7 +76,7 @@ def test_a_pipe_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys
 def test_a_pipe_hears_of_a_stage_that_tells_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    clock, stopped = [100.0], Stopping()
+    clock, stopped = [100.0], StopFlag()
     monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
     progress = cli_files.shown_progress(quiet=False, stopped=stopped)
     assert stopped.tick is not None
@@ -93,7 +93,7 @@ def test_a_pipe_hears_of_a_stage_that_tells_nothing(
 def test_a_pipe_hears_nothing_while_the_command_waits(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    clock, stopped = [100.0], Stopping()
+    clock, stopped = [100.0], StopFlag()
     monkeypatch.setattr("app.cli.files.time.monotonic", lambda: clock[0])
     progress = cli_files.shown_progress(quiet=False, stopped=stopped)
     assert stopped.tick is not None

@@ -165,13 +165,13 @@ def test_compiling_processes_end_with_the_program(program: Path) -> None:
 def test_whoever_waits_is_told_and_may_leave(program: Path) -> None:
     code = """
 from app.core.errors import Cancelled
-from app.core.progress import told_waits
+from app.core.progress import waits_reported_to
 from app.room.outer_kernels import outer
 told = []
 def waiter(text):
     told.append(text)
     raise Cancelled
-with told_waits(waiter):
+with waits_reported_to(waiter):
     try:
         outer(1.0)
     except Cancelled:

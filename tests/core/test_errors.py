@@ -9,7 +9,7 @@ import pytest
 from app.cli.main import main
 from app.core.errors import InputError, printable
 from app.core.toml_tables import known_words
-from app.gcode.interpreter.program import Problem
+from app.gcode.interpreter.program import ProgramProblem
 from app.model.finding import Finding, FindingKind
 
 
@@ -29,7 +29,7 @@ def test_signs_that_a_terminal_obeys_are_spelled_out(text: str, shown: str) -> N
     assert printable(text) == shown
     assert str(InputError(text)) == shown
     assert Finding(FindingKind.LEFT_OUT, text).text == shown
-    assert Problem(3, 1, "", text).told("p.ngc") == f"p.ngc:3:1: {shown}"
+    assert ProgramProblem(3, 1, "", text).message("p.ngc") == f"p.ngc:3:1: {shown}"
 
 
 def test_no_byte_of_a_program_reaches_the_terminal_as_a_command(

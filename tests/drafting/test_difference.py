@@ -3,7 +3,7 @@
 import pytest
 
 from app.core.errors import InputError
-from app.drafting.difference import Difference, difference
+from app.drafting.difference import DrawingDifference, difference
 from app.drafting.document import Document
 from app.model.curves import Line
 from app.model.job import Job
@@ -19,7 +19,7 @@ def document() -> Document:
 
 
 def test_the_same_drawing_differs_in_nothing(document: Document) -> None:
-    assert difference(document.part, document.part) == Difference()
+    assert difference(document.part, document.part) == DrawingDifference()
 
 
 def test_what_is_drawn_is_added_and_nothing_has_happened(document: Document) -> None:

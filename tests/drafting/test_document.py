@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
-from app.drafting.document import Change, Document, LogLine
+from app.drafting.document import Document, DocumentChange, LogLine
 from app.model.curves import Circle, Line
 from app.model.job import Job, Stock
 from app.model.part import Entity, Layer, Part, Units
-from app.model.reading import Reading, Source
+from app.model.reading import DrawingSource, ReadingOptions
 from tests.examples import examples
 
 
@@ -152,14 +152,18 @@ def test_layer_takes_new_curves_or_those_named(document: Document) -> None:
 
 
 def test_listeners_hear_what_changed_until_they_leave(document: Document) -> None:
-    heard: list[Change] = []
+    heard: list[DocumentChange] = []
     leave = document.subscribe(heard.append)
     document.run("circle 0,0 1")
     document.select([1])
     document.change_job("Stock", replace(document.job, stock=Stock(2.0)))
     leave()
     document.run("circle 9,0 1")
-    assert heard == [Change.PART | Change.HISTORY | Change.LOG, Change.SELECTION, Change.JOB | Change.HISTORY]
+    assert heard == [
+        DocumentChange.PART | DocumentChange.HISTORY | DocumentChange.LOG,
+        DocumentChange.SELECTION,
+        DocumentChange.JOB | DocumentChange.HISTORY,
+    ]
 
 
 def test_repeated_edits_of_one_field_are_one_step(document: Document) -> None:
@@ -187,10 +191,10 @@ def test_the_same_job_again_is_no_change(document: Document) -> None:
 
 def test_load_begins_afresh(document: Document) -> None:
     document.run("circle 0,0 1")
-    heard: list[Change] = []
+    heard: list[DocumentChange] = []
     document.subscribe(heard.append)
     document.load(Job(Part(name="other")), Path("other.dxf"))
-    assert heard == [Change.ALL]
+    assert heard == [DocumentChange.ALL]
     assert (document.log, document.undo_name, document.modified, document.path) == ([], None, False, Path("other.dxf"))
     assert document.revision == 2
 
@@ -263,7 +267,7 @@ def test_undoing_everything_leads_back_and_every_log_replays(lines: list[str]) -
 
 
 def test_a_drawing_that_is_read_again_is_one_step_that_undo_takes_back_with_how_it_was_read() -> None:
-    first, second = Source("a.dxf"), Source("a.dxf", Reading(Units.INCH))
+    first, second = DrawingSource("a.dxf"), DrawingSource("a.dxf", ReadingOptions(Units.INCH))
     document = Document()
     document.load(Job(Part().with_curves([Line((0, 0), (1, 0))], "0")), None, first)
     document.run("let w = 3")

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
-from app.drafting.commands.faults import FaultKind, apart, found_faults
+from app.drafting.commands.defects import DefectKind, curve_distance, find_defects
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
 from tests.examples import examples
@@ -21,8 +21,8 @@ def drawn(*lines: str) -> Document:
     return document
 
 
-def kinds(document: Document, tolerance: float = 0.01) -> list[tuple[FaultKind, tuple[int, ...]]]:
-    return [(fault.kind, fault.ids) for fault in found_faults(document.part, tolerance)]
+def kinds(document: Document, tolerance: float = 0.01) -> list[tuple[DefectKind, tuple[int, ...]]]:
+    return [(fault.kind, fault.ids) for fault in find_defects(document.part, tolerance)]
 
 
 def test_each_kind_is_found_with_its_place_and_its_size() -> None:
@@ -35,10 +35,10 @@ def test_each_kind_is_found_with_its_place_and_its_size() -> None:
         "circle 5,5 2",
         "circle 5,5 2.003 cw",
     )
-    faults = {fault.kind: fault for fault in found_faults(document.part, 0.01)}
-    assert faults[FaultKind.TINY].ids == (6,) and faults[FaultKind.TINY].size == pytest.approx(0.005)
-    assert [f.ids for f in found_faults(document.part, 0.01) if f.kind is FaultKind.DUPLICATE] == [(1, 5), (9, 10)]
-    overlap, gap = faults[FaultKind.OVERLAP], faults[FaultKind.GAP]
+    faults = {fault.kind: fault for fault in find_defects(document.part, 0.01)}
+    assert faults[DefectKind.TINY].ids == (6,) and faults[DefectKind.TINY].size == pytest.approx(0.005)
+    assert [f.ids for f in find_defects(document.part, 0.01) if f.kind is DefectKind.DUPLICATE] == [(1, 5), (9, 10)]
+    overlap, gap = faults[DefectKind.OVERLAP], faults[DefectKind.GAP]
     assert overlap.ids == (3, 7) and overlap.size == pytest.approx(30) and overlap.place == pytest.approx((45, 40))
     assert set(gap.ids) == {7, 8} and gap.size == pytest.approx(0.004) and gap.place == pytest.approx((80, 40.002))
 
@@ -121,13 +121,13 @@ def test_ends_farther_than_the_tolerance_stay_apart_and_nothing_moves_farther() 
     document = drawn("line 0,0 10,0", "line 10.02,0 20,5", "arc 0,50 0,50.02 centre 5,50.01", "line 0,50.028 -5,60")
     before = {e.id: e.curve for e in document.part.entities}
     document.run("heal 0.01")
-    assert all(apart(before[e.id], e.curve) <= 0.01 for e in document.part.entities)
+    assert all(curve_distance(before[e.id], e.curve) <= 0.01 for e in document.part.entities)
     assert document.part.curve(1) == before[1]
 
 
 def test_only_what_is_named_or_can_be_reached_is_mended() -> None:
     document = drawn("line 0,0 10,0", "line 0,0 10,0", "layer b", "line 0,5 9,5", "line 0,5 9,5", "lock b")
-    assert kinds(document) == [(FaultKind.DUPLICATE, (1, 2))]
+    assert kinds(document) == [(DefectKind.DUPLICATE, (1, 2))]
     assert document.run("heal 0.01 3 4") == "Nothing to mend."
     document.run("heal 0.01")
     assert [e.id for e in document.part.entities] == [1, 3, 4]
@@ -149,7 +149,7 @@ def test_what_cannot_be_is_told(line: str, says: str) -> None:
 
 def test_many_ends_at_one_place_and_many_copies_are_no_trap() -> None:
     document = drawn("line 0,0 50,0", "array polar 0,0 3000 1", "circle 200,0 5", "array 40 40 @0,0 3001")
-    assert len([1 for kind, _ in kinds(document, 0.001) if kind is FaultKind.DUPLICATE]) == 1599
+    assert len([1 for kind, _ in kinds(document, 0.001) if kind is DefectKind.DUPLICATE]) == 1599
     document.run("heal 0.001")
     assert len(document.part.entities) == 3001
 

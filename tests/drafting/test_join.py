@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 from app.core.errors import InputError
+from app.drafting.commands.defects import DefectKind, find_defects
 from app.drafting.commands.explode import exploded
-from app.drafting.commands.faults import FaultKind, found_faults
-from app.drafting.commands.measuring import measures
+from app.drafting.commands.measure import measures
 from app.drafting.curves.chains import chained
-from app.drafting.curves.meet import foot
+from app.drafting.curves.intersections import nearest_point
 from app.drafting.curves.shapes import middle_of
 from app.drafting.document import Document
 from app.drafting.expressions.words import point_text
@@ -126,7 +126,7 @@ def test_a_contour_cut_and_shaken_joins_to_what_it_was(seed: int) -> None:
     document.load(Job(Part(tuple(shaken))))
     document.run(f"join within 0.1 1-{max(document.part.ids())}")
     assert len(document.part.entities) == 8
-    assert not [fault for fault in found_faults(document.part, 0.1) if fault.kind is FaultKind.GAP]
+    assert not [fault for fault in find_defects(document.part, 0.1) if fault.kind is DefectKind.GAP]
     (chain,) = chained(curves(document))
     assert chain.closed
 
@@ -164,7 +164,7 @@ def test_a_circle_explodes_into_two_arcs_and_the_rest_into_lines_and_arcs_within
 
 
 def _away(piece: Line | Arc, point: tuple[float, float]) -> float:
-    return math.dist(foot(piece, point), point)
+    return math.dist(nearest_point(piece, point), point)
 
 
 @pytest.mark.parametrize("name", ["gear.dxf", "apu-mount.dxf"])

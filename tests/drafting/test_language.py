@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.core.errors import InputError
-from app.drafting.commands.command import Delete, Draw, Session, Transform
+from app.drafting.commands.command import Delete, DraftingSession, Draw, Transform
 from app.drafting.document import Document
 from app.drafting.expressions.errors import CommandError
 from app.drafting.expressions.grammar import read_script
@@ -18,16 +18,16 @@ from app.geometry.transform import shift
 from app.model.curves import Arc, Circle, Line
 
 
-def parse(line: str, session: Session | None = None) -> Command:
+def parse(line: str, session: DraftingSession | None = None) -> Command:
     (written,) = read_script(line)
     assert isinstance(written, Written)
-    return read(written, session or Session())
+    return read(written, session or DraftingSession())
 
 
-def drawn(line: str, session: Session | None = None) -> tuple[object, ...]:
+def drawn(line: str, session: DraftingSession | None = None) -> tuple[object, ...]:
     command = parse(line, session)
     assert isinstance(command, Draw)
-    return tuple(e.curve for e in command.carried_out(Session()).part.entities)
+    return tuple(e.curve for e in command.carried_out(DraftingSession()).part.entities)
 
 
 def test_line_joins_its_points_and_closes() -> None:
@@ -42,7 +42,7 @@ def test_relative_and_polar_points_start_from_the_point_before() -> None:
 
 
 def test_a_line_that_begins_relative_starts_from_the_last_point_drawn() -> None:
-    assert drawn("line @1,2 @3,0", Session(last=(10, 10))) == (Line((11, 12), (14, 12)),)
+    assert drawn("line @1,2 @3,0", DraftingSession(last=(10, 10))) == (Line((11, 12), (14, 12)),)
 
 
 def test_arc_about_a_centre_turns_left_unless_told() -> None:
@@ -130,7 +130,7 @@ def test_a_shape_that_is_none_is_refused_with_its_measures(line: str, says: str)
 
 
 def test_delete_and_move_mean_the_selection_unless_numbers_follow() -> None:
-    session = Session(selection=frozenset({4, 7}))
+    session = DraftingSession(selection=frozenset({4, 7}))
     assert parse("delete", session) == Delete(frozenset({4, 7}))
     assert parse("delete 1 3-5", session) == Delete(frozenset({1, 3, 4, 5}))
     assert parse("mo @1in,0", session) == Transform(frozenset({4, 7}), (shift((25.4, 0.0)),), "Move")

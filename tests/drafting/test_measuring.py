@@ -5,11 +5,11 @@ import math
 import pytest
 
 from app.core.errors import InputError
-from app.drafting.commands.measuring import Measures, measures
+from app.drafting.commands.measure import Measurements, measures
 from app.drafting.document import Document
 
 
-def measured(*lines: str) -> Measures:
+def measured(*lines: str) -> Measurements:
     document = Document()
     for line in lines:
         document.run(line)

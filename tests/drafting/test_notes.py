@@ -8,7 +8,7 @@ from app.core.errors import InputError
 from app.drafting.document import Document
 from app.drafting.language.write import draw_text
 from app.model.curves import Line
-from app.model.notes import Dimension, Guide, Mark, Measure, Shape
+from app.model.notes import Dimension, DimensionKind, Guide, Mark, Shape
 
 QUARTER = math.pi / 2
 
@@ -48,15 +48,18 @@ def test_expressions_meet_construction_lines_and_take_numbers() -> None:
         (["guide 1,2 @0,-5"], Guide((1, 2), QUARTER)),
         (["guide across 1,2"], Guide((1, 2), 0)),
         (["guide up 1,2"], Guide((1, 2), QUARTER)),
-        (["dimension 0,0 30,40 place 10,30"], Dimension(Measure.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
-        (["dimension 0,0 30,40 place 10,30 across"], Dimension(Measure.ACROSS, ((0, 0), (30, 40)), (10, 30))),
-        (["line 0,0 30,40", "dimension 1 place 10,30"], Dimension(Measure.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
-        (["circle 1,1 5 as c", "dimension c place 10,30"], Dimension(Measure.DIAMETER, ((1, 1), (6, 1)), (10, 30))),
+        (["dimension 0,0 30,40 place 10,30"], Dimension(DimensionKind.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
+        (["dimension 0,0 30,40 place 10,30 across"], Dimension(DimensionKind.ACROSS, ((0, 0), (30, 40)), (10, 30))),
+        (["line 0,0 30,40", "dimension 1 place 10,30"], Dimension(DimensionKind.ALIGNED, ((0, 0), (30, 40)), (10, 30))),
+        (
+            ["circle 1,1 5 as c", "dimension c place 10,30"],
+            Dimension(DimensionKind.DIAMETER, ((1, 1), (6, 1)), (10, 30)),
+        ),
         (
             ["arc 5,0 0,5 centre 0,0", "dimension 1 place 3,3"],
-            Dimension(Measure.RADIUS, ((0, 0), (12.5**0.5, 12.5**0.5)), (3, 3)),
+            Dimension(DimensionKind.RADIUS, ((0, 0), (12.5**0.5, 12.5**0.5)), (3, 3)),
         ),
-        (["dimension angle 0,0 5,0 0,5 place 3,3"], Dimension(Measure.ANGLE, ((0, 0), (5, 0), (0, 5)), (3, 3))),
+        (["dimension angle 0,0 5,0 0,5 place 3,3"], Dimension(DimensionKind.ANGLE, ((0, 0), (5, 0), (0, 5)), (3, 3))),
     ],
 )
 def test_each_is_drawn(lines: list[str], made: Shape) -> None:
@@ -88,7 +91,7 @@ def test_a_mirrored_angle_stays_as_large_and_a_turned_measure_keeps_its_figure()
     angle = shape("dimension angle 0,0 5,0 0,5 place 3,3", "mirror 0,0 0,1 1")
     assert isinstance(angle, Dimension) and angle.points == ((0, 0), (0, 5), (-5, 0))
     across = shape("dimension 0,0 30,40 place 10,50 across", "rotate 0,0 90 1")
-    assert isinstance(across, Dimension) and across.measure is Measure.UP and across.points == ((0, 0), (-40, 30))
+    assert isinstance(across, Dimension) and across.measure is DimensionKind.UP and across.points == ((0, 0), (-40, 30))
 
 
 def test_windows_and_crossings_choose_them() -> None:

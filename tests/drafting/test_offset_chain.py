@@ -12,14 +12,14 @@ import shapely
 from app.core.errors import InputError
 from app.drafting.commands.explode import exploded
 from app.drafting.commands.offset_chain import chain_parallel
-from app.drafting.curves.chains import Chain, chained
+from app.drafting.curves.chains import CurveChain, chained
 from app.drafting.document import Document
 from app.formats.dxf.dxf import read_dxf
 from app.geometry.sample import sample
 from app.model.curves import Arc, Curve, Line, Point
 
 
-def chains(*lines: str) -> list[Chain]:
+def chains(*lines: str) -> list[CurveChain]:
     document = Document()
     for line in lines:
         document.run(line)
@@ -55,11 +55,11 @@ def area_within(curves: list[Curve]) -> shapely.Geometry:
     return found
 
 
-def offset(contour: Chain, away: float, side: Point, rounded: bool = True) -> list[Curve]:
+def offset(contour: CurveChain, away: float, side: Point, rounded: bool = True) -> list[Curve]:
     return [curve for _, curve in chain_parallel(contour, away, side, rounded)]
 
 
-def random_contour(seed: int) -> Chain:
+def random_contour(seed: int) -> CurveChain:
     """A star-shaped contour of lines and arcs."""
     dice = random.Random(seed)
     count = dice.randint(3, 14)

@@ -5,10 +5,10 @@ import math
 import pytest
 
 from app.core.errors import InputError
-from app.drafting.commands.pull import Hold, grips, held_at, pulled
+from app.drafting.commands.grips import GripKind, grip_position, grips, pulled
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
-from app.model.notes import Dimension, Guide, Mark, Measure
+from app.model.notes import Dimension, DimensionKind, Guide, Mark
 
 
 def drawn(*lines: str) -> Document:
@@ -36,8 +36,8 @@ def test_a_corner_of_a_rectangle_takes_both_its_lines() -> None:
     document = drawn("rect 0,0 20,10", "select all", "pull 1-2 20,0 to 25,-5")
     assert curve_of(document, 1) == Line((0, 0), (25, -5))
     assert curve_of(document, 2) == Line((25, -5), (20, 10))
-    assert held_at(document.part, frozenset({1, 2, 3, 4}), (20, 10)) == {2, 3}
-    assert held_at(document.part, frozenset({1, 2, 3, 4}), (10, 10)) == {3}
+    assert grip_position(document.part, frozenset({1, 2, 3, 4}), (20, 10)) == {2, 3}
+    assert grip_position(document.part, frozenset({1, 2, 3, 4}), (10, 10)) == {3}
 
 
 def test_circles_move_by_the_centre_and_grow_by_a_quadrant() -> None:
@@ -59,11 +59,11 @@ def test_an_end_of_an_arc_keeps_the_other_end_and_the_angle(index: int) -> None:
 
 def test_the_middle_of_an_arc_keeps_both_ends_and_its_quadrant_the_centre() -> None:
     arc = Arc((10, 0), (-10, 0), (0, 0))
-    middle = next(g for g in grips(arc) if g.hold is Hold.MIDDLE)
+    middle = next(g for g in grips(arc) if g.hold is GripKind.MIDDLE)
     made = pulled(arc, middle, (0, 4))
     assert isinstance(made, Arc) and (made.start, made.end) == ((10, 0), (-10, 0))
     assert made.radius == pytest.approx((100 + 16) / 8)
-    quadrant = next(g for g in grips(arc) if g.hold is Hold.QUADRANT and g.at == (0, 10))
+    quadrant = next(g for g in grips(arc) if g.hold is GripKind.QUADRANT and g.at == (0, 10))
     assert pulled(arc, quadrant, (0, 5)) == Arc((5, 0), (-5, 0), (0, 0))
 
 
@@ -90,7 +90,7 @@ def test_a_control_point_bends_a_spline_and_a_closed_one_stays_closed() -> None:
 def test_notes_are_pulled_too() -> None:
     document = drawn("line 0,0 10,0")
     part = document.part
-    for shape in (Mark((5, 5)), Guide((0, 8), 0.0), Dimension(Measure.ALIGNED, ((0, 0), (10, 0)), (5, -4))):
+    for shape in (Mark((5, 5)), Guide((0, 8), 0.0), Dimension(DimensionKind.ALIGNED, ((0, 0), (10, 0)), (5, -4))):
         part = part.with_note(shape, "0")
     document.change_job("Notes", document.job.__class__(part))
     for line in ("pull 2 5,5 to 6,6", "pull 3 0,8 to 0,9", "pull 4 5,-4 to 5,-6", "pull 4 10,0 to 12,0"):
@@ -98,7 +98,7 @@ def test_notes_are_pulled_too() -> None:
     assert [note.shape for note in document.part.notes] == [
         Mark((6, 6)),
         Guide((0, 9), 0.0),
-        Dimension(Measure.ALIGNED, ((0, 0), (12, 0)), (5, -6)),
+        Dimension(DimensionKind.ALIGNED, ((0, 0), (12, 0)), (5, -6)),
     ]
 
 

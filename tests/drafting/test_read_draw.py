@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from app.core.errors import InputError
-from app.drafting.curves.meet import has
+from app.drafting.curves.intersections import lies_on
 from app.drafting.document import Document
 from app.drafting.expressions.errors import CommandError
 from app.geometry.sample import sample, spline_points
@@ -87,7 +87,7 @@ def test_polygons_by_corner_and_by_side() -> None:
     assert [
         math.dist(((c.start[0] + c.end[0]) / 2, (c.start[1] + c.end[1]) / 2), (0, 0)) for c in by_side
     ] == pytest.approx([10] * 6)
-    assert any(has(c, (10, 0)) and abs(c.start[0] - 10) < 1e-9 for c in by_side)
+    assert any(lies_on(c, (10, 0)) and abs(c.start[0] - 10) < 1e-9 for c in by_side)
 
 
 def test_a_slot_is_all_within_half_its_width_of_a_line() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.drafting.commands.split import split
-from app.drafting.curves.meet import foot, meets
+from app.drafting.curves.intersections import intersection_points, nearest_point
 from app.drafting.curves.shapes import curve_length
 from app.geometry.sample import sample
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
@@ -40,7 +40,9 @@ def test_pieces_join_and_have_the_whole_length(curve: Curve) -> None:
     assert math.dist(pieces[0].start, curve.start) < 1e-9 and math.dist(pieces[-1].end, curve.end) < 1e-9
     assert math.dist(pieces[0].end, points[1]) < 1e-6 and math.dist(pieces[1].end, points[0]) < 1e-6
     assert sum(map(curve_length, pieces)) == pytest.approx(curve_length(curve), rel=3e-3)  # of samples
-    far = max(math.dist(foot(curve, (float(x), float(y))), (x, y)) for piece in pieces for x, y in sample(piece)[::5])
+    far = max(
+        math.dist(nearest_point(curve, (float(x), float(y))), (x, y)) for piece in pieces for x, y in sample(piece)[::5]
+    )
     assert far < 1e-7
 
 
@@ -85,16 +87,18 @@ def test_points_on_either_side_of_where_angles_begin_again_are_one() -> None:
 )
 def test_places_where_curves_meet_lie_on_both(a: Curve, b: Curve, count: int) -> None:
     for one, other in ((a, b), (b, a)):
-        found = meets(one, other)
+        found = intersection_points(one, other)
         assert len(found) == count
-        assert all(math.dist(foot(curve, p), p) < 1e-7 for curve in (a, b) for p in found)
+        assert all(math.dist(nearest_point(curve, p), p) < 1e-7 for curve in (a, b) for p in found)
 
 
 def test_the_rational_arc_is_met_where_the_arc_is() -> None:
     arc = Arc((5, 0), (0, 5), (0, 0))
     line = Line((0, 1), (9, 4))
-    assert np.array(meets(RATIONAL, line)) == pytest.approx(np.array(meets(arc, line)), abs=1e-9)
+    assert np.array(intersection_points(RATIONAL, line)) == pytest.approx(
+        np.array(intersection_points(arc, line)), abs=1e-9
+    )
 
 
 def test_lines_extended_meet_beyond_their_ends() -> None:
-    assert meets(Line((0, 0), (1, 0)), Line((5, 1), (5, 2)), extended=True) == [(5, 0)]
+    assert intersection_points(Line((0, 0), (1, 0)), Line((5, 1), (5, 2)), extended=True) == [(5, 0)]

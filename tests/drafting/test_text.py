@@ -10,12 +10,12 @@ from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 
 from app.core.errors import InputError
-from app.drafting.commands.measuring import measures
+from app.drafting.commands.measure import measures
 from app.drafting.document import Document
 from app.drafting.expressions.errors import CommandError
 from app.drafting.language.write import draw_text
-from app.geometry.lettering import engraving, placed, rounded
 from app.geometry.sample import bounds
+from app.geometry.stroke_font import engraving, placed, rounded
 from app.model.curves import Arc, Curve, Line, Spline
 
 PRINTABLE = "".join(sorted(set(string.printable) - set(string.whitespace)))

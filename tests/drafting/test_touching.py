@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.drafting.curves.meet import foot, tangent_points
+from app.drafting.curves.intersections import nearest_point, tangent_points
+from app.drafting.curves.perpendiculars import perpendicular_feet, spline_tangents
 from app.drafting.curves.shapes import spline_through
-from app.drafting.curves.touching import spline_tangents, square_points
 from app.drafting.document import Document
 from app.geometry.sample import spline_points
 from app.model.curves import Arc, Ellipse, Line, Point, Spline
@@ -38,28 +38,28 @@ def test_of_a_quarter_circle_the_places_are_those_of_the_arc(base: Point) -> Non
         assert len(found) == len(touched) and np.allclose(sorted(found), sorted(touched), rtol=0, atol=1e-9)
     if away > 0.1 and base[0] * base[1] > 0.1:
         square = 10 / away * abs(base[0]), 10 / away * abs(base[1])
-        assert square_points(QUARTER, base) == [pytest.approx(square, abs=1e-9)]
+        assert perpendicular_feet(QUARTER, base) == [pytest.approx(square, abs=1e-9)]
 
 
 @settings(deadline=None)
 @given(POINT)
 def test_no_place_of_a_spline_is_missed_and_each_lies_on_it(base: Point) -> None:
-    for found, square in ((square_points(WAVE, base), True), (spline_tangents(WAVE, base), False)):
+    for found, square in ((perpendicular_feet(WAVE, base), True), (spline_tangents(WAVE, base), False)):
         assert len(found) >= turns(WAVE, base, square)
-        assert all(math.dist(foot(WAVE, p), p) < 1e-7 for p in found)
-    nearest = foot(WAVE, base)
+        assert all(math.dist(nearest_point(WAVE, p), p) < 1e-7 for p in found)
+    nearest = nearest_point(WAVE, base)
     if (
         nearest not in (WAVE.start, WAVE.end)
         and min(math.dist(nearest, WAVE.start), math.dist(nearest, WAVE.end)) > 1e-3
     ):
-        assert min(math.dist(nearest, p) for p in square_points(WAVE, base)) < 1e-6
+        assert min(math.dist(nearest, p) for p in perpendicular_feet(WAVE, base)) < 1e-6
 
 
 @settings(deadline=None)
 @given(POINT, st.floats(0, 6), st.floats(0.1, 1))
 def test_ways_stand_square_on_an_ellipse(base: Point, turn: float, ratio: float) -> None:
     curve = Ellipse((3.0, -2.0), (20 * math.cos(turn), 20 * math.sin(turn)), ratio)
-    found = square_points(curve, base)
+    found = perpendicular_feet(curve, base)
     assert len(found) >= 2, "the nearest and the farthest point"
     for x, y in found:
         dx, dy = x - 3, y + 2
@@ -72,8 +72,8 @@ def test_ways_stand_square_on_an_ellipse(base: Point, turn: float, ratio: float)
 
 def test_a_kink_is_no_place_to_touch() -> None:
     kinked = Spline(1, ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0)), (0.0, 0.0, 1.0, 2.0, 2.0))
-    assert square_points(kinked, (12.0, -3.0)) == []
-    assert np.allclose(square_points(kinked, (4.0, 3.0)), [(4.0, 0.0), (10.0, 3.0)], rtol=0, atol=1e-12)
+    assert perpendicular_feet(kinked, (12.0, -3.0)) == []
+    assert np.allclose(perpendicular_feet(kinked, (4.0, 3.0)), [(4.0, 0.0), (10.0, 3.0)], rtol=0, atol=1e-12)
 
 
 def test_words_know_the_tangents_of_splines() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from app.core.errors import InputError
 from app.drafting.document import Document
-from app.drafting.history import History, State
+from app.drafting.history import HistoryState, UndoHistory
 from app.model.curves import Circle, Line
 from app.model.job import Job, Stock
 from app.model.part import Part
@@ -64,7 +64,7 @@ def test_a_thousand_random_edits_back_and_forth(seed: int) -> None:
             continue
     count = len(document.history_names[0])
     document.go_to(count)
-    states: dict[int, State] = {count: document.state}
+    states: dict[int, HistoryState] = {count: document.state}
     for done in range(count - 1, -1, -1):
         document.undo()
         states[done] = document.state
@@ -114,10 +114,10 @@ def drawn(part: Part, count: int) -> Part:
 
 
 def test_the_oldest_steps_go_when_memory_is_full() -> None:
-    states = [State(Job(Part()))]
+    states = [HistoryState(Job(Part()))]
     for _ in range(30):
-        states.append(State(Job(drawn(Part(), 1000))))
-    history = History(states[0], most_bytes=4_000_000)
+        states.append(HistoryState(Job(drawn(Part(), 1000))))
+    history = UndoHistory(states[0], most_bytes=4_000_000)
     for number, state in enumerate(states[1:]):
         history.change(f"step {number}", state)
     names, done = history.names
@@ -130,17 +130,17 @@ def test_the_oldest_steps_go_when_memory_is_full() -> None:
 
 def test_what_steps_share_counts_once() -> None:
     part = drawn(Part(), 1000)
-    history = History(State(Job(part)), most_bytes=4_000_000)
+    history = UndoHistory(HistoryState(Job(part)), most_bytes=4_000_000)
     for number in range(300):
         part = part.with_curves([Circle((0.0, 0.0), 1.0)], "0")
-        history.change(f"step {number}", State(Job(part)))
+        history.change(f"step {number}", HistoryState(Job(part)))
     assert len(history.names[0]) == 300
 
 
 def test_one_step_can_always_be_undone() -> None:
-    first = State(Job(drawn(Part(), 1000)))
-    history = History(first, most_bytes=10)
-    history.change("a", State(Job(Part())))
-    history.change("b", State(Job(drawn(Part(), 10))))
+    first = HistoryState(Job(drawn(Part(), 1000)))
+    history = UndoHistory(first, most_bytes=10)
+    history.change("a", HistoryState(Job(Part())))
+    history.change("b", HistoryState(Job(drawn(Part(), 10))))
     assert history.names == (("b",), 1)
     assert history.undo() == "b" and history.redo() == "b"

@@ -9,7 +9,7 @@ import pytest
 from app.core.errors import Cancelled, HitofudeError
 from app.core.progress import Progress
 from app.exhibits.die_programs import PROGRAMS, block, die, finishing
-from app.exhibits.figure_eleven import FigureOptions, Method, figure_eleven, plain_heights
+from app.exhibits.figure_eleven import FigureOptions, HeightMethod, figure_eleven, plain_heights
 from app.simulation.engines import Graphics
 from app.simulation.sweeps.trim import trim
 
@@ -36,12 +36,12 @@ def test_the_plain_way_leaves_what_the_engine_of_record_leaves() -> None:
 def test_the_table_has_every_way_and_says_who_draws() -> None:
     figure = figure_eleven(SMALL)
     (row,) = figure.rows
-    assert set(row.seconds) == set(Method) and min(row.seconds.values()) > 0
-    assert row.apart[Method.QUADS].largest < 1e-4 and row.apart[Method.PLAIN].largest < 1e-4
-    assert 1e-4 < row.apart[Method.PUBLISHED].largest < 5 * row.error
+    assert set(row.seconds) == set(HeightMethod) and min(row.seconds.values()) > 0
+    assert row.apart[HeightMethod.QUADS].largest < 1e-4 and row.apart[HeightMethod.PLAIN].largest < 1e-4
+    assert 1e-4 < row.apart[HeightMethod.PUBLISHED].largest < 5 * row.error
     assert row.polygons.spheres > row.polygons.wedges > row.polygons.drawn
-    ratio = row.ratio(Method.PUBLISHED, Method.QUADS)
-    assert ratio == row.seconds[Method.PUBLISHED] / row.seconds[Method.QUADS]
+    ratio = row.ratio(HeightMethod.PUBLISHED, HeightMethod.QUADS)
+    assert ratio == row.seconds[HeightMethod.PUBLISHED] / row.seconds[HeightMethod.QUADS]
     text, data = figure.text(), figure.report()
     assert figure.renderer in text and f"{data['threads']} threads" in text
     assert ("(software)" in text) is data["software"]
@@ -52,7 +52,7 @@ def test_the_table_has_every_way_and_says_who_draws() -> None:
         "16.83 s",
         "195 MHz",
         f"{row.polygons.drawn:,}",
-        f"{row.seconds[Method.RECORD]:.3f} s",
+        f"{row.seconds[HeightMethod.RECORD]:.3f} s",
     ):
         assert word in text
     assert data["programs"][0]["moves"] == 9542 and data["programs"][0]["ratios"]["published_by_quads"] == ratio
@@ -63,7 +63,7 @@ def test_without_opengl_its_columns_are_empty() -> None:
         raise HitofudeError("There is no OpenGL 3.3 here.")
 
     figure = figure_eleven(SMALL, graphics=Graphics(none))
-    assert set(figure.rows[0].seconds) == {Method.PLAIN, Method.RECORD}
+    assert set(figure.rows[0].seconds) == {HeightMethod.PLAIN, HeightMethod.RECORD}
     assert "There is no OpenGL 3.3 here." in figure.text() and figure.report()["renderer"] is None
 
 

@@ -16,9 +16,9 @@ from app.model.job import Job
 from app.raster.border import borders_of
 from app.raster.codes import PixelCode
 from app.raster.fill import fill
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.peel import frame_pixels
-from app.raster.steps import STEPS, Stage
+from app.raster.steps import STEPS, StepState
 from app.usecases.bitmap_job import BitmapJob, drawn_job
 from app.usecases.bitmap_options import BitmapSize
 from app.usecases.bitmap_way import BitmapProgram, compute_on_bitmap
@@ -28,7 +28,7 @@ from tests.raster.peeling import frame_distance, shrink
 from tests.usecases.test_bitmap_way import job_of
 
 SNAPSHOTS = ROOT / "tests" / "data" / "stages"
-Walk = tuple[BitmapJob, BitmapProgram, list[Stage]]
+Walk = tuple[BitmapJob, BitmapProgram, list[StepState]]
 
 
 def walked(job: Job, points: int, variant: Variant = Variant.SETTLED) -> Walk:
@@ -42,7 +42,7 @@ def walk() -> Walk:
     return walked(job_of(fig2(), 3.0, 6.0), 400)
 
 
-def last(walk: Walk, number: int) -> Stage:
+def last(walk: Walk, number: int) -> StepState:
     return [stage for stage in walk[2] if stage.number == number][-1]
 
 
@@ -194,7 +194,7 @@ def test_figure_5_in_codes() -> None:
     """Figures 5a-5d: a small shape with vertices that must not count: its contour, R marked, counted, filled."""
     shape = polygon_contour([(1.5, 1.5), (11.5, 1.5), (11.5, 7.5), (8.5, 4.5), (5.5, 8.5), (1.5, 8.5)])
     seen: dict[int, np.ndarray] = {}
-    fill(Frame(10, 13, 1.0), [shape], seen.__setitem__)
+    fill(BitmapFrame(10, 13, 1.0), [shape], seen.__setitem__)
     rows = [
         ["".join(".12RI"[code] for code in row) for row in seen[number].tolist()] for number in (201, 206, 208, 130)
     ]

@@ -8,11 +8,11 @@ from app.geometry.primitives import contour_rows, points_at
 from app.geometry.region import polygon_contour
 from app.model.part import Contour
 from app.raster.border import borders_of
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from tests.raster.oracle import even_odd
 
 
-def traces(frame: Frame, contours: list[Contour]) -> list[np.ndarray]:
+def traces(frame: BitmapFrame, contours: list[Contour]) -> list[np.ndarray]:
     """The chains of pixels whose centres lie inside, as points in mm; the longest first."""
     chains = sorted(
         (border.chain for border in borders_of(even_odd(frame, contours))), key=lambda chain: -len(chain.directions)

@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 from app.fitting.fitted import FittedPath
 from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from app.fitting.point_curves.space_curve import curve_of_motions
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.model.motion import MotionKind, Plane
 
 Floats = NDArray[np.float64]
@@ -67,7 +67,7 @@ def fitted(points: Floats, tolerance: float = TOLERANCE, arcs: bool = True) -> F
     made, given = along(path), spread(points)
     assert cKDTree(given).query(made)[0].max() <= tolerance + STEP
     assert cKDTree(made).query(given)[0].max() <= tolerance + STEP
-    assert judge(curve_of_motions(path.motions), points, Tube(tolerance + 1e-6)).answer is Answer.INSIDE
+    assert judge(curve_of_motions(path.motions), points, ToleranceTube(tolerance + 1e-6)).answer is TubeAnswer.INSIDE
     return path
 
 

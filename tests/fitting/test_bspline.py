@@ -8,7 +8,7 @@ from scipy.interpolate import BSpline
 from app.fitting.point_curves.bspline import SplineFit, fit_spline
 from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from app.fitting.point_curves.space_curve import curve_of_motions, curve_of_nurbs
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.model.motion import MotionKind
 from tests.fitting.test_tube import off_chords
 
@@ -26,7 +26,7 @@ def wave(count: int) -> Floats:
     return np.column_stack([r * np.cos(a), r * np.sin(a), 3 * np.sin(a / 2)])
 
 
-def fitted(points: Floats, tube: Tube, degree: int = 3) -> SplineFit:
+def fitted(points: Floats, tube: ToleranceTube, degree: int = 3) -> SplineFit:
     fit = fit_spline(points, tube, degree)
     assert isinstance(fit, SplineFit), f"it asks for corners at {fit}"
     return fit
@@ -34,23 +34,23 @@ def fitted(points: Floats, tube: Tube, degree: int = 3) -> SplineFit:
 
 def test_ten_thousand_chords_of_a_circle_are_at_most_ten_spans() -> None:
     points = circle(10_000)
-    fit = fitted(points, Tube(0.05))
+    fit = fitted(points, ToleranceTube(0.05))
     curve = curve_of_nurbs(fit.curve)
     assert len(curve) <= 10
-    judgement = judge(curve, points, Tube(0.05))
-    assert judgement.answer is Answer.INSIDE
+    judgement = judge(curve, points, ToleranceTube(0.05))
+    assert judgement.answer is TubeAnswer.INSIDE
     radii = np.linalg.norm(curve.at(np.linspace(0, len(curve), 1_000_001))[:, :2], axis=1)
     assert np.abs(radii - 50).max() <= judgement.bound
 
 
 @pytest.mark.parametrize("degree", [3, 5])
-@pytest.mark.parametrize("tube", [Tube(0.05), Tube(0.004), Tube(0.01, 0.05)])
-def test_a_million_samples_find_nothing_outside_of_what_is_stated(degree: int, tube: Tube) -> None:
+@pytest.mark.parametrize("tube", [ToleranceTube(0.05), ToleranceTube(0.004), ToleranceTube(0.01, 0.05)])
+def test_a_million_samples_find_nothing_outside_of_what_is_stated(degree: int, tube: ToleranceTube) -> None:
     points = wave(3000)
     fit = fitted(points, tube, degree)
     curve = curve_of_nurbs(fit.curve)
     judgement = judge(curve, points, tube, fit.feet)
-    assert judgement.answer is Answer.INSIDE and judgement.bound <= tube.widest
+    assert judgement.answer is TubeAnswer.INSIDE and judgement.bound <= tube.widest
     feet = judgement.feet
     assert feet is not None
     for k in range(len(points) - 1):  # in order: each stretch beside its own chord
@@ -62,7 +62,7 @@ def test_a_million_samples_find_nothing_outside_of_what_is_stated(degree: int, t
 @pytest.mark.parametrize("degree", [3, 5])
 def test_inside_it_is_smooth_and_its_ends_are_the_points(degree: int) -> None:
     points = wave(2000)
-    curve = fitted(points, Tube(0.01), degree).curve
+    curve = fitted(points, ToleranceTube(0.01), degree).curve
     assert np.array_equal(curve.points[[0, -1]], points[[0, -1]])
     inner = curve.knots[degree + 1 : -degree - 1]
     assert len(np.unique(inner)) == len(inner), "a knot that comes twice breaks the smoothness"
@@ -76,8 +76,8 @@ def test_inside_it_is_smooth_and_its_ends_are_the_points(degree: int) -> None:
 def test_noise_below_the_tolerance_costs_few_spans() -> None:
     rng = np.random.default_rng(1)
     clean = wave(5000)
-    plain = len(curve_of_nurbs(fitted(clean, Tube(0.05)).curve))
-    noisy = len(curve_of_nurbs(fitted(clean + rng.uniform(-0.005, 0.005, clean.shape), Tube(0.05)).curve))
+    plain = len(curve_of_nurbs(fitted(clean, ToleranceTube(0.05)).curve))
+    noisy = len(curve_of_nurbs(fitted(clean + rng.uniform(-0.005, 0.005, clean.shape), ToleranceTube(0.05)).curve))
     assert noisy <= 2 * plain
 
 
@@ -87,18 +87,18 @@ def test_corners_are_kept_exactly_and_crumbs_make_none() -> None:
     path = np.vstack(
         [up, up[-1] + np.array([0, 1e-4, 0]), up[-1] + np.hstack([0.3 * np.sin(leg[1:]), leg[1:], 0 * leg[1:]])]
     )
-    made = fit_splines(path, SplineOptions(Tube(0.02)))
+    made = fit_splines(path, SplineOptions(ToleranceTube(0.02)))
     corner = np.abs(made.motions.end - up[-1]).max(axis=1)
     assert corner.min() <= 2e-4
     assert len(made.motions) <= 4
-    assert judge(curve_of_motions(made.motions), path, Tube(0.02)).answer is Answer.INSIDE
+    assert judge(curve_of_motions(made.motions), path, ToleranceTube(0.02)).answer is TubeAnswer.INSIDE
 
 
 def test_chords_stand_where_a_spline_would_take_more_blocks() -> None:
     rng = np.random.default_rng(3)
     points = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0)
-    made = fit_splines(points, SplineOptions(Tube(1e-3), corner=np.pi))
-    assert judge(curve_of_motions(made.motions), points, Tube(1e-3)).answer is Answer.INSIDE
+    made = fit_splines(points, SplineOptions(ToleranceTube(1e-3), corner=np.pi))
+    assert judge(curve_of_motions(made.motions), points, ToleranceTube(1e-3)).answer is TubeAnswer.INSIDE
     blocks = sum(len(curve.points) for curve in made.motions.splines.values()) + int(
         np.sum(made.motions.kind == MotionKind.LINE)
     )
@@ -121,8 +121,8 @@ def test_adversaries_end_and_are_proven() -> None:
     for name, points in cases.items():
         kept = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0, axis=1)])
         points = np.ascontiguousarray(points[kept])
-        made = fit_splines(points, SplineOptions(Tube(0.01)))
-        assert judge(curve_of_motions(made.motions), points, Tube(0.01)).answer is Answer.INSIDE, name
+        made = fit_splines(points, SplineOptions(ToleranceTube(0.01)))
+        assert judge(curve_of_motions(made.motions), points, ToleranceTube(0.01)).answer is TubeAnswer.INSIDE, name
         assert len(made.motions) <= len(points) - 1, name
 
 
@@ -134,5 +134,5 @@ def test_a_dense_wave_is_one_spline_of_few_spans(tolerance: float) -> None:
     t = np.linspace(0, 2 * np.pi, 100_001)
     r = 60 + 4 * np.sin(9 * t) + 0.8 * np.sin(31 * t)
     points = np.round(np.column_stack([r * np.cos(t), r * np.sin(t), 0 * t]), 4)
-    curve = fitted(points, Tube(tolerance)).curve
+    curve = fitted(points, ToleranceTube(tolerance)).curve
     assert len(curve.points) <= {0.01: 200, 0.05: 150}[tolerance]

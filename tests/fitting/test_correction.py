@@ -13,7 +13,13 @@ from scipy.interpolate import CubicSpline
 
 from app.core.errors import ParameterError
 from app.fitting.point_curves import correction_kernels
-from app.fitting.point_curves.correction import CorrectionOptions, Curve, Move, Select, corrected
+from app.fitting.point_curves.correction import (
+    CorrectionCurve,
+    CorrectionMove,
+    CorrectionOptions,
+    CorrectionScope,
+    corrected,
+)
 from app.fitting.point_curves.effective_points import EffectiveOptions, PointState, effective_points
 
 Floats = NDArray[np.float64]
@@ -67,8 +73,8 @@ def test_the_least_squares_cubic_is_that_of_numpy(count: int) -> None:
 
 
 @pytest.mark.parametrize("rise", [0.0, 3.0])
-@pytest.mark.parametrize("move", list(Move))
-def test_points_of_a_polygon_come_back_to_its_circle(move: Move, rise: float) -> None:
+@pytest.mark.parametrize("move", list(CorrectionMove))
+def test_points_of_a_polygon_come_back_to_its_circle(move: CorrectionMove, rise: float) -> None:
     """Sides of 3.9 mm lie 77 um off the circle; corrected, their points are within a tenth of a micrometre of it, but
     at the ends.
     """
@@ -81,7 +87,7 @@ def test_points_of_a_polygon_come_back_to_its_circle(move: Move, rise: float) ->
     assert off_circle(after.places[20:-20]) < 1e-4
     assert off_circle(after.places) < 1e-3
     assert after.moved == pytest.approx(np.linalg.norm(after.places - points, axis=1), abs=1e-15)
-    if move == Move.PERPENDICULAR:
+    if move == CorrectionMove.PERPENDICULAR:
         chords = np.diff(points[state == E], axis=0)[
             np.searchsorted(np.flatnonzero(state == E), np.flatnonzero(state == V)) - 1
         ]
@@ -112,8 +118,8 @@ def test_effective_points_move_by_least_squares_alone() -> None:
     points = on_polygon(corners, 4)
     state = effective_points(points, EffectiveOptions(1e-9)).state
     options = {"before": 6, "after": 7}
-    through = corrected(points, state, CorrectionOptions(**options, curve=Curve.THROUGH))  # type: ignore[arg-type]
-    near = corrected(points, state, CorrectionOptions(**options, curve=Curve.NEAR))  # type: ignore[arg-type]
+    through = corrected(points, state, CorrectionOptions(**options, curve=CorrectionCurve.THROUGH))  # type: ignore[arg-type]
+    near = corrected(points, state, CorrectionOptions(**options, curve=CorrectionCurve.NEAR))  # type: ignore[arg-type]
     assert through.moved[state == E].max() < 1e-9
     assert near.moved[state == E].max() > 1e-3
     assert near.moved[[0, -1]].tolist() == [0, 0]
@@ -129,8 +135,8 @@ def test_which_points_are_corrected() -> None:
     state = effective_points(points, EffectiveOptions(1e-6)).state
     by_share = corrected(points, state, CorrectionOptions(0.25))
     assert np.bincount(by_share.state).tolist() == [40 * 5, 41, 40 * 4]
-    every = corrected(points, state, CorrectionOptions(1.0, Select.DISTANCE))
-    by_move = corrected(points, state, CorrectionOptions(0.05, Select.DISTANCE))
+    every = corrected(points, state, CorrectionOptions(1.0, CorrectionScope.DISTANCE))
+    by_move = corrected(points, state, CorrectionOptions(0.05, CorrectionScope.DISTANCE))
     assert by_move.places.shape == points.shape
     assert (by_move.state == V).tolist() == (every.moved > 0.05).tolist()
     assert 0 < (by_move.state == V).sum() < (state == V).sum()
@@ -138,8 +144,8 @@ def test_which_points_are_corrected() -> None:
     assert by_move.moved[by_move.state == V].max() == 0
 
 
-@pytest.mark.parametrize(("curve", "off"), [(Curve.THROUGH, 1e-3), (Curve.NEAR, 4e-3)])
-def test_a_kept_corner_stays_and_bends_nothing(curve: Curve, off: float) -> None:
+@pytest.mark.parametrize(("curve", "off"), [(CorrectionCurve.THROUGH, 1e-3), (CorrectionCurve.NEAR, 4e-3)])
+def test_a_kept_corner_stays_and_bends_nothing(curve: CorrectionCurve, off: float) -> None:
     """A quarter circle and the straight side after it: the corner between them is kept, the side stays straight."""
     arc = circle(40)[:11]
     side = arc[-1] + np.linspace(0, 30, 11)[1:, None] * [0.0, 1, 0]
@@ -157,7 +163,9 @@ def test_equal_and_few_points() -> None:
     after = corrected(points, np.full(len(points), E, np.uint8), CorrectionOptions())
     assert np.isfinite(after.places).all()
     assert after.moved.max() < 1e-9
-    pair = corrected(np.array([[0.0, 0], [1, 0]]), np.array([E, E], np.uint8), CorrectionOptions(curve=Curve.NEAR))
+    pair = corrected(
+        np.array([[0.0, 0], [1, 0]]), np.array([E, E], np.uint8), CorrectionOptions(curve=CorrectionCurve.NEAR)
+    )
     assert pair.moved.tolist() == [0, 0]
 
 
@@ -168,7 +176,7 @@ def test_equal_and_few_points() -> None:
         lambda: CorrectionOptions(after=0),
         lambda: CorrectionOptions(after=51),
         lambda: CorrectionOptions(1.1),
-        lambda: CorrectionOptions(-1.0, Select.DISTANCE),
+        lambda: CorrectionOptions(-1.0, CorrectionScope.DISTANCE),
         lambda: CorrectionOptions(math.nan),
         lambda: corrected(circle(5), np.array([E, E, E, E, E, V], np.uint8), CorrectionOptions()),
     ],

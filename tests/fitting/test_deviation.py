@@ -6,7 +6,7 @@ import pytest
 from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from app.fitting.point_curves.deviation import curvature, deviation
 from app.fitting.point_curves.space_curve import curve_of_motions, curve_of_points
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 
 
 def half_circle(radius: float, count: int) -> np.ndarray:
@@ -17,8 +17,8 @@ def half_circle(radius: float, count: int) -> np.ndarray:
 def test_an_arc_is_a_sagitta_from_its_chords_and_nothing_from_its_points() -> None:
     points = half_circle(20.0, 31)
     curve = curve_of_motions(fit_arcs(points, ArcOptions(0.05, 0.6, 1e4, True)).motions)
-    judgement = judge(curve, points, Tube(0.05))
-    assert judgement.answer is Answer.INSIDE and judgement.feet is not None
+    judgement = judge(curve, points, ToleranceTube(0.05))
+    assert judgement.answer is TubeAnswer.INSIDE and judgement.feet is not None
     found = deviation(curve, points, judgement.feet)
     sagitta = 20.0 * (1 - np.cos(np.pi / 60))
     assert found.off.max() == pytest.approx(sagitta, rel=0.05), "the arc that is found is nearly the circle"

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from app.core.errors import GeometryError, ParameterError
-from app.fitting.point_curves.effective_points import EffectiveOptions, Ends, PointState, effective_points
+from app.fitting.point_curves.effective_points import EffectiveOptions, PointState, RangeEnds, effective_points
 from tests.examples import examples
 
 Floats = NDArray[np.float64]
@@ -73,9 +73,9 @@ def test_the_corners_of_a_polygon_are_effective() -> None:
 def test_points_near_the_ends_of_a_range_are_effective_by_share_or_distance() -> None:
     line = np.column_stack((np.arange(11.0), np.zeros(11)))
     assert effective_points(line, EffectiveOptions(0.01)).passed.tolist() == [0, 10]
-    assert effective_points(line, EffectiveOptions(0.01, Ends.RATIO, 0.25)).passed.tolist() == [0, 1, 2, 8, 9, 10]
-    assert effective_points(line, EffectiveOptions(0.01, Ends.DISTANCE, 1.5)).passed.tolist() == [0, 1, 9, 10]
-    assert effective_points(line, EffectiveOptions(0.01, Ends.DISTANCE, 1.0)).passed.tolist() == [0, 10]
+    assert effective_points(line, EffectiveOptions(0.01, RangeEnds.RATIO, 0.25)).passed.tolist() == [0, 1, 2, 8, 9, 10]
+    assert effective_points(line, EffectiveOptions(0.01, RangeEnds.DISTANCE, 1.5)).passed.tolist() == [0, 1, 9, 10]
+    assert effective_points(line, EffectiveOptions(0.01, RangeEnds.DISTANCE, 1.0)).passed.tolist() == [0, 10]
 
 
 def test_no_range_goes_beyond_a_kept_point() -> None:
@@ -98,7 +98,8 @@ def test_a_straight_cloud_of_many_points_is_one_range() -> None:
 
 
 @pytest.mark.parametrize(
-    "bad", [(0.0,), (math.nan,), (0.1, Ends.RATIO, 0.6), (0.1, Ends.RATIO, -0.1), (0.1, Ends.DISTANCE, -1.0)]
+    "bad",
+    [(0.0,), (math.nan,), (0.1, RangeEnds.RATIO, 0.6), (0.1, RangeEnds.RATIO, -0.1), (0.1, RangeEnds.DISTANCE, -1.0)],
 )
 def test_bad_parameters_are_named(bad: tuple[float, ...]) -> None:
     with pytest.raises(ParameterError, match="must be"):

@@ -10,22 +10,22 @@ import numpy as np
 import pytest
 import shapely
 
-from app.fitting.corner_smoothing.smooth import SmoothOptions, smooth
-from app.fitting.corner_smoothing.smoothed import Smoothed
+from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions, smooth
+from app.fitting.corner_smoothing.smoothed_path import SmoothedPath
 from app.fitting.fitted import lines_between
 from app.fitting.point_curves.space_curve import SpaceCurve, curve_of_motions
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import CX, TURN, X0, X1, R, Rows, contour_rows, lengths, pack
 from app.geometry.region import nest
 from app.model.motion import MotionKind, Plane
 from app.model.part import Contour
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from tests.fitting.paths import sampled, traces
 from tests.part_shapes import circle, fig2, random_part
 from tests.raster.shapes import KINDS
 
-NEAR = Tube(1e-3)
+NEAR = ToleranceTube(1e-3)
 """mm; the oracle's chords leave its own arcs by a tenth of it."""
 CHORD = 1e-4
 
@@ -50,7 +50,7 @@ def in_space(points: np.ndarray) -> np.ndarray:
     return np.column_stack([points, np.zeros(len(points))])
 
 
-def in_tube(path: Smoothed, points: np.ndarray, tube: Tube) -> bool:
+def in_tube(path: SmoothedPath, points: np.ndarray, tube: ToleranceTube) -> bool:
     """Whether the judge finds a closed path to go round with closed points (n, 2): from that at which it says that it
     starts, or from that nearest to its start of those about there; a circle may start anywhere.
     """
@@ -58,7 +58,7 @@ def in_tube(path: Smoothed, points: np.ndarray, tube: Tube) -> bool:
     nearest = near[np.argmin(np.hypot(*(points[near] - path.rows[0, :2]).T))]
     loops = (np.roll(points, -int(first), axis=0) for first in (path.ends[0] % len(points), nearest))
     curve = curve_of_rows(path.rows)
-    return any(judge(curve, in_space(np.vstack([loop, loop[:1]])), tube).answer is Answer.INSIDE for loop in loops)
+    return any(judge(curve, in_space(np.vstack([loop, loop[:1]])), tube).answer is TubeAnswer.INSIDE for loop in loops)
 
 
 def chords(rows: Rows) -> np.ndarray:
@@ -111,29 +111,29 @@ def test_every_ring_keeps_within_a_micrometre_of_what_shapely_offsets(seed: int 
             ccw = shapely.LinearRing(chords(ring.rows)).is_ccw
             points = in_space(from_there(oracle, start, ccw))
             answer = judge(curve_of_rows(ring.rows), points, NEAR)
-            assert answer.answer is Answer.INSIDE, (level.distance, answer)
+            assert answer.answer is TubeAnswer.INSIDE, (level.distance, answer)
             moved = ring.rows.copy()
             moved[:, :6] += [2.1 * NEAR.radius, 0] * 3
-            assert judge(curve_of_rows(moved), points, NEAR).answer is Answer.OUTSIDE
+            assert judge(curve_of_rows(moved), points, NEAR).answer is TubeAnswer.OUTSIDE
             judged += 1
     assert judged >= 3
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "beyond"])
 def test_what_smoothing_makes_of_a_border_is_in_a_tube_round_its_pixels(kind: str) -> None:
-    frame = Frame(200, 200, 1.0)
+    frame = BitmapFrame(200, 200, 1.0)
     for seed in range(8):
         for trace in traces(frame, KINDS[kind](np.random.default_rng(seed), 190.0))[:4]:
-            path = smooth(trace, SmoothOptions(0.75))
-            assert in_tube(path, trace, Tube(6.0)), "mitres among it"
+            path = smooth(trace, CornerSmoothingOptions(0.75))
+            assert in_tube(path, trace, ToleranceTube(6.0)), "mitres among it"
             aside = replace(path, rows=path.rows + np.array([9.0, 0, 9, 0, 9, 0, 0, 0]))
-            assert not in_tube(aside, trace, Tube(6.0))
+            assert not in_tube(aside, trace, ToleranceTube(6.0))
 
 
 @pytest.mark.parametrize("amount", [0.02, 0.05])
 def test_a_path_between_pixels_is_in_the_tube_of_twice_its_tolerance(amount: float) -> None:
     points = sampled(circle(20.0), 0.3)
     noise = np.random.default_rng(1).uniform(-amount, amount, points.shape)
-    path = smooth(points + noise, SmoothOptions(2 * amount))
-    assert in_tube(path, points + noise, Tube(4 * amount))
-    assert not in_tube(path, points + noise, Tube(0.5 * amount)), "the noise itself is more"
+    path = smooth(points + noise, CornerSmoothingOptions(2 * amount))
+    assert in_tube(path, points + noise, ToleranceTube(4 * amount))
+    assert not in_tube(path, points + noise, ToleranceTube(0.5 * amount)), "the noise itself is more"

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.core.errors import GeometryError, ParameterError
 from app.fitting.point_curves.effective_points import PointState
-from app.fitting.point_curves.facets import Facets, facets_of_grid, facets_of_rows
+from app.fitting.point_curves.facets import CloudFacets, facets_of_grid, facets_of_rows
 
 Floats = NDArray[np.float64]
 EPSILON = 1e-6
@@ -30,7 +30,7 @@ def prism() -> Floats:
     return grid
 
 
-def ensure_flat(found: Facets, points: Floats) -> None:
+def ensure_flat(found: CloudFacets, points: Floats) -> None:
     planes = found.planes[found.facet]
     away = np.einsum("ij,ij->i", points - planes[:, 3:], planes[:, :3])
     assert np.abs(away).max() <= EPSILON

@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from app.fitting.line_arcs import fewest
 from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from app.fitting.line_arcs.fewest import FewestPieces
-from app.fitting.line_arcs.tangent import Polyline
+from app.fitting.line_arcs.tangent import PlanarPolyline
 from app.fitting.point_curves.corners import corners
 from tests.examples import examples
 from tests.fitting.test_arc_fit import STEP, along, circle, spread
@@ -33,7 +33,7 @@ def wave(count: int, decimals: int = 4) -> Floats:
 
 
 def searched(points: Floats, limit: float, bend: float) -> int:
-    line = Polyline(points[:, :2], 4 * limit)
+    line = PlanarPolyline(points[:, :2], 4 * limit)
     chain = FewestPieces(line, limit, np.full(len(points), bend), 1e5).chain(np.array([0, len(points) - 1]))
     assert chain is not None
     return len(chain)
@@ -121,7 +121,7 @@ def test_bends_keep_to_what_is_asked_and_samples_to_the_tolerance(bend: float) -
     points = wave(12_000)
     path = fit_arcs(points, ArcOptions(TOLERANCE, bend=math.radians(bend)))
     assert len(corners(points, math.radians(30), 4 * TOLERANCE)) == 2, "no bend is a kept corner"
-    turns = Polyline(points[:, :2], 4 * TOLERANCE).turns
+    turns = PlanarPolyline(points[:, :2], 4 * TOLERANCE).turns
     assert bends(path).max() <= max(bend, math.degrees(turns.max())) + 1e-3, "or as much as the points do"
     assert bend < 1 or math.degrees(turns.max()) < bend
     made, given_ = along(path), spread(points)
@@ -154,7 +154,7 @@ def test_time_grows_with_the_points_and_not_faster() -> None:
     sizes = []
     for turns in (1, 2, 4):
         t = np.linspace(0, turns * math.tau, 2_000 * turns + 1)
-        line = Polyline(np.column_stack([30 * t, 5 * np.sin(3 * t)]), 0.2)
+        line = PlanarPolyline(np.column_stack([30 * t, 5 * np.sin(3 * t)]), 0.2)
         rough = np.linspace(0, len(t) - 1, 40 * turns + 1).astype(np.int64)
         samples, at = FewestPieces(line, 0.05, np.full(len(t), 0.01), 1e5)._samples(rough, rough)
         sizes.append(len(samples) + len(at))

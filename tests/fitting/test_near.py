@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.geometry.same_places import near
+from app.geometry.coincident_points import near
 
 
 @pytest.mark.parametrize("reach", [1e-4, 0.01, 0.3])

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from app.fitting.corner_smoothing.rest import without_bends
-from app.fitting.corner_smoothing.smooth import SmoothOptions, moved, smooth
-from app.fitting.corner_smoothing.smoothed import PieceKind, Smoothed
+from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions, moved, smooth
+from app.fitting.corner_smoothing.smoothed_path import PieceKind, SmoothedPath
 from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from tests.fitting.paths import sampled, traces
 from tests.fitting.test_smooth import along, joins
 from tests.plain_distance import distance
 
-FRAME = Frame(400, 400, 0.25)
+FRAME = BitmapFrame(400, 400, 0.25)
 TOLERANCE = 0.75 * FRAME.pitch
 
 
@@ -35,7 +35,7 @@ CURVES = {
 }
 
 
-def bends(path: Smoothed) -> np.ndarray:
+def bends(path: SmoothedPath) -> np.ndarray:
     """By how much the path turns where each row begins, degrees."""
 
     def direction(at: int) -> np.ndarray:
@@ -52,7 +52,7 @@ def bends(path: Smoothed) -> np.ndarray:
 
 @pytest.mark.parametrize("name", CURVES)
 def test_a_free_curve_is_smooth_where_its_arcs_meet(name: str) -> None:
-    path = smooth(traces(FRAME, [CURVES[name]])[0], SmoothOptions(TOLERANCE))
+    path = smooth(traces(FRAME, [CURVES[name]])[0], CornerSmoothingOptions(TOLERANCE))
     free = path.kinds == PieceKind.SPLINE
     assert joins(path)
     assert free.mean() > 0.4
@@ -65,20 +65,22 @@ def test_a_free_curve_is_smooth_where_its_arcs_meet(name: str) -> None:
 
 
 def test_hardly_a_bend_is_left() -> None:
-    left = [bends(smooth(traces(FRAME, [curve])[0], SmoothOptions(TOLERANCE))) > 1 for curve in CURVES.values()]
+    left = [
+        bends(smooth(traces(FRAME, [curve])[0], CornerSmoothingOptions(TOLERANCE))) > 1 for curve in CURVES.values()
+    ]
     assert sum(each.sum() for each in left) <= sum(len(each) for each in left) / 6
 
 
 def test_a_fine_free_curve_comes_back_finely() -> None:
     points = sampled(CURVES["three"], 0.05)
-    path = smooth(points, SmoothOptions(0.02))
+    path = smooth(points, CornerSmoothingOptions(0.02))
     assert bends(path).max() < 1.0
     assert distance(along(path, 0.02), [CURVES["three"]]).max() < 0.04
 
 
 def test_a_free_curve_moved_out_stays_smooth() -> None:
     points = traces(FRAME, [CURVES["egg"]])[0]
-    path = smooth(points, SmoothOptions(TOLERANCE))
+    path = smooth(points, CornerSmoothingOptions(TOLERANCE))
     assert path.tangent.mean() > 0.6
     out = moved(path, points, np.full(len(path.rows), 0.3), TOLERANCE)
     assert joins(out)
@@ -90,7 +92,7 @@ def test_a_free_curve_moved_out_stays_smooth() -> None:
 
 def test_bends_that_no_curve_near_enough_avoids_stay() -> None:
     points = traces(FRAME, [CURVES["bean"]])[0]
-    path = smooth(points, SmoothOptions(TOLERANCE))
+    path = smooth(points, CornerSmoothingOptions(TOLERANCE))
     rounds = np.concatenate([points] * 3)
     assert without_bends(path, rounds, 0.0) is path
     assert without_bends(path, rounds, math.inf).kinds.tolist() != path.kinds.tolist()
@@ -111,7 +113,7 @@ def test_arcs_that_turn_opposite_ways_touch_where_they_nearly_do() -> None:
         )
     )
     for tolerance, points in ((TOLERANCE, traces(FRAME, [lobe])[0]), (0.01, sampled(lobe, 0.1))):
-        path = smooth(points, SmoothOptions(tolerance))
+        path = smooth(points, CornerSmoothingOptions(tolerance))
         arc = path.kinds == PieceKind.ARC
         assert arc.sum() == 3
         assert not np.any(path.kinds == PieceKind.SPLINE)

@@ -7,21 +7,21 @@ import pytest
 from scipy.spatial import cKDTree
 
 from app.core.errors import ParameterError
-from app.fitting.corner_smoothing.smooth import SmoothOptions, moved, smooth, without
-from app.fitting.corner_smoothing.smoothed import PieceKind, Smoothed
+from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions, moved, smooth, without
+from app.fitting.corner_smoothing.smoothed_path import PieceKind, SmoothedPath
 from app.geometry.primitives import R, lengths, points_at, row_curve, turns
 from app.geometry.region import polygon_contour
 from app.model.curves import Arc, Line
 from app.model.part import Contour
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from tests.fitting.paths import sampled, traces
 from tests.part_shapes import circle, fig2
 from tests.plain_distance import distance
 from tests.raster.shapes import KINDS
 
 PITCH = 0.25
-FRAME = Frame(400, 400, PITCH)
-ON_PIXELS = SmoothOptions(0.75 * PITCH, 20.0, PITCH)
+FRAME = BitmapFrame(400, 400, PITCH)
+ON_PIXELS = CornerSmoothingOptions(0.75 * PITCH, 20.0, PITCH)
 
 
 def plate() -> Contour:
@@ -40,19 +40,19 @@ def plate() -> Contour:
     )
 
 
-def contour_of(path: Smoothed) -> Contour:
+def contour_of(path: SmoothedPath) -> Contour:
     if len(path.rows) == 1:
         return circle(float(path.rows[0, R]), *path.rows[0, 4:6].tolist())
     return Contour(tuple(row_curve(row) for row in path.rows if np.any(row[:2] != row[2:4])))
 
 
-def along(path: Smoothed, step: float) -> np.ndarray:
+def along(path: SmoothedPath, step: float) -> np.ndarray:
     counts = np.maximum(np.ceil(lengths(path.rows) / step), 1).astype(int)
     part = np.concatenate([np.arange(n) / n for n in counts])
     return points_at(np.repeat(path.rows, counts, axis=0), part)
 
 
-def joins(path: Smoothed) -> bool:
+def joins(path: SmoothedPath) -> bool:
     """Whether each row begins where the one before ends."""
     return bool(np.array_equal(path.rows[:, :2], np.roll(path.rows[:, 2:4], 1, axis=0)))
 
@@ -101,7 +101,7 @@ def test_the_known_part_of_the_text_comes_back_from_its_trace() -> None:
 
 @pytest.mark.parametrize("tolerance", [0.01, 0.1])
 def test_a_path_between_pixels_comes_back_exactly(tolerance: float) -> None:
-    path = smooth(sampled(plate(), 0.3), SmoothOptions(tolerance, 40.0))
+    path = smooth(sampled(plate(), 0.3), CornerSmoothingOptions(tolerance, 40.0))
     assert len(path.rows) == 8
     assert joins(path)
     arcs = path.rows[path.kinds == PieceKind.ARC]
@@ -114,17 +114,17 @@ def test_a_path_between_pixels_comes_back_exactly(tolerance: float) -> None:
 def test_a_path_with_little_noise_stays_within_it() -> None:
     points = sampled(plate(), 0.2)
     noise = np.random.default_rng(1).uniform(-0.02, 0.02, points.shape)
-    path = smooth(points + noise, SmoothOptions(0.04))
+    path = smooth(points + noise, CornerSmoothingOptions(0.04))
     assert len(path.rows) <= 10
     assert distance(along(path, 0.1), [plate()]).max() < 0.03
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "beyond"])
 def test_random_traces_stay_near_their_pixels(kind: str) -> None:
-    frame = Frame(200, 200, 1.0)
+    frame = BitmapFrame(200, 200, 1.0)
     for seed in range(8):
         for trace in traces(frame, KINDS[kind](np.random.default_rng(seed), 190.0))[:4]:
-            path = smooth(trace, SmoothOptions(0.75))
+            path = smooth(trace, CornerSmoothingOptions(0.75))
             assert joins(path)
             assert distance(trace, [contour_of(path)]).max() <= path.deviation + 1e-9, "no point is lost"
             assert path.deviation <= 4 * 0.75, "twice the tolerance, and as much again at corners"
@@ -133,7 +133,7 @@ def test_random_traces_stay_near_their_pixels(kind: str) -> None:
 
 def test_few_points_stay_as_they_are() -> None:
     for count in (1, 2, 3):
-        path = smooth(np.arange(2.0 * count).reshape(-1, 2), SmoothOptions(0.5))
+        path = smooth(np.arange(2.0 * count).reshape(-1, 2), CornerSmoothingOptions(0.5))
         assert not path.exact
         assert len(path.rows) == count
         assert joins(path)
@@ -141,12 +141,12 @@ def test_few_points_stay_as_they_are() -> None:
 
 def test_points_that_fit_nothing_stay_a_free_curve_through_them() -> None:
     points = np.random.default_rng(4).uniform(0, 10, (40, 2))
-    path = smooth(points, SmoothOptions(0.01))
+    path = smooth(points, CornerSmoothingOptions(0.01))
     assert distance(points, [polygon_contour(path.rows[:, :2].tolist())]).max() < 0.05
 
 
 def test_moving_keeps_tangents_and_distance() -> None:
-    path = smooth(sampled(plate(), 0.3), SmoothOptions(0.05))
+    path = smooth(sampled(plate(), 0.3), CornerSmoothingOptions(0.05))
     out = moved(path, sampled(plate(), 0.3), np.full(len(path.rows), 0.5), 0.05)
     assert joins(out)
     assert np.array_equal(out.joined, path.joined)
@@ -157,7 +157,7 @@ def test_moving_keeps_tangents_and_distance() -> None:
 def test_a_row_left_out_is_replaced_by_its_neighbours_crossing() -> None:
     corners = [(0.0, 0.0), (20.0, 0.0), (21.0, 1.0), (21.0, 20.0), (0.0, 20.0)]
     points = sampled(polygon_contour(corners), 0.1)
-    path = smooth(points, SmoothOptions(0.02))
+    path = smooth(points, CornerSmoothingOptions(0.02))
     short = np.hypot(*(path.rows[:, 2:4] - path.rows[:, :2]).T) < 2
     fewer = without(path, short)
     assert fewer is not None
@@ -169,12 +169,12 @@ def test_a_row_left_out_is_replaced_by_its_neighbours_crossing() -> None:
 
 def test_a_tolerance_must_be_a_length() -> None:
     with pytest.raises(ParameterError, match="tolerance is 0 mm"):
-        SmoothOptions(0.0)
+        CornerSmoothingOptions(0.0)
 
 
 def test_points_given_again_and_again_change_nothing() -> None:
     points = sampled(plate(), 0.3)
-    once, thrice = (smooth(np.repeat(points, count, axis=0), SmoothOptions(0.05)) for count in (1, 3))
+    once, thrice = (smooth(np.repeat(points, count, axis=0), CornerSmoothingOptions(0.05)) for count in (1, 3))
     assert np.array_equal(once.rows, thrice.rows)
     assert np.array_equal(
         np.repeat(points, 3, axis=0)[thrice.ends % (3 * len(points))], points[once.ends % len(points)]
@@ -185,12 +185,12 @@ def test_what_fits_nothing_does_not_spoil_the_rest() -> None:
     """A spiral there and back, with two cusps, and a square with a spot of noise."""
     t = np.linspace(0, 6 * math.pi, 3000)
     spiral = np.column_stack(((2 + t) * np.cos(t), (2 + t) * np.sin(t)))
-    path = smooth(np.concatenate([spiral, spiral[::-1]]), SmoothOptions(0.05))
+    path = smooth(np.concatenate([spiral, spiral[::-1]]), CornerSmoothingOptions(0.05))
     assert path.exact
     assert len(path.rows) < 100
     corners = sampled(polygon_contour([(0, 0), (40, 0), (40, 40), (0, 40)]), 0.2)
     corners[300:330] += np.random.default_rng(3).uniform(-1, 1, (30, 2))
-    path = smooth(corners, SmoothOptions(0.05))
+    path = smooth(corners, CornerSmoothingOptions(0.05))
     assert path.exact
     assert (lengths(path.rows) > 10).sum() >= 4
 
@@ -199,6 +199,6 @@ def test_what_fits_nothing_does_not_spoil_the_rest() -> None:
 def test_joints_that_are_said_to_be_tangent_are(waves: int) -> None:
     t = np.linspace(0, math.tau, 2000, endpoint=False)
     r = 20 + 2 * np.sin(waves * t)
-    path = smooth(np.column_stack((r * np.cos(t), r * np.sin(t))), SmoothOptions(0.05))
+    path = smooth(np.column_stack((r * np.cos(t), r * np.sin(t))), CornerSmoothingOptions(0.05))
     assert path.tangent.mean() > 0.5
     assert np.degrees(turns(path.rows, np.arange(-1, len(path.rows) - 1))[path.tangent]).max() < 0.1

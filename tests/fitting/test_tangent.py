@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from app.fitting.fitted import FittedPath
 from app.fitting.line_arcs.arc_fit import ArcOptions, _greedy, fit_arcs
 from app.fitting.line_arcs.flat_fit import _last_digit
-from app.fitting.line_arcs.tangent import Polyline
+from app.fitting.line_arcs.tangent import PlanarPolyline
 from app.fitting.point_curves.corners import corners
 from app.fitting.point_curves.space_curve import curve_of_motions
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.model.motion import MotionKind, Plane
 from tests.examples import examples
 
@@ -125,7 +125,7 @@ def test_free_forms_are_smoother_than_their_points_and_within(
 ) -> None:
     points = np.round(waves(count, (one, other), depth), 4)
     path = fit_arcs(points, ArcOptions(tolerance))
-    assert judge(curve_of_motions(path.motions), points, Tube(tolerance)).answer is Answer.INSIDE
+    assert judge(curve_of_motions(path.motions), points, ToleranceTube(tolerance)).answer is TubeAnswer.INSIDE
     assert len(path.motions) < len(points)
     at = corners(points, math.radians(30), 4 * tolerance)
     meant = np.array([np.abs(points[at] - end).max(axis=1).min() == 0 for end in path.motions.end[:-1]], bool)
@@ -179,7 +179,7 @@ def test_a_barrel_lets_arcs_stand_for_long_chords(count: int) -> None:
     assert not np.any(fit_arcs(points, ArcOptions(0.01)).motions.kind >= MotionKind.ARC_CW)
     path = fit_arcs(points, ArcOptions(0.01, middle=0.1))
     assert len(path.motions) == 2
-    assert judge(curve_of_motions(path.motions), points, Tube(0.01, 0.1)).answer is Answer.INSIDE
+    assert judge(curve_of_motions(path.motions), points, ToleranceTube(0.01, 0.1)).answer is TubeAnswer.INSIDE
     assert len(fit_arcs(points, ArcOptions(0.01, middle=0.02)).motions) > 2
 
 
@@ -229,9 +229,9 @@ def test_what_rounding_can_make_is_no_bend_and_bends_that_are_meant_are() -> Non
     straight = np.round(
         np.column_stack([np.arange(500) * 0.01, rng.uniform(-0.0005, 0.0005, 500) + 0.37371 * np.arange(500) * 0.01]), 3
     )
-    assert Polyline(straight, 0.04).turns.max() > math.radians(1)
-    assert Polyline(straight, 0.04, step).turns.max() == 0.0
+    assert PlanarPolyline(straight, 0.04).turns.max() > math.radians(1)
+    assert PlanarPolyline(straight, 0.04, step).turns.max() == 0.0
     t = np.radians(np.arange(0, 90, 2.0))
     facets = np.round(np.column_stack([np.cos(t), np.sin(t)]) * 0.5 / math.sin(math.radians(1)), 4)
-    turns = np.degrees(Polyline(facets, 0.04, 1e-4).turns[1:-1])
+    turns = np.degrees(PlanarPolyline(facets, 0.04, 1e-4).turns[1:-1])
     assert turns.min() > 2 - 0.04 and turns.max() < 2 + 0.04

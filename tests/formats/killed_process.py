@@ -8,7 +8,7 @@ from pathlib import Path
 from app.drafting.document import Document
 from app.formats.project.files import load_project, save_project
 from app.formats.project.project import Project
-from app.formats.project.recovery import Edited, RecoveryFile
+from app.formats.project.recovery import EditedFile, RecoveryFile
 
 
 def main() -> None:
@@ -21,7 +21,7 @@ def main() -> None:
     while True:
         document.run(f"circle {len(document.part.entities)},0 1.5")
         drawn = len(document.part.entities)
-        recovery.keep(Project(document.state), Edited(path, stamp))
+        recovery.keep(Project(document.state), EditedFile(path, stamp))
         print("kept", drawn, flush=True)
         if drawn % 2 == 0:
             stamp = save_project(path, Project(document.state), stamp)

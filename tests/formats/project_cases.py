@@ -5,19 +5,19 @@ import math
 from hypothesis import strategies as st
 
 from app.drafting.expressions.grammar import read_script
-from app.drafting.expressions.syntax import Define
+from app.drafting.expressions.syntax import CommandDefinition
 from app.drafting.expressions.values import Curves
-from app.drafting.history import State
-from app.formats.project.beside import Beside
-from app.formats.project.project import Look, Project
+from app.drafting.history import HistoryState
+from app.formats.project.extras import ProjectExtras
+from app.formats.project.project import Project, SavedView
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, Selector, on_layers
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
-from app.model.notes import Dimension, Guide, Mark, Measure, Note
+from app.model.notes import Dimension, DimensionKind, Guide, Mark, Note
 from app.model.operation import (
     ContourOperation,
-    Cut,
+    CutParameters,
     Direction,
     DrillOperation,
     Order,
@@ -27,7 +27,7 @@ from app.model.operation import (
 )
 from app.model.part import Entity, Layer, Part, Units
 from app.model.read_options import DrawingOptions
-from app.model.reading import Reading, Source
+from app.model.reading import DrawingSource, ReadingOptions
 from app.model.tool import FeedRow, Tool, shape_keys
 from app.model.tool_kind import tool_kinds
 from app.model.underlay import Underlay
@@ -71,8 +71,10 @@ TWO = st.tuples(POINT, POINT)
 SHAPES = st.one_of(
     st.builds(Mark, POINT),
     st.builds(Guide, POINT, floats(0, math.pi, exclude_max=True)),
-    st.builds(Dimension, st.sampled_from([each for each in Measure if each is not Measure.ANGLE]), TWO, POINT),
-    st.builds(Dimension, st.just(Measure.ANGLE), st.tuples(POINT, POINT, POINT), POINT),
+    st.builds(
+        Dimension, st.sampled_from([each for each in DimensionKind if each is not DimensionKind.ANGLE]), TWO, POINT
+    ),
+    st.builds(Dimension, st.just(DimensionKind.ANGLE), st.tuples(POINT, POINT, POINT), POINT),
 )
 
 
@@ -141,7 +143,7 @@ def selectors() -> st.SearchStrategy[tuple[Selector, ...]]:
 def operations(draw: st.DrawFn) -> ContourOperation | PocketOperation | RestOperation | DrillOperation:
     entry = Entry(draw(st.sampled_from(EntryKind)), draw(floats(1e-3, math.pi / 4)))
     depth = draw(floats(1, 100))
-    cut = Cut(
+    cut = CutParameters(
         draw(st.integers(1, 9)),
         depth,
         draw(floats(0.5, 1e3)),
@@ -228,9 +230,9 @@ def plate() -> Part:
 BOLT = 'define Bolt(c, r)\n  circle c r # "hole"\n  if r > 2\n    layer "deep"\n  end\nend'
 
 
-def command() -> Define:
+def command() -> CommandDefinition:
     (defined,) = read_script(BOLT)
-    assert isinstance(defined, Define)
+    assert isinstance(defined, CommandDefinition)
     return defined
 
 
@@ -241,21 +243,27 @@ def projects(draw: st.DrawFn) -> Project:
     names = draw(st.dictionaries(st.sampled_from(["w", "hole", "ö", "a_1", "穴"]), values))
     commands = draw(st.sampled_from([{}, {"bolt": command()}]))
     layer = draw(st.sampled_from([layer.name for layer in part.layers]))
-    look = Look(draw(st.sampled_from(["", "view_cut"])), draw(st.one_of(st.none(), POINT)), draw(floats(1e-6, 1e6)))
+    look = SavedView(
+        draw(st.sampled_from(["", "view_cut"])), draw(st.one_of(st.none(), POINT)), draw(floats(1e-6, 1e6))
+    )
     place = st.builds(
         Underlay, TEXT.map(lambda name: f"p{name}"), POINT, floats(1e-6, 1e3), floats(-7, 7), floats(0, 1)
     )
     text = st.lists(TEXT, min_size=1, max_size=5).map(lambda lines: "\n".join(["x", *lines]))
-    beside = Beside(draw(st.one_of(st.none(), place)), *draw(st.one_of(st.just(()), st.tuples(text, st.booleans()))))
-    state = State(draw(jobs(part)), layer, draw(POINT), names, commands, source=draw(st.one_of(st.none(), sources())))
+    beside = ProjectExtras(
+        draw(st.one_of(st.none(), place)), *draw(st.one_of(st.just(()), st.tuples(text, st.booleans())))
+    )
+    state = HistoryState(
+        draw(jobs(part)), layer, draw(POINT), names, commands, source=draw(st.one_of(st.none(), sources()))
+    )
     return Project(state, look, beside)
 
 
-def sources() -> st.SearchStrategy[Source]:
+def sources() -> st.SearchStrategy[DrawingSource]:
     """Return drawings that parts were read from, in every way that they can be read."""
     names = NAMES.map(tuple)
     how = st.builds(
         DrawingOptions, st.booleans(), TEXT, st.booleans(), st.one_of(st.none(), floats(1, 1e5)), names, names
     )
-    reading = st.builds(Reading, st.one_of(st.none(), st.sampled_from(Units)), names, how)
-    return st.builds(Source, TEXT.map(lambda name: f"d{name}.dxf"), reading)
+    reading = st.builds(ReadingOptions, st.one_of(st.none(), st.sampled_from(Units)), names, how)
+    return st.builds(DrawingSource, TEXT.map(lambda name: f"d{name}.dxf"), reading)

@@ -17,7 +17,7 @@ from app.model.curves import Circle, Line
 from app.model.finding import Finding, FindingKind
 from app.model.part import Units
 from app.model.read_options import DrawingOptions
-from app.model.reading import Reading
+from app.model.reading import ReadingOptions
 from app.usecases.plausible import read_plausible
 
 
@@ -218,7 +218,7 @@ def test_paper_space_is_offered_and_read() -> None:
 def sized(units: int, given: Units | None, diameter: float = 6.0) -> Drawing:
     document = new(units)
     plate(document.modelspace())
-    return read_plausible("x.dxf", bytes_of(document), Reading(given), lambda _: [diameter])
+    return read_plausible("x.dxf", bytes_of(document), ReadingOptions(given), lambda _: [diameter])
 
 
 def width(drawing: Drawing) -> float:
@@ -276,7 +276,7 @@ def test_units_that_would_be_no_better_are_not_offered() -> None:
     """3e5 pixels are 79 m: no unit that is offered makes them less, and in metres they lie beyond 1 km."""
     text = b'<svg xmlns="http://www.w3.org/2000/svg"><rect width="3e5" height="1e5" stroke="red" fill="none"/></svg>'
     with pytest.raises(UndecidedError, match="79375 x 26458") as caught:
-        read_plausible("a.svg", text, Reading(), lambda _: [6.0])
+        read_plausible("a.svg", text, ReadingOptions(), lambda _: [6.0])
     question = caught.value.question
     assert question is not None and [choice.words for choice in question.choices] == ["Keep 96 to the inch"]
     assert read_plausible("a.svg", text, question.choices[0].reading, lambda _: [6.0]).part.entities
@@ -286,7 +286,7 @@ def test_every_answer_is_read_as_it_says() -> None:
     document = new(6)
     plate(document.modelspace())
     with pytest.raises(UndecidedError) as caught:
-        read_plausible("a.dxf", bytes_of(document), Reading(), lambda _: [6.0])
+        read_plausible("a.dxf", bytes_of(document), ReadingOptions(), lambda _: [6.0])
     question = caught.value.question
     assert question is not None and [choice.likely for choice in question.choices] == [True, False, False]
     for choice in question.choices:

@@ -8,7 +8,7 @@ import pytest
 
 from app.formats.drawing import Drawing
 from app.formats.readers import read_drawing
-from app.geometry.chaining.chain import Chaining, chain
+from app.geometry.chaining.chain import ChainingResult, chain
 from app.geometry.primitives import contour_rows, lengths, signed_area
 from app.model.finding import FindingKind
 from app.model.part import Units
@@ -18,7 +18,7 @@ def read(data: Path, name: str) -> Drawing:
     return read_drawing(name, (data / "dxf" / name).read_bytes())
 
 
-def chained(drawing: Drawing, join_tolerance: float = 0.01) -> Chaining:
+def chained(drawing: Drawing, join_tolerance: float = 0.01) -> ChainingResult:
     made = chain([entity for entity in drawing.part.entities if not entity.lettering], join_tolerance)
     for contour in made.contours:
         assert all(a.end == b.start for a, b in zip(contour.primitives, contour.primitives[1:], strict=False))

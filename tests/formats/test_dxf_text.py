@@ -17,7 +17,7 @@ from app.formats.drawing import Drawing
 from app.formats.readers import read_drawing
 from app.geometry import typeface
 from app.geometry.affine import Affine
-from app.geometry.lettering import engraving
+from app.geometry.stroke_font import engraving
 from app.model.curves import Circle, Curve
 from app.model.finding import Finding, FindingKind
 from app.model.part import Entity

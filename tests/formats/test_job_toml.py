@@ -20,7 +20,7 @@ from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
     AdaptiveOperation,
     ContourOperation,
-    Cut,
+    CutParameters,
     Direction,
     DrillOperation,
     Operation,
@@ -49,9 +49,9 @@ def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     assert isinstance(pocket, PocketOperation) and pocket.stepover == 3.0
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
-    assert adaptive == AdaptiveOperation(Cut(1))
-    assert carving == VcarveOperation(Cut(3))
-    assert drill == DrillOperation(Cut(1), 1.0, 5.9, 6.1, 0.0)
+    assert adaptive == AdaptiveOperation(CutParameters(1))
+    assert carving == VcarveOperation(CutParameters(3))
+    assert drill == DrillOperation(CutParameters(1), 1.0, 5.9, 6.1, 0.0)
     named = set(re.findall(r"(?m)^(\w+) = ", text))
     assert {"kind", *declared()} | set(TOOL_KEYS) - {"feeds"} <= named
 
@@ -101,7 +101,7 @@ def test_every_key_is_read() -> None:
     """
     read = read_job("j", text)
     tool = Tool(7, 1.5, ToolKind.BALL, "small", 3, 20000.0, 111.0, 22.0)
-    cut = Cut(7, 5.0, 1.0, 0.2, Direction.CONVENTIONAL, False)
+    cut = CutParameters(7, 5.0, 1.0, 0.2, Direction.CONVENTIONAL, False)
     assert read.job == Job(
         Part(),
         (tool,),
@@ -259,7 +259,7 @@ SELECTORS = st.one_of(
     st.tuples(LENGTH, LENGTH).map(lambda ends: CirclesOf(*sorted(ends))),
 )
 CUT = st.builds(
-    Cut,
+    CutParameters,
     tool=st.integers(1, 2),
     depth=st.floats(20, 90),
     stepdown=st.floats(1, 90),
@@ -271,7 +271,7 @@ CUT = st.builds(
     entry=st.builds(Entry, st.sampled_from(EntryKind), st.floats(0.1, 45).map(math.radians)),
     curves=st.lists(SELECTORS, unique=True, max_size=3).map(tuple),
 )
-HOLE_CUT = st.builds(Cut, tool=st.integers(1, 2), depth=st.floats(20, 90), enabled=st.booleans())
+HOLE_CUT = st.builds(CutParameters, tool=st.integers(1, 2), depth=st.floats(20, 90), enabled=st.booleans())
 SHARE, STEP = st.floats(0.05, 1), st.none() | LENGTH
 OPERATIONS = st.one_of(
     st.builds(PocketOperation, CUT, STEP, st.booleans(), SHARE),
@@ -305,8 +305,8 @@ def effective(operation: Operation) -> Operation:
     if not operation.cut.entry.sloped:
         operation = replace(operation, cut=replace(operation.cut, entry=Entry(operation.cut.entry.kind)))
     if isinstance(operation, ContourOperation):
-        lead = operation.lead if operation.lead.wanted else Lead(LeadKind.NONE)
-        operation = replace(operation, lead=lead, tabs=operation.tabs if operation.tabs.wanted else Tabs())
+        lead = operation.lead if operation.lead.enabled else Lead(LeadKind.NONE)
+        operation = replace(operation, lead=lead, tabs=operation.tabs if operation.tabs.enabled else Tabs())
     return operation
 
 
@@ -386,7 +386,7 @@ def test_a_default_may_stand_where_it_has_no_effect() -> None:
         "tabs = 0\ntab_width = 5\nfinish_each_pass = false"
     )
     (operation,) = read_job("j", f"{text}\n[copies]\ncolumns = 2\ndx = 9\ndy = 0.0".encode()).job.operations
-    assert operation == ContourOperation(Cut(1, entry=Entry(EntryKind.PLUNGE)), lead=Lead(LeadKind.NONE))
+    assert operation == ContourOperation(CutParameters(1, entry=Entry(EntryKind.PLUNGE)), lead=Lead(LeadKind.NONE))
     assert read_job("j", (CONTOUR + "tab_places = [[1, 2]]\ntab_width = 4").encode()).job.operations
 
 

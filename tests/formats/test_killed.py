@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from app.drafting.document import Document
-from app.drafting.history import State
+from app.drafting.history import HistoryState
 from app.formats.project.project import Project, read_project, write_project
 from app.formats.project.recovery import recoveries
 from app.model.curves import Circle
@@ -42,7 +42,7 @@ def killed_after(path: Path, wait_s: float) -> dict[str, int]:
 
 def check(path: Path, times: int, seed: int) -> None:
     rng = random.Random(seed)
-    state = State(Job(Part().with_curves([Circle((float(k), 0.0), 1.0) for k in range(500)], "0")))
+    state = HistoryState(Job(Part().with_curves([Circle((float(k), 0.0), 1.0) for k in range(500)], "0")))
     path.write_bytes(write_project(Project(state)))
     before = 500
     for _ in range(times):

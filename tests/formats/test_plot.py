@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import cv2
 import numpy as np
 
-from app.formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, Picture, layout
+from app.formats.plot.picture import CONTOUR, LINK, POCKET, RAPID, PathPicture, layout
 from app.formats.plot.picture_svg import path_data, svg
 from app.formats.plot.plot import plot
 from app.geometry.primitives import contour_rows
@@ -29,8 +29,8 @@ OUTLINE = Contour(
 )
 
 
-def picture() -> Picture:
-    return Picture(
+def picture() -> PathPicture:
+    return PathPicture(
         title="plate <1>",
         contours=(contour_rows(OUTLINE),),
         paths=(
@@ -100,6 +100,6 @@ def test_png_shows_the_same_things_in_the_same_places() -> None:
 
 
 def test_a_picture_of_nothing_is_still_a_picture() -> None:
-    empty = Picture("nothing", (), (), np.zeros((0, 2)))
+    empty = PathPicture("nothing", (), (), np.zeros((0, 2)))
     assert plot(empty, ".png").startswith(b"\x89PNG")
     ElementTree.fromstring(plot(empty, ".svg"))

@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 
 from app.core.errors import InputError
-from app.formats.plot.content import Shown
+from app.formats.plot.content import DrawingContent
 from app.formats.plot.hpgl import hpgl_bytes
 from app.formats.plot.layout import MARGIN, OVERLAP, PlotOptions, lay_out, scale_words
 from app.formats.plot.page import Paper, segments
 from app.formats.plot.page_svg import page_svg
 from app.model.curves import Arc, Circle, Ellipse, Line, Spline
 from app.model.moves import MoveKind, Moves, Purpose
-from app.model.notes import Dimension, Guide, Mark, Measure
+from app.model.notes import Dimension, DimensionKind, Guide, Mark
 from app.model.part import Layer, Part
 from tests.formats.hpgl_player import Plotter
 
@@ -38,7 +38,7 @@ def a_plate() -> Part:
     )
     part = part.with_curves(outline, "0").with_curves((Circle((20.0, 20.0), 7.5),), "holes")
     part = part.with_curves((Line((-500.0, 0.0), (500.0, 0.0)),), "hidden")
-    part = part.with_note(Dimension(Measure.ACROSS, ((0.0, 0.0), (60.0, 0.0)), (30.0, -10.0)), "0")
+    part = part.with_note(Dimension(DimensionKind.ACROSS, ((0.0, 0.0), (60.0, 0.0)), (30.0, -10.0)), "0")
     return part.with_note(Guide((0.0, 20.0), 0.0), "0").with_note(Mark((20.0, 20.0)), "0")
 
 
@@ -59,7 +59,7 @@ def some_moves() -> Moves:
 
 @pytest.mark.parametrize(("scale", "length"), [(1.0, 100.0), (0.5, 50.0), (2.0, 200.0)])
 def test_a_line_of_100_mm_is_as_long_as_the_scale_says_in_svg_and_hpgl(scale: float, length: float) -> None:
-    (page,) = lay_out(Shown(LINE), PlotOptions(scale=scale)).pages
+    (page,) = lay_out(DrawingContent(LINE), PlotOptions(scale=scale)).pages
     root = ElementTree.fromstring(page_svg(page, "rule"))
     assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("297mm", "210mm", "0 0 297 210")
     path = root.find(f"{SVG}g[@id='drawing']/{SVG}path")
@@ -107,7 +107,7 @@ def test_splines_are_kept_as_they_are() -> None:
 
 
 def test_hpgl_plays_back_with_a_pen_a_layer_and_true_arcs() -> None:
-    (page,) = lay_out(Shown(a_plate(), notes=False), replace(TRUE, framed=False)).pages
+    (page,) = lay_out(DrawingContent(a_plate(), notes=False), replace(TRUE, framed=False)).pages
     (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     (outline,) = sheet.strokes
     assert (outline.pen, outline.dashed, outline.width) == (1, 0.0, 0.35)
@@ -120,7 +120,7 @@ def test_hpgl_plays_back_with_a_pen_a_layer_and_true_arcs() -> None:
 
 def test_what_is_hidden_or_construction_is_not_plotted_and_dimensions_keep_their_size_at_every_scale() -> None:
     for scale in (1.0, 0.2):
-        (page,) = lay_out(Shown(a_plate()), replace(TRUE, scale=scale)).pages
+        (page,) = lay_out(DrawingContent(a_plate()), replace(TRUE, scale=scale)).pages
         assert [words.text for words in page.drawing.words] == ["60"]
         assert page.drawing.words[0].height == 3.5
         tip, corner, _ = page.drawing.patches[0].corners
@@ -129,7 +129,7 @@ def test_what_is_hidden_or_construction_is_not_plotted_and_dimensions_keep_their
 
 
 def test_paths_are_drawn_by_tool_with_contours_dashed_and_without_rapids() -> None:
-    (page,) = lay_out(Shown(LINE, some_moves()), replace(TRUE, framed=False)).pages
+    (page,) = lay_out(DrawingContent(LINE, some_moves()), replace(TRUE, framed=False)).pages
     (sheet,) = Plotter(hpgl_bytes((page,))).sheets
     kinds = [(stroke.pen, stroke.dashed, stroke.width) for stroke in sheet.strokes]
     assert kinds == [(2, 0.0, 0.13), (2, 0.0, 0.25), (3, 4.5, 0.25), (1, 0.0, 0.35)]
@@ -138,17 +138,17 @@ def test_paths_are_drawn_by_tool_with_contours_dashed_and_without_rapids() -> No
 
 
 def test_the_title_strip_says_name_scale_units_date_and_sheet() -> None:
-    (page,) = lay_out(Shown(a_plate()), PlotOptions(scale=0.5), "2026-11-22").pages
+    (page,) = lay_out(DrawingContent(a_plate()), PlotOptions(scale=0.5), "2026-11-22").pages
     assert {"plate", "1 : 2", "mm", "2026-11-22", "1 of 1"} <= {words.text for words in page.frame.words}
-    assert not lay_out(Shown(a_plate()), PlotOptions(scale=0.5, framed=False)).pages[0].frame.words
+    assert not lay_out(DrawingContent(a_plate()), PlotOptions(scale=0.5, framed=False)).pages[0].frame.words
     long = replace(a_plate(), name="名" * 100)
-    name = lay_out(Shown(long), TRUE).pages[0].frame.words[1].text
+    name = lay_out(DrawingContent(long), TRUE).pages[0].frame.words[1].text
     assert name.endswith("…") and len(name) < 40
 
 
 @pytest.mark.parametrize("size", [0.37, 11.0, 123.456, 5000.0])
 def test_fit_fills_the_sheet_at_a_scale_that_three_figures_state(size: float) -> None:
-    plot = lay_out(Shown(Part().with_curves((Line((0.0, 0.0), (size, 0.0)),), "0")), PlotOptions())
+    plot = lay_out(DrawingContent(Part().with_curves((Line((0.0, 0.0), (size, 0.0)),), "0")), PlotOptions())
     on_paper = size * plot.scale
     assert 0.98 * (297 - 2 * MARGIN - 8) <= on_paper <= 297 - 2 * MARGIN - 8 + 1e-9
     first, second = scale_words(plot.scale).split(" : ")
@@ -158,7 +158,7 @@ def test_fit_fills_the_sheet_at_a_scale_that_three_figures_state(size: float) ->
 
 def test_what_is_too_large_goes_on_sheets_that_overlap_and_meet() -> None:
     part = Part().with_curves((Line((0.0, 0.0), (700.0, 300.0)),), "0")
-    plot = lay_out(Shown(part), TRUE)
+    plot = lay_out(DrawingContent(part), TRUE)
     assert (len(plot.pages), plot.columns) == (6, 3)
     for row in (0, 1):
         places = [page.place(part.entities[0].curve.start) for page in plot.pages[3 * row : 3 * row + 3]]
@@ -185,14 +185,14 @@ def inside(point: tuple[float, float], window: tuple[float, float, float, float]
 
 def test_nothing_and_far_too_much_are_refused() -> None:
     with pytest.raises(InputError, match="Nothing is drawn"):
-        lay_out(Shown(Part()), TRUE)
+        lay_out(DrawingContent(Part()), TRUE)
     with pytest.raises(InputError, match="sheets; choose larger paper"):
-        lay_out(Shown(LINE), PlotOptions(scale=5000.0))
+        lay_out(DrawingContent(LINE), PlotOptions(scale=5000.0))
 
 
 @pytest.mark.parametrize("paper", list(Paper))
 def test_paper_lies_and_stands(paper: Paper) -> None:
-    lying = lay_out(Shown(LINE), PlotOptions(paper, True)).pages[0]
-    standing = lay_out(Shown(LINE), PlotOptions(paper, False)).pages[0]
+    lying = lay_out(DrawingContent(LINE), PlotOptions(paper, True)).pages[0]
+    standing = lay_out(DrawingContent(LINE), PlotOptions(paper, False)).pages[0]
     assert lying.width > lying.height
     assert (standing.height, standing.width) == (lying.width, lying.height)

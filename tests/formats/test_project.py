@@ -11,16 +11,16 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.drafting.document import Document
-from app.drafting.history import State
+from app.drafting.history import HistoryState
 from app.formats.job.toml import read_job
 from app.formats.job.write import empty_lists, job_lines
-from app.formats.project.beside import MOST_TEXT, Beside
-from app.formats.project.project import MOST_HEAD, Look, Project, read_project, write_project
+from app.formats.project.extras import MOST_TEXT, ProjectExtras
+from app.formats.project.project import MOST_HEAD, Project, SavedView, read_project, write_project
 from app.formats.readers import read_drawing
 from app.model.curves import Circle
 from app.model.job import Job
 from app.model.part import Part
-from app.model.reading import Reading, Source
+from app.model.reading import DrawingSource, ReadingOptions
 from tests.conftest import ROOT
 from tests.examples import examples
 from tests.formats.project_cases import jobs, projects
@@ -81,7 +81,7 @@ def drawn() -> Project:
         "let p = 3,4",
     ):
         document.run(line)
-    return Project(document.state, Look("view_draw", (5.0, 6.25), 12.5))
+    return Project(document.state, SavedView("view_draw", (5.0, 6.25), 12.5))
 
 
 def test_how_a_drawing_was_read_goes_on_into_its_programs() -> None:
@@ -90,11 +90,11 @@ def test_how_a_drawing_was_read_goes_on_into_its_programs() -> None:
     part = read_drawing("a.svg", svg).part
     assert part.reading.pixels_per_inch == 96
     project = replace(
-        drawn(), state=replace(drawn().state, job=replace(drawn().state.job, part=part), source=Source("a.svg"))
+        drawn(), state=replace(drawn().state, job=replace(drawn().state.job, part=part), source=DrawingSource("a.svg"))
     )
     again = read_project("p.hito", write_project(project)).state
     assert again.job.part.reading == part.reading
-    assert again.source == Source("a.svg", Reading(how=part.reading))
+    assert again.source == DrawingSource("a.svg", ReadingOptions(how=part.reading))
 
 
 def test_the_first_version_opens() -> None:
@@ -195,7 +195,8 @@ def test_a_text_too_long_for_the_file_is_left_out_and_the_file_is_read() -> None
     kept, left_out = ("a" * count for count in (MOST_TEXT - 100, MOST_TEXT))
     for text, read in ((kept, kept), (left_out, "")):
         assert (
-            read_project("p.hito", write_project(Project(drawn().state, beside=Beside(text=text)))).beside.text == read
+            read_project("p.hito", write_project(Project(drawn().state, beside=ProjectExtras(text=text)))).beside.text
+            == read
         )
 
 
@@ -203,7 +204,7 @@ def test_a_text_too_long_for_the_file_is_left_out_and_the_file_is_read() -> None
 def test_what_could_not_be_read_again_is_told_when_it_is_written(size: float) -> None:
     part = Part().with_curves([Circle((0.0, 0.0), size)], "0")
     with pytest.raises(InputError, match="a project holds up to 1e"):
-        write_project(Project(State(Job(part))))
+        write_project(Project(HistoryState(Job(part))))
 
 
 def test_windows_line_ends_are_read() -> None:

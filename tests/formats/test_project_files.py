@@ -10,21 +10,21 @@ import pytest
 
 from app.core.errors import InputError
 from app.drafting.expressions.values import Curves
-from app.drafting.history import State
-from app.formats.project.beside import Beside
+from app.drafting.history import HistoryState
+from app.formats.project.extras import ProjectExtras
 from app.formats.project.files import ChangedElsewhere, load_project, save_project, stamp_of
 from app.formats.project.project import Project, read_project
 from app.model.job import Job
 from app.model.part import Part, Units
 from app.model.read_options import DrawingOptions
-from app.model.reading import Reading, Source
+from app.model.reading import DrawingSource, ReadingOptions
 from app.model.underlay import Underlay
 from tests.formats.project_cases import plate
 
 
 def named(name: str) -> Project:
     part = plate()
-    return Project(State(Job(Part(part.entities, part.layers, part.units, name))))
+    return Project(HistoryState(Job(Part(part.entities, part.layers, part.units, name))))
 
 
 def name_in(path: Path) -> str:
@@ -115,7 +115,7 @@ def test_the_names_of_the_folder_reach_the_disk_too(tmp_path: Path, monkeypatch:
 def test_a_picture_in_the_folder_moves_with_it_and_one_elsewhere_stays(tmp_path: Path) -> None:
     (tmp_path / "one" / "pictures").mkdir(parents=True)
     for picture in (tmp_path / "one" / "pictures" / "plan b.png", tmp_path / "else.png"):
-        project = Project(named("one").state, beside=Beside(Underlay(str(picture))))
+        project = Project(named("one").state, beside=ProjectExtras(Underlay(str(picture))))
         save_project(tmp_path / "one" / "a.hito", project)
         assert load_project(tmp_path / "one" / "a.hito")[0].beside == project.beside
         (tmp_path / "two").mkdir(exist_ok=True)
@@ -150,7 +150,7 @@ def test_any_name_will_do(tmp_path: Path, name: str) -> None:
 
 
 def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
-    state = State(Job(plate()), names={f"n{k}": Curves(tuple(range(1, 400_000, 2))) for k in range(8)})
+    state = HistoryState(Job(plate()), names={f"n{k}": Curves(tuple(range(1, 400_000, 2))) for k in range(8)})
     save_project(tmp_path / "a.hito", named("one"))
     with pytest.raises(InputError, match="beside its curves the project has"):
         save_project(tmp_path / "a.hito", Project(state))
@@ -164,12 +164,12 @@ def test_stamps(tmp_path: Path) -> None:
 
 
 def test_the_drawing_it_was_read_from_is_told_from_its_folder_where_it_lies_in_that(tmp_path: Path) -> None:
-    reading = Reading(Units.MM, (), DrawingOptions(overrule=True, to_zero=True))
+    reading = ReadingOptions(Units.MM, (), DrawingOptions(overrule=True, to_zero=True))
     for drawing, told in (
         (tmp_path / "cad" / "a.dxf", 'path = "cad/a.dxf"'),
         (tmp_path.parent / "b.dxf", f'path = "{tmp_path.parent}'),
     ):
-        project = Project(replace(named("one").state, source=Source(str(drawing), reading)))
+        project = Project(replace(named("one").state, source=DrawingSource(str(drawing), reading)))
         save_project(tmp_path / "p.hito", project)
         assert told in (tmp_path / "p.hito").read_text()
-        assert load_project(tmp_path / "p.hito")[0].state.source == Source(str(drawing), reading)
+        assert load_project(tmp_path / "p.hito")[0].state.source == DrawingSource(str(drawing), reading)

@@ -11,7 +11,7 @@ from app.core.errors import InputError
 from app.core.settings import state_folder
 from app.drafting.document import Document
 from app.formats.project.project import Project
-from app.formats.project.recovery import Edited, RecoveryFile, recoveries
+from app.formats.project.recovery import EditedFile, RecoveryFile, recoveries
 from tests.conftest import ROOT
 
 CRASH = """
@@ -19,10 +19,10 @@ import os, sys
 from pathlib import Path
 from app.drafting.document import Document
 from app.formats.project.project import Project
-from app.formats.project.recovery import Edited, RecoveryFile
+from app.formats.project.recovery import EditedFile, RecoveryFile
 document = Document()
 document.run("circle 1,2 3")
-RecoveryFile().keep(Project(document.state), Edited(Path("/home/me/plate.hito"), (1, 2, 3)))
+RecoveryFile().keep(Project(document.state), EditedFile(Path("/home/me/plate.hito"), (1, 2, 3)))
 os.kill(os.getpid(), 9)
 """
 
@@ -44,7 +44,7 @@ def names() -> set[str]:
 def test_what_a_crash_leaves_is_offered_once_to_one() -> None:
     crash()
     (found,) = recoveries()
-    assert found.edited() == Edited(Path("/home/me/plate.hito"), (1, 2, 3))
+    assert found.edited() == EditedFile(Path("/home/me/plate.hito"), (1, 2, 3))
     assert len(found.load().state.job.part.entities) == 1
     assert recoveries() == ()
     found.leave()
@@ -61,7 +61,7 @@ def test_a_lock_that_a_crash_leaves_alone_is_cleared_away() -> None:
 
 def test_the_living_are_left_alone() -> None:
     mine = RecoveryFile()
-    mine.keep(project("line 0,0 1,1"), Edited())
+    mine.keep(project("line 0,0 1,1"), EditedFile())
     assert recoveries() == ()
     mine.close()
     assert recoveries() == () and names() == set()
@@ -69,8 +69,8 @@ def test_the_living_are_left_alone() -> None:
 
 def test_a_later_state_takes_the_place_of_the_one_before() -> None:
     mine = RecoveryFile()
-    mine.keep(project("line 0,0 1,1"), Edited())
-    mine.keep(project("rect 0,0 1,1"), Edited())
+    mine.keep(project("line 0,0 1,1"), EditedFile())
+    mine.keep(project("rect 0,0 1,1"), EditedFile())
     assert mine.path.read_text().count("line ") == 4
     mine.forget()
     mine.forget()
@@ -84,7 +84,7 @@ def test_a_damaged_file_is_told_and_set_aside(data: bytes) -> None:
     state_folder().mkdir(parents=True)
     (state_folder() / "x.hito").write_bytes(data)
     (found,) = recoveries()
-    assert found.edited() == Edited()
+    assert found.edited() == EditedFile()
     with pytest.raises(InputError):
         found.load()
     assert found.set_aside().read_bytes() == data

@@ -10,16 +10,16 @@ import pytest
 
 from app.cli.main import main
 from app.core.errors import InputError
-from app.formats.drawing import Drawing, Written
+from app.formats.drawing import Drawing, WrittenDrawing
 from app.formats.readers import check_options, fit_for, format_of, formats, known_format, offered_suffixes, read_drawing
-from app.formats.registry import DrawingFormat, Writer, register, withdraw
+from app.formats.registry import DrawingFormat, FormatWriter, register, withdraw
 from app.model.curves import Line
 from app.model.part import Part
 from app.model.read_options import DrawingOptions
-from app.model.reading import Reading
+from app.model.reading import ReadingOptions
 
 
-def read_boxes(name: str, data: bytes, reading: Reading) -> Drawing:
+def read_boxes(name: str, data: bytes, reading: ReadingOptions) -> Drawing:
     """A drawing of boxes: x, y, width and height in each line."""
     lines: list[Line] = []
     for row in data.decode().splitlines():
@@ -36,7 +36,7 @@ BOXES = DrawingFormat(
     (".foo",),
     read_boxes,
     takes=frozenset({"layout"}),
-    writers=(Writer(".foo", "Boxes", lambda part: Written(f"{len(part.entities)}".encode())),),
+    writers=(FormatWriter(".foo", "Boxes", lambda part: WrittenDrawing(f"{len(part.entities)}".encode())),),
 )
 
 

@@ -10,7 +10,18 @@ from app.core.errors import InputError
 from app.formats.scene.toml import read_scene, write_scene
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
-from app.model.scene import Boundary, Centre, KeptSide, LineType, Passes, Scene, SceneStock, Strategy, Surface, Trim
+from app.model.scene import (
+    Boundary,
+    CentreLimit,
+    KeptSide,
+    LineType,
+    Passes,
+    Scene,
+    SceneStock,
+    Strategy,
+    Surface,
+    Trim,
+)
 from app.model.scene_curves import CurveForm, SectionCurve, Spacing
 from app.model.scene_shapes import (
     BicubicShape,
@@ -18,10 +29,10 @@ from app.model.scene_shapes import (
     BsplineShape,
     ConeShape,
     CylinderShape,
-    Keep,
     LoftShape,
     MeshShape,
     PlaneShape,
+    ProfileOrientation,
     RevolvedShape,
     RuledShape,
     Shape,
@@ -63,7 +74,7 @@ SHAPES: tuple[Shape, ...] = (
     LoftShape((TABLE, SPACE, DRAWN, PAIR), 2, True),
     RuledShape(TABLE, DRAWN),
     RevolvedShape(DRAWN, X, ZERO[:2] + (2.0,), (10.0, 20.0)),
-    SweptShape(PAIR, SPACE, Keep.FOLLOW),
+    SweptShape(PAIR, SPACE, ProfileOrientation.FOLLOW),
     MeshShape("part.STL", 25.4),
 )
 TRIMS = (
@@ -107,7 +118,7 @@ FULL = Scene(
             feed_rate=500.0,
             plunge_rate=100.0,
             spindle_speed=9000.0,
-            boundary=(Boundary(rectangle=(0.0, 0.0, 9.0, 9.0), centre=Centre.INSIDE),),
+            boundary=(Boundary(rectangle=(0.0, 0.0, 9.0, 9.0), centre=CentreLimit.INSIDE),),
         ),
         Passes(7, line=(0.0, 0.0, 100.0, 80.0), scallop=0.01, chord_tolerance=0.002),
     ),

@@ -17,7 +17,7 @@ from app.formats.plot.content import TOOL_COLOURS
 from app.formats.plot.flat import dashes
 from app.formats.plot.hpgl import hpgl_bytes
 from app.formats.plot.layout import PlotOptions, lay_out
-from app.formats.plot.page import Page
+from app.formats.plot.page import PlotPage
 from app.formats.plot.page_pdf import pages_pdf
 from app.formats.plot.page_png import page_png
 from app.formats.plot.page_svg import page_svg
@@ -48,12 +48,12 @@ PLOT = BySurface(
 )
 
 
-def a_page(plot: BySurface) -> Page:
+def a_page(plot: BySurface) -> PlotPage:
     (page,) = lay_out(plot, PlotOptions()).pages
     return page
 
 
-def on_paper(plot: BySurface, page: Page) -> list[np.ndarray]:
+def on_paper(plot: BySurface, page: PlotPage) -> list[np.ndarray]:
     return [np.array([page.place((x, y)) for x, y in plot.view.seen(piece.points).tolist()]) for piece in plot.pieces]
 
 

@@ -31,8 +31,8 @@ from app.raster.picture import read_picture
 from app.raster.picture_options import PictureOptions
 from app.simulation.field.solid import read_solid
 from app.simulation.heights_file import read_heights
+from app.surfaces.meshes.orientation import orient_outwards
 from app.surfaces.meshes.read import read_mesh
-from app.surfaces.meshes.winding import right_side_out
 from app.usecases.examine import ExamineOptions, examine
 from tests.fuzz import seeds
 from tests.fuzz.apart import Read, Reader
@@ -58,17 +58,17 @@ def _drawing(name: str) -> Read:
 
 
 def _program(dialect: Dialect) -> Read:
-    return lambda data: [problem.told("p.ngc") for problem in read_program(data, ReadOptions(dialect)).problems]
+    return lambda data: [problem.message("p.ngc") for problem in read_program(data, ReadOptions(dialect)).problems]
 
 
 def _examined(data: bytes) -> object:
     found = examine("p.ngc", data, ExamineOptions())
     assert found.report()
-    return [problem.told("p.ngc") for problem in found.problems]
+    return [problem.message("p.ngc") for problem in found.problems]
 
 
 def _mesh(name: str) -> Read:
-    return lambda data: right_side_out(read_mesh(name, data))
+    return lambda data: orient_outwards(read_mesh(name, data))
 
 
 def _tools(name: str) -> Read:

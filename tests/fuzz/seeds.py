@@ -19,8 +19,8 @@ from fontTools.pens.ttGlyphPen import TTGlyphPen
 
 from app.core.settings import Settings
 from app.drafting.document import drawn
-from app.drafting.history import State
-from app.drafting.recorded import Recorded
+from app.drafting.history import HistoryState
+from app.drafting.recorded_lines import RecordedLine
 from app.formats.project.project import Project, write_project
 from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary
@@ -130,7 +130,7 @@ def project() -> tuple[bytes, ...]:
     part = drawn(
         'layer "CUT"\nrect 0,0 20,10 round 2\ncircle 5,5 2\nellipse 9,5 12,5 1\nspline 0,0 5,9 9,2 12,4\ntext 3,3 2 "A"'
     )
-    state = State(Job(part), "CUT", (1.0, 2.0), {"w": 3.0, "p": (1.0, 2.0)}, {}, Recorded(part))
+    state = HistoryState(Job(part), "CUT", (1.0, 2.0), {"w": 3.0, "p": (1.0, 2.0)}, {}, RecordedLine(part))
     return (*_files(DATA, "*.hito"), write_project(Project(state)))
 
 

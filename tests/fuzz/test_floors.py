@@ -14,7 +14,7 @@ from app.model.curves import Circle, Curve
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.part import Entity, Part
-from app.usecases.make import Made, export, make
+from app.usecases.make import MakeResult, export, make
 from app.usecases.options import MakeOptions
 from tests.fuzz.apart import case
 from tests.fuzz.judge import wrong_floor
@@ -26,7 +26,7 @@ def part_of(curves: list[Curve]) -> Part:
     return Part().with_entities(tuple(Entity(number, curve) for number, curve in enumerate(curves, 1)))
 
 
-def fault_of(made: Made, curves: list[Curve]) -> str:
+def fault_of(made: MakeResult, curves: list[Curve]) -> str:
     """Return what the judge finds wrong with a clean verdict.
 
     Curves on one another are two contours by the even-odd rule and one for `make`, which tells it: no judge is asked

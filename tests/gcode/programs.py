@@ -10,7 +10,7 @@ import numpy as np
 from app.model.curves import Line
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
 
@@ -81,7 +81,7 @@ def square(x0: float = 0.0, y0: float = 0.0, x1: float = 40.0, y1: float = 30.0)
 def job(**changes: object) -> Job:
     """A job with T1 for the pocket and T2 for the contour."""
     tools = (Tool(1, 6.0), Tool(2, 3.0, spindle_speed=18000.0))
-    operations = (PocketOperation(Cut(tool=1)), ContourOperation(Cut(tool=2)))
+    operations = (PocketOperation(CutParameters(tool=1)), ContourOperation(CutParameters(tool=2)))
     values: dict[str, object] = {
         "part": Part(name="plate"),
         "tools": tools,

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import GeometryError
-from app.gcode.writer.arcs import ArcRules, MeantArc, Piece, all_pieces, written_pieces
+from app.gcode.writer.arcs import ArcBlock, ArcRules, ReferenceArc, all_pieces, written_pieces
 from tests.examples import examples
 
 MM4 = ArcRules(4, 4, 2e-4, math.radians(355), 0.002, 1e5, 0.02)
@@ -29,7 +29,7 @@ def grid(point: complex, rules: ArcRules) -> tuple[int, int]:
     return (round(point.real * 10**rules.decimals), round(point.imag * 10**rules.decimals))
 
 
-def write(arc: MeantArc, rules: ArcRules) -> tuple[list[Piece], list[np.ndarray]]:
+def write(arc: ReferenceArc, rules: ArcRules) -> tuple[list[ArcBlock], list[np.ndarray]]:
     """Return the pieces and, for each, points of the control's path as complex numbers, in out units."""
     start = grid(arc.at(0), rules)
     pieces = written_pieces(arc, start, grid(arc.at(1), rules), rules)
@@ -41,7 +41,7 @@ def write(arc: MeantArc, rules: ArcRules) -> tuple[list[Piece], list[np.ndarray]
     return pieces, paths
 
 
-def control_path(start: complex, end: complex, piece: Piece, ccw: bool, rules: ArcRules) -> np.ndarray:
+def control_path(start: complex, end: complex, piece: ArcBlock, ccw: bool, rules: ArcRules) -> np.ndarray:
     t = np.linspace(0, 1, 257)
     if piece.centre is None:
         return start + t * (end - start)
@@ -53,11 +53,11 @@ def control_path(start: complex, end: complex, piece: Piece, ccw: bool, rules: A
     return centre + (abs(first) + t * (abs(last) - abs(first))) * np.exp(1j * (cmath.phase(first) + t * turn))
 
 
-def round_arc(centre: complex, radius: float, angle: float, sweep: float) -> MeantArc:
-    return MeantArc(centre, radius, radius, angle, sweep)
+def round_arc(centre: complex, radius: float, angle: float, sweep: float) -> ReferenceArc:
+    return ReferenceArc(centre, radius, radius, angle, sweep)
 
 
-def deviation(arc: MeantArc, pieces: list[Piece], paths: list[np.ndarray]) -> float:
+def deviation(arc: ReferenceArc, pieces: list[ArcBlock], paths: list[np.ndarray]) -> float:
     """Largest distance of the control's path from the stretch it stands for, in step with it."""
     worst, before = 0.0, 0.0
     for piece, path in zip(pieces, paths, strict=True):
@@ -137,7 +137,7 @@ def test_arcs_whose_ends_round_to_one_point() -> None:
 
 def test_flat_and_huge_arcs_become_lines() -> None:
     flat, _ = write(round_arc(0j, 1e6, 0.0, 1e-5), MM4)
-    assert flat == [Piece(grid(1e6 * cmath.exp(1e-5j), MM4), 1.0)]
+    assert flat == [ArcBlock(grid(1e6 * cmath.exp(1e-5j), MM4), 1.0)]
     huge, paths = write(round_arc(-2e5 + 0j, 2e5, 0.0, 1e-3), MM4)
     assert len(huge) > 8 and all(piece.centre is None for piece in huge)
     assert deviation(round_arc(-2e5 + 0j, 2e5, 0.0, 1e-3), huge, paths) <= 2e-4
@@ -159,7 +159,7 @@ def test_arcs_too_small_for_the_control_become_lines() -> None:
 
 
 def test_a_spiral_in_the_path_is_kept_within_tolerance() -> None:
-    arc = MeantArc(1 + 1j, 10.0, 10.0008, 0.2, 2.0)
+    arc = ReferenceArc(1 + 1j, 10.0, 10.0008, 0.2, 2.0)
     pieces, paths = write(arc, MM4)
     assert deviation(arc, pieces, paths) <= 2e-4
 
@@ -198,4 +198,4 @@ def test_an_arc_of_no_numbers_is_refused() -> None:
     with pytest.raises(
         GeometryError, match=r"The arc round X1 Y2 of radius nan cannot be written within 0\.0002; write more decimals"
     ):
-        written_pieces(MeantArc(1 + 2j, math.nan, math.nan, 0.0, 1.0), (0, 0), (1, 1), MM4)
+        written_pieces(ReferenceArc(1 + 2j, math.nan, math.nan, 0.0, 1.0), (0, 0), (1, 1), MM4)

@@ -15,7 +15,7 @@ from app.gcode.posts.post import ArcCentre, Numbers, Post
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.block_kernels import NO_FEED, UNKNOWN
 from app.gcode.writer.blocks import Blocks
-from app.gcode.writer.drilling import Hole
+from app.gcode.writer.drilling import CycleHole
 from app.model.moves import MoveKind
 from app.model.part import Units
 from tests.examples import examples
@@ -146,7 +146,7 @@ def test_stretches_are_written_as_one_motion_after_the_other(
             plain.move((0, plain.place[0], plain.place[1], 7, 0, 0, NO_FEED))
         elif before == "hole":
             sheet.hole(
-                Hole("G98 G81", 4, 5, -6, 2, 0, 300, 2), [(MoveKind.RAPID, (4, 5, 2)), (MoveKind.LINE, (4, 5, -6))]
+                CycleHole("G98 G81", 4, 5, -6, 2, 0, 300, 2), [(MoveKind.RAPID, (4, 5, 2)), (MoveKind.LINE, (4, 5, -6))]
             )
             plain.lines.append(sheet.lines[-1])
             if len(sheet.lines) > len(plain.lines):  # a cycle that was in force ended before
@@ -196,7 +196,7 @@ def test_axes_that_nobody_knows_are_not_said_and_end_no_cycle() -> None:
     sheet = Blocks(load_post("linuxcnc"), Units.MM)
     sheet.rapid_z(50)
     assert sheet.lines == ["G0 Z0.0050"]
-    sheet.hole(Hole("G98 G81", 4, 5, -6, 2, 0, 300, 1), [(MoveKind.RAPID, (4, 5, 2))])
+    sheet.hole(CycleHole("G98 G81", 4, 5, -6, 2, 0, 300, 1), [(MoveKind.RAPID, (4, 5, 2))])
     assert sheet.motions(np.array([(1, UNKNOWN, UNKNOWN, 2, 0, 0, 600)])).tolist() == [2]
     assert sheet.motions(np.array([(1, UNKNOWN, UNKNOWN, 3, 0, 0, 600)])).tolist() == [4]
     assert sheet.lines[2:] == ["G80", "G1 Z0.0003 F60"]

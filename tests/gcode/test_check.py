@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.errors import HitofudeError
-from app.gcode.checks.check import Check, Meant, check
+from app.gcode.checks.check import Check, CheckReference, check
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import NcProgram
 from app.gcode.interpreter.reader import read_program
@@ -37,7 +37,7 @@ class Written:
 
     def __init__(self, post: Post, program: Program | None = None, **changes: object) -> None:
         self.program, self.job, self.post = program or two_tools().program(), job(**changes), post
-        self.meant = Meant(self.program, self.job, post)
+        self.meant = CheckReference(self.program, self.job, post)
         self.files = write_files(self.program, self.job, post)
 
     def check(self, file: NcFile, text: str | None = None) -> Check:

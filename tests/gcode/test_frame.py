@@ -12,7 +12,7 @@ from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.program import EventKind
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post, post_names
-from app.gcode.rework.frame import Frame, frame_text
+from app.gcode.rework.frame import JobFrame, frame_text
 from app.gcode.timing.extent import NOWHERE, Extent
 from app.model.motion import MotionKind
 from app.model.part import Units
@@ -27,7 +27,7 @@ BOX = Extent((-12.5, 3.0, -4.0), (40.0, 33.25, 1.0))
 @pytest.mark.parametrize("number", [0, 3])
 def test_it_goes_round_the_box_and_does_nothing_else(name: str, units: Units, number: int) -> None:
     post = load_post(name)
-    text = frame_text(Frame(BOX, 7.0, number), job(out_units=units), post)
+    text = frame_text(JobFrame(BOX, 7.0, number), job(out_units=units), post)
     read = read_program(text.encode(), ReadOptions(dialect=post.dialect, tool_table={3: ToolOffset((0, 0, 50.0))}))
     assert read.problems == ()
     motions = read.motions
@@ -47,11 +47,11 @@ def test_it_goes_round_the_box_and_does_nothing_else(name: str, units: Units, nu
 
 
 def test_linuxcnc_takes_it() -> None:
-    calls = canonical_calls(frame_text(Frame(BOX, 7.0, 3), job(), load_post("linuxcnc")))
+    calls = canonical_calls(frame_text(JobFrame(BOX, 7.0, 3), job(), load_post("linuxcnc")))
     assert [name for name, _ in calls if name.startswith(("STRAIGHT", "ARC"))] == ["STRAIGHT_TRAVERSE"] * 6
     assert "START_SPINDLE_CLOCKWISE" not in [name for name, _ in calls]
 
 
 def test_nothing_to_go_round_is_told() -> None:
     with pytest.raises(ParameterError, match="Nothing is cut"):
-        frame_text(Frame(NOWHERE, 5.0), job(), load_post("linuxcnc"))
+        frame_text(JobFrame(NOWHERE, 5.0), job(), load_post("linuxcnc"))

@@ -9,7 +9,7 @@ import pytest
 
 from app.core.errors import InputError
 from app.core.resources import resource
-from app.gcode.interpreter.dialect import HABITS, Dialect
+from app.gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from app.gcode.posts.post import ArcCentre, Coolant
 from app.gcode.posts.posts import load_post, post_names, post_titles, read_post
 from app.model.part import Units
@@ -48,7 +48,7 @@ def test_five_controls_come_with_the_program() -> None:
 @pytest.mark.parametrize("name", post_names())
 def test_posts_know_only_words_of_their_language(name: str) -> None:
     """No block of a post names a G word that the reader's table says the control lacks."""
-    post, missing = load_post(name), HABITS[Dialect(name)].missing
+    post, missing = load_post(name), DIALECT_RULES[Dialect(name)].missing
     blocks = [
         *post.program.start,
         *post.program.tool,

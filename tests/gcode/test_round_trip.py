@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.gcode.checks.check import Meant, check
+from app.gcode.checks.check import CheckReference, check
 from app.gcode.posts.post import Coolant, Numbers, Post
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files
@@ -82,7 +82,7 @@ def test_pieces_of_a_circle_end_where_their_rounded_points_are() -> None:
     path = Path().into_work(x + 1, y).line(x, y, -1.0).arc((x, y, -1.0), (x - 0.7, y)).out_of_work()
     program, task, post = path.program(), job(out_units=Units.INCH), load_post("fanuc")
     (file,) = write_files(program, task, post)
-    assert check(file.nc.text.encode("ascii"), file, Meant(program, task, post)).problems == ()
+    assert check(file.nc.text.encode("ascii"), file, CheckReference(program, task, post)).problems == ()
 
 
 @POSTS
@@ -95,6 +95,6 @@ def test_written_and_read_back_it_is_the_same(name: str, data: st.DataObject, pa
     assert sum(len(file.nc.lines) for file in files) == len(program.moves)
     assert len(files) == 1 or post.file_per_tool
     for file in files:
-        found = check(file.nc.text.encode("ascii"), file, Meant(program, task, post))
-        assert [problem.told(name) for problem in found.problems] == []
+        found = check(file.nc.text.encode("ascii"), file, CheckReference(program, task, post))
+        assert [problem.message(name) for problem in found.problems] == []
         assert found.largest_distance_mm <= found.tolerance_mm

@@ -7,15 +7,15 @@ import pytest
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
-from app.gcode.interpreter.text import Text
-from app.gcode.rework.stretches import Found, Left, find_stretches
+from app.gcode.interpreter.text import ProgramBuffer
+from app.gcode.rework.stretches import FoundStretches, SkipReason, find_stretches
 
 HEAD = "G21 G90 G94\nG0 X0 Y0 Z0\n"
 
 
-def found(text: str) -> Found:
+def found(text: str) -> FoundStretches:
     data = text.encode()
-    return find_stretches(read_program(data, ReadOptions(Dialect.LINUXCNC)), Text(data))
+    return find_stretches(read_program(data, ReadOptions(Dialect.LINUXCNC)), ProgramBuffer(data))
 
 
 @pytest.mark.parametrize("line", ["X2", "x2.", "X+2.0 Y0", "N7 G1 X2", "g01x2", "X 2", "\t G1 X2 F100", "X2\n\n"])
@@ -32,11 +32,11 @@ def test_a_line_that_says_where_to_go_is_in_a_stretch(line: str) -> None:
 def test_a_line_that_says_more_is_in_none(line: str) -> None:
     made = found(f"{HEAD}G1 X1 F100\nX1.5\n{line}\nX3\nX4\nM2\n")
     assert [(each.first_line, each.last_line) for each in made.stretches] == [(3, 4), (6, 7)]
-    assert made.left[Left.WORDS] == 1
+    assert made.left[SkipReason.WORDS] == 1
 
 
 def test_lines_that_are_done_twice_are_in_none() -> None:
-    assert found(f"{HEAD}G1 F100\no1 repeat [2]\nX1\nX2\no1 endrepeat\nM2\n").left[Left.REPEATED] == 4
+    assert found(f"{HEAD}G1 F100\no1 repeat [2]\nX1\nX2\no1 endrepeat\nM2\n").left[SkipReason.REPEATED] == 4
 
 
 @pytest.mark.parametrize(

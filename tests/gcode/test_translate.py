@@ -16,12 +16,12 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.gcode.interpreter.dialect import Dialect
-from app.gcode.interpreter.guess import guess_dialect
+from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions, ToolOffset
 from app.gcode.interpreter.program import EventKind, NcProgram
 from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post
-from app.gcode.translate.program import Translated, translated
+from app.gcode.translate.program import TranslatedProgram, translated
 from app.gcode.writer.blocks import Blocks
 from app.model.motion import MotionKind, Motions
 from app.model.motion_path import lengths as lengths_of
@@ -35,7 +35,7 @@ HEAD = "G21 G90 G17\nT1 M6\nS8000 M3\n"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3")
 
 
-def into(control: str, text: str, came: str = "linuxcnc") -> Translated:
+def into(control: str, text: str, came: str = "linuxcnc") -> TranslatedProgram:
     return translated("a.ngc", text.encode(), ReadOptions(Dialect(came)), load_post(control))
 
 

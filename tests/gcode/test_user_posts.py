@@ -12,7 +12,7 @@ import pytest
 from app.core.errors import InputError
 from app.core.resources import resource
 from app.core.settings import config_folder
-from app.gcode.checks.check import Meant, check
+from app.gcode.checks.check import CheckReference, check
 from app.gcode.posts.post import Post
 from app.gcode.posts.posts import load_post, post_names, post_titles
 from app.gcode.writer.write import write_files
@@ -119,7 +119,7 @@ def test_the_manuals_examples_are_posts_whose_programs_read_back() -> None:
         user_post(f"example{number}", text)
         post, program = load_post(f"example{number}"), two_tools().program()
         (file,) = write_files(program, job(), post)
-        assert check(file.nc.text.encode("ascii"), file, Meant(program, job(), post)).problems == ()
+        assert check(file.nc.text.encode("ascii"), file, CheckReference(program, job(), post)).problems == ()
     assert "N50 T01 M6\nN60 G0 G43 H01 Z5.\nN70 S12000 M3\nN80 T2\nN90 G4 P2000\n" in file.nc.text
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.formats.readers import read_drawing
-from app.gcode.checks.check import Meant, check
+from app.gcode.checks.check import CheckReference, check
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer.write import write_files, write_program
 from app.model.job import Job, OriginXY, OriginZ
@@ -41,5 +41,5 @@ def test_motion_of_a_whole_drawing(drawing: Path) -> None:
         for name in post_names():
             post = load_post(name)
             for file in write_files(program, written, post):
-                assert check(file.nc.text.encode("ascii"), file, Meant(program, written, post)).problems == ()
+                assert check(file.nc.text.encode("ascii"), file, CheckReference(program, written, post)).problems == ()
                 assert name != "grbl" or grbl_errors(file.nc.text) == []

@@ -15,7 +15,7 @@ from app.gcode.posts.posts import load_post
 from app.gcode.writer.header import tool_words
 from app.gcode.writer.write import NcText, blend_mm, write_program, writing_tolerance
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
 from tests.gcode.programs import Path, job, square, two_tools
@@ -188,10 +188,10 @@ def test_coolant_is_the_posts_choice() -> None:
 def test_header_names_stock_origin_tools_and_operations() -> None:
     tools = (Tool(1, 6.0, name="Schlichtfräser"), Tool(2, 3.175, ToolKind.BALL, spindle_speed=18000.0), Tool(3, 1.0))
     operations = (
-        PocketOperation(Cut(tool=1, stock_to_leave=0.1), stepover=2.5),
-        ContourOperation(Cut(tool=2)),
-        ContourOperation(Cut(tool=3)),
-        ContourOperation(Cut(tool=3, enabled=False)),
+        PocketOperation(CutParameters(tool=1, stock_to_leave=0.1), stepover=2.5),
+        ContourOperation(CutParameters(tool=2)),
+        ContourOperation(CutParameters(tool=3)),
+        ContourOperation(CutParameters(tool=3, enabled=False)),
     )
     comments = [
         line[1:-1]

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from app.geometry.chaining.chain import Chaining, chain
+from app.geometry.chaining.chain import ChainingResult, chain
 from app.geometry.chaining.pieces import equally_far, within_reach
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline, reversed_curve
 from app.model.finding import Finding, FindingKind
@@ -23,7 +23,7 @@ def moved(points: Sequence[Point], dx: float, dy: float) -> list[Point]:
     return [(x + dx, y + dy) for x, y in points]
 
 
-def chained(curves: Sequence[Curve], join_tolerance: float = 0.01) -> Chaining:
+def chained(curves: Sequence[Curve], join_tolerance: float = 0.01) -> ChainingResult:
     made = chain([Entity(k, curve) for k, curve in enumerate(curves, 1)], join_tolerance)
     for contour in made.contours:
         for a, b in pairwise(contour.primitives):
@@ -36,16 +36,16 @@ def chained(curves: Sequence[Curve], join_tolerance: float = 0.01) -> Chaining:
     return made
 
 
-def shape(made: Chaining) -> list[tuple[bool, int]]:
+def shape(made: ChainingResult) -> list[tuple[bool, int]]:
     return [(c.closed, len(c.primitives)) for c in made.contours]
 
 
-def of_kind(made: Chaining, kind: FindingKind) -> list[Finding]:
+def of_kind(made: ChainingResult, kind: FindingKind) -> list[Finding]:
     return [f for f in made.findings if f.kind is kind]
 
 
 def test_nothing_gives_nothing() -> None:
-    assert chained([]) == Chaining()
+    assert chained([]) == ChainingResult()
 
 
 def test_loose_reversed_segments_in_any_order() -> None:

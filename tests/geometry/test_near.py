@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from app.geometry.near import near
+from app.geometry.tree_queries import near
 
 
 def pairs_of(found: np.ndarray) -> set[tuple[int, int]]:

@@ -13,7 +13,7 @@ from app.core import tolerances
 from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.geometry.offset import offset
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at
 from app.geometry.region import nest, polygon_contour
@@ -23,16 +23,16 @@ from tests.examples import examples
 from tests.part_shapes import bulged, circle, fig2, random_part, square
 
 
-def levels_of(contours: list[Contour], distances: list[float]) -> tuple[Level, ...]:
+def levels_of(contours: list[Contour], distances: list[float]) -> tuple[OffsetLevel, ...]:
     return offset_levels(pack(nest(contours)), distances)
 
 
-def points_of(level: Level, per_row: int = 5) -> np.ndarray:
+def points_of(level: OffsetLevel, per_row: int = 5) -> np.ndarray:
     rows = np.concatenate([ring.rows for ring in level.rings])
     return np.concatenate([points_at(rows, np.full(len(rows), f)) for f in np.linspace(0, 1, per_row)])
 
 
-def area_of(level: Level) -> float:
+def area_of(level: OffsetLevel) -> float:
     return sum(ring.area for ring in level.rings)
 
 

@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from app.core import tolerances
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.primitives import contour_rows, pack, points_at, sample
 from app.geometry.region import nest
 from app.model.part import Contour, Region
@@ -36,7 +36,7 @@ def polygons_of(regions: tuple[Region, ...]) -> tuple[shapely.Geometry, ...]:
     return polygons, *(shapely.segmentize(polygons, max(short, polygons.length / 20_000)) for short in (0.02, 0.1, 0.5))
 
 
-def points_of(level: Level, most: int = 4000) -> np.ndarray:
+def points_of(level: OffsetLevel, most: int = 4000) -> np.ndarray:
     """Starts, middles and other points of all moves, or a good part of them."""
     rows = np.concatenate([ring.rows for ring in level.rings])
     points = np.concatenate([points_at(rows, np.full(len(rows), f)) for f in (0.0, 0.5, 0.13, 0.71)])
@@ -60,7 +60,7 @@ def check(seed: int) -> None:
         check_places(level, contours, rng)
 
 
-def check_area(level: Level, polygons: tuple[shapely.Geometry, ...]) -> None:
+def check_area(level: OffsetLevel, polygons: tuple[shapely.Geometry, ...]) -> None:
     """The area that the rings enclose is the one that shapely finds, within its error."""
     ours = sum(ring.area for ring in level.rings)
     error = CHORD + level.distance * (1 - math.cos(math.pi / 4 / QUARTER)) + tolerances.RIDGE
@@ -68,7 +68,7 @@ def check_area(level: Level, polygons: tuple[shapely.Geometry, ...]) -> None:
     assert any(ours == pytest.approx(theirs.area, abs=error * theirs.length + 1e-4) for theirs in buffers)
 
 
-def check_places(level: Level, contours: list[Contour], rng: np.random.Generator) -> None:
+def check_places(level: OffsetLevel, contours: list[Contour], rng: np.random.Generator) -> None:
     """No ring is missing and none too many: places are enclosed if they lie inside, farther from the drawing than the
     level.
     """

@@ -12,7 +12,7 @@ import pytest
 from app.core import tolerances
 from app.geometry.chaining.crossings import contacts, crossings
 from app.geometry.even_odd import even_odd
-from app.geometry.overlay import net as overlay_net
+from app.geometry.overlay import planar_graph as overlay_net
 from app.geometry.overlay.overlay import without_crossings, without_outlines
 from app.geometry.primitives import contour_rows, curve_rows, lengths, row_curve, signed_area
 from app.geometry.region import nest, nested, polygon_contour

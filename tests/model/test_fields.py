@@ -28,7 +28,7 @@ from app.gcode.writer.write import write_files
 from app.model import operation as operations
 from app.model.fields import Unit, built, check_ranges, declared_of, parameter, parameters_of, with_values
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Operation, Side, register
+from app.model.operation import ContourOperation, CutParameters, Operation, Side, register
 from app.model.part import Part
 from app.model.tool import FeedRow, Tool, ToolKind
 from app.usecases.options import job_with_options
@@ -70,14 +70,14 @@ ASKED: dict[str, Any] = {"overcut": 1.25, "grain": Grain.ACROSS, "slant": math.r
 @pytest.fixture(autouse=True)
 def registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setattr(operations, "OPERATION_KINDS", dict(operations.OPERATION_KINDS))
-    for module in ("app.formats.job.operations", "app.gcode.interpreter.notes_own", "app.usecases.machining"):
+    for module in ("app.formats.job.operations", "app.gcode.interpreter.own_header", "app.usecases.machining"):
         monkeypatch.setattr(f"{module}.OPERATION_KINDS", operations.OPERATION_KINDS)
     register(EngraveOperation)
     yield
 
 
 def engraving(**values: Any) -> Operation:
-    return with_values(EngraveOperation(Cut(2)), values)
+    return with_values(EngraveOperation(CutParameters(2)), values)
 
 
 def test_the_command_line_has_it() -> None:
@@ -86,7 +86,7 @@ def test_the_command_line_has_it() -> None:
         assert words in text
     asked = ["--overcut", "0.125cm", "--grain", "across", "--slant", "12.5", "--twice"]
     options = make_options(MAKE.arguments(["a.dxf", "-o", "o.ngc", *asked]))
-    own = Job(Part(), operations=(EngraveOperation(Cut(2)),))
+    own = Job(Part(), operations=(EngraveOperation(CutParameters(2)),))
     assert job_with_options(Part(), replace(options, job=own)).operations == (engraving(**ASKED),)
     with pytest.raises(InputError, match="--overcut is 10 mm; the overcut must be 0 to 9 mm"):
         MAKE.arguments(["a.dxf", "-o", "o.ngc", "--overcut", "10"])
@@ -109,7 +109,7 @@ def test_job_files_and_projects_have_it() -> None:
 
 
 def test_programs_tell_it_and_it_is_read_back() -> None:
-    made = job(operations=(ContourOperation(Cut(1), Side.ON), engraving(**ASKED)))
+    made = job(operations=(ContourOperation(CutParameters(1), Side.ON), engraving(**ASKED)))
     assert operation_words(engraving(**ASKED), made) == (
         "Engrave T2: depth 2 mm, stepdown 2 mm, stock to leave 0 mm, climb, overcut 1.25 mm, grain across, slant 12.5 "
         "degrees, twice"

@@ -10,7 +10,7 @@ import pytest
 from app.core.errors import ParameterError
 from app.model.entry import Lead
 from app.model.job import Job
-from app.model.operation import Cut, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool
 
@@ -18,15 +18,15 @@ from app.model.tool import Tool
 @pytest.mark.parametrize(
     ("build", "words"),
     [
-        (lambda: Cut(1, depth=0.0009), "Depth is 0.0009 mm; use 0.001 to 99999 mm"),
-        (lambda: Cut(1, depth=math.nan), "Depth is nan mm; use 0.001 to 99999 mm"),
-        (lambda: Cut(1, stepdown=1e-9), "Stepdown is 1e-09 mm; use 0.001 to 99999 mm"),
+        (lambda: CutParameters(1, depth=0.0009), "Depth is 0.0009 mm; use 0.001 to 99999 mm"),
+        (lambda: CutParameters(1, depth=math.nan), "Depth is nan mm; use 0.001 to 99999 mm"),
+        (lambda: CutParameters(1, stepdown=1e-9), "Stepdown is 1e-09 mm; use 0.001 to 99999 mm"),
         (
-            lambda: Cut(1, depth=20.0, stepdown=0.019),
+            lambda: CutParameters(1, depth=20.0, stepdown=0.019),
             "Depth 20 mm in steps of 0.019 mm makes 1053 passes; 1000 are the most",
         ),
         (lambda: Lead(overlap=50.1), "Lead overlap is 50.1 mm; use 0 to 50 mm"),
-        (lambda: PocketOperation(Cut(1), 0.0005), "Stepover is 0.0005 mm; use 0.001 to 9999 mm"),
+        (lambda: PocketOperation(CutParameters(1), 0.0005), "Stepover is 0.0005 mm; use 0.001 to 9999 mm"),
         (lambda: Tool(3, 6.0, feed_rate=0.5), "T3: feed rate is 0.5 mm/min; it must be 1 mm/min or more"),
         (lambda: Tool(3, 6.0, plunge_rate=1e-6), "T3: plunge rate is 1e-06 mm/min; it must be 1 mm/min or more"),
         (lambda: Tool(3, 0.0), "T3: diameter is 0 mm; it must be 0.001 mm or more"),
@@ -54,8 +54,8 @@ def test_what_nc_digits_cannot_hold_is_refused(build: Callable[[], object], word
 
 
 def test_the_least_values_themselves_are_accepted() -> None:
-    assert Cut(1, depth=0.001, stepdown=0.001).depth == 0.001
-    assert Cut(1, depth=1.0, stepdown=0.001).stepdown == 0.001
-    assert PocketOperation(Cut(1), 0.001).stepover == 0.001
+    assert CutParameters(1, depth=0.001, stepdown=0.001).depth == 0.001
+    assert CutParameters(1, depth=1.0, stepdown=0.001).stepdown == 0.001
+    assert PocketOperation(CutParameters(1), 0.001).stepover == 0.001
     assert Tool(1, 6.0, feed_rate=1.0, plunge_rate=1.0).feed_rate == 1.0
     assert Job(Part(), safe_z=0.001, retract_z=0.001, join_tolerance=10.0).retract_z == 0.001

@@ -13,12 +13,12 @@ from app.geometry.primitives import Rows, contour_rows, sample
 from app.model.curves import Primitive
 from app.model.job import Job, Stock
 from app.model.moves import Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, Side
+from app.model.operation import ContourOperation, CutParameters, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import move_rows
-from app.toolpath.drawn import drawn
-from app.toolpath.sheets import Sheet, Sheets
+from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.machining_areas import MachiningArea, MachiningAreas
 
 CUTTING = (Purpose.CONTOUR, Purpose.TAB, Purpose.LEAD, Purpose.DOG_BONE)
 
@@ -38,18 +38,18 @@ def contour_job(
     keep = {"keep_out_layers": ("clamps",), "keep_out_height": 5.0} if clamps else {}
     settings = {
         "tools": (Tool(2, diameter),),
-        "operations": (operation or ContourOperation(Cut(2)),),
+        "operations": (operation or ContourOperation(CutParameters(2)),),
         "stock": Stock(10.0, 10.0),
     }
     return Job(part, **(settings | keep | changes))  # type: ignore[arg-type]
 
 
 def outside(**changes: object) -> ContourOperation:
-    return ContourOperation(Cut(2), Side.OUTSIDE, **changes)  # type: ignore[arg-type]
+    return ContourOperation(CutParameters(2), Side.OUTSIDE, **changes)  # type: ignore[arg-type]
 
 
-def sheet_of(job: Job) -> Sheet:
-    sheet = Sheets(job, drawn(job)).of(job.operations[0])
+def sheet_of(job: Job) -> MachiningArea:
+    sheet = MachiningAreas(job, drawn_contours(job)).of(job.operations[0])
     assert sheet is not None
     return sheet
 

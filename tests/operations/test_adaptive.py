@@ -18,12 +18,12 @@ from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import MoveKind, Purpose
-from app.model.operation import AdaptiveOperation, Cut, Direction
+from app.model.operation import AdaptiveOperation, CutParameters, Direction
 from app.model.part import Contour, Entity, Part, Units
 from app.model.tool import Tool
-from app.operations.adaptive.limit import Limit, engaged_angle
-from app.operations.adaptive.plan import Part as Cleared
-from app.operations.adaptive.plan import Task, mirrored, mirrored_part, plan
+from app.operations.adaptive.limit import EngagementLimit, engaged_angle
+from app.operations.adaptive.plan import ClearingTask, mirrored, mirrored_part, plan
+from app.operations.adaptive.plan import ConnectedPath as Cleared
 from app.operations.adaptive.spiral import spiral
 from app.operations.compute import compute
 from app.toolpath.coverage.flat import move_rows
@@ -31,7 +31,7 @@ from tests.operations.engaged import at, engaged, size
 from tests.part_shapes import bulged, circle, fig2, random_star, square
 
 R, ANGLE = 3.0, math.radians(53.13)
-LIMIT = Limit(R, ANGLE)
+LIMIT = EngagementLimit(R, ANGLE)
 MORE = math.radians(0.1)
 
 Floats = NDArray[np.float64]
@@ -87,8 +87,8 @@ QUICK = ("square", "circle")
 EACH = [name if name in QUICK else pytest.param(name, marks=pytest.mark.exhaustive) for name in SHAPES]
 
 
-def planned(contours: Sequence[Contour], limit: Limit = LIMIT, leave: float = 0.0) -> tuple[Cleared, ...]:
-    return plan(Task(pack(nest(contours)), leave, 60.0), limit)
+def planned(contours: Sequence[Contour], limit: EngagementLimit = LIMIT, leave: float = 0.0) -> tuple[Cleared, ...]:
+    return plan(ClearingTask(pack(nest(contours)), leave, 60.0), limit)
 
 
 def path_of(part: Cleared) -> tuple[Floats, NDArray[np.bool_]]:
@@ -130,7 +130,7 @@ def test_along_a_circle_beside_a_cleared_one_the_angle_is_greatest_where_the_for
 @pytest.mark.parametrize("turn", [0.5, 3.0, 40.0])
 def test_ground_that_is_just_clear_enough_gives_the_planned_angle(turn: float) -> None:
     assert engaged_angle(turn, R, LIMIT.clear_needed(turn) - LIMIT.slack) == pytest.approx(LIMIT.planned, abs=1e-12)
-    straight = Limit(R, ANGLE).depth
+    straight = EngagementLimit(R, ANGLE).depth
     assert straight == pytest.approx(R * (1 - math.cos(LIMIT.planned)))
 
 
@@ -171,7 +171,7 @@ def test_paths_are_lines_and_arcs_that_touch(name: str) -> None:
 
 @pytest.mark.parametrize("degrees", [pytest.param(30.0, marks=pytest.mark.exhaustive), 90.0])
 def test_other_limits_hold_as_well(degrees: float) -> None:
-    limit = Limit(R, math.radians(degrees))
+    limit = EngagementLimit(R, math.radians(degrees))
     (part,) = planned([rectangle(11, 9)], limit)
     _, most = greatest(path_of(part)[0], step=0.5)
     assert limit.angle - math.radians(3) < most < limit.angle + MORE
@@ -180,7 +180,7 @@ def test_other_limits_hold_as_well(degrees: float) -> None:
 def test_a_smaller_limit_is_a_longer_path() -> None:
     long = []
     for degrees in (40.0, 60.0, 80.0):
-        (part,) = planned([rectangle(30, 14)], Limit(R, math.radians(degrees)))
+        (part,) = planned([rectangle(30, 14)], EngagementLimit(R, math.radians(degrees)))
         rows, clear = path_of(part)
         long.append(float(lengths(rows)[~clear].sum()))
     assert long[0] > 1.3 * long[1] > 1.5 * long[2]
@@ -191,7 +191,7 @@ def test_a_mirror_changes_sides_and_nothing_else() -> None:
     walls = pack(nest(shape))
     twice = mirrored(mirrored(walls))
     assert np.array_equal(twice.rows, walls.rows) and np.array_equal(twice.previous, walls.previous)
-    (part,) = plan(Task(mirrored(walls), 0.0, 60.0), LIMIT)
+    (part,) = plan(ClearingTask(mirrored(walls), 0.0, 60.0), LIMIT)
     rows, _ = path_of(mirrored_part(part))
     assert greatest(rows, step=1.0)[1] < ANGLE + MORE
     assert set(rows[:20, 7].tolist()) == {-1.0}
@@ -202,7 +202,7 @@ def test_a_mirror_changes_sides_and_nothing_else() -> None:
 def test_random_areas_keep_the_limit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     contour = random_star(rng, (0.0, 0.0), (4.0, 9.0), 0.0)
-    limit = Limit(1.5, math.radians(float(rng.uniform(50, 85))))
+    limit = EngagementLimit(1.5, math.radians(float(rng.uniform(50, 85))))
     for part in planned([contour], limit):
         assert not part.unproven
         assert greatest(path_of(part)[0], 1.5, 0.3)[1] < limit.angle + MORE
@@ -213,12 +213,14 @@ def job_of(contours: Sequence[Contour], operation: AdaptiveOperation | None = No
     return Job(
         Part().with_entities(entities),
         tools=(Tool(1, 6.0),),
-        operations=(operation or AdaptiveOperation(Cut(1), ANGLE),),
+        operations=(operation or AdaptiveOperation(CutParameters(1), ANGLE),),
     )
 
 
 def test_a_job_clears_at_every_depth_and_lifts_on_the_way_back() -> None:
-    program = compute(job_of([rectangle(15, 11)], AdaptiveOperation(Cut(1, depth=4.0, stepdown=2.0), ANGLE, 0.2)))
+    program = compute(
+        job_of([rectangle(15, 11)], AdaptiveOperation(CutParameters(1, depth=4.0, stepdown=2.0), ANGLE, 0.2))
+    )
     moves = program.moves
     assert not [finding for finding in program.findings if finding.counts]
     cut = moves.purpose == Purpose.POCKET
@@ -231,7 +233,7 @@ def test_a_job_clears_at_every_depth_and_lifts_on_the_way_back() -> None:
 
 
 def test_conventional_cuts_have_the_metal_on_their_other_side() -> None:
-    cut = Cut(1, direction=Direction.CONVENTIONAL)
+    cut = CutParameters(1, direction=Direction.CONVENTIONAL)
     moves = compute(job_of([rectangle(11, 9)], AdaptiveOperation(cut, ANGLE))).moves
     cutting = (moves.purpose == Purpose.POCKET) & (moves.kind != MoveKind.LINE)
     assert (moves.kind[cutting] == MoveKind.ARC_CW).all()
@@ -249,7 +251,7 @@ def test_stock_to_leave_stays_on_all_walls() -> None:
 
 @pytest.mark.parametrize("kind", list(EntryKind))
 def test_every_entry_ends_where_the_first_turn_begins(kind: EntryKind) -> None:
-    cut = Cut(1, entry=Entry(kind))
+    cut = CutParameters(1, entry=Entry(kind))
     program = compute(job_of([square(20)], AdaptiveOperation(cut, ANGLE)))
     moves = program.moves
     first = int(np.argmax(moves.purpose == Purpose.POCKET))
@@ -287,7 +289,7 @@ def test_what_is_too_narrow_is_told_and_not_slotted() -> None:
 
 def test_too_deep_is_refused() -> None:
     with pytest.raises(ParameterError, match="the stock is 10 mm thick"):
-        compute(job_of([square(20)], AdaptiveOperation(Cut(1, depth=11.0, stepdown=11.0), ANGLE)))
+        compute(job_of([square(20)], AdaptiveOperation(CutParameters(1, depth=11.0, stepdown=11.0), ANGLE)))
 
 
 def test_coarser_digits_ask_for_more_room() -> None:

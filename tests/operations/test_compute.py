@@ -13,7 +13,7 @@ from app.model.curves import Line
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, Direction, DrillOperation, Order, PocketOperation, Side
+from app.model.operation import ContourOperation, CutParameters, Direction, DrillOperation, Order, PocketOperation, Side
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute
@@ -194,11 +194,11 @@ def test_a_drawing_without_closed_contours_says_so() -> None:
 def test_unusable_parameters_are_refused_with_their_values() -> None:
     job = job_of(fig2())
     with pytest.raises(ParameterError, match=r"Stepover is 7 mm"):
-        compute(replace(job, operations=(PocketOperation(Cut(1), stepover=7.0),)))
+        compute(replace(job, operations=(PocketOperation(CutParameters(1), stepover=7.0),)))
     with pytest.raises(ParameterError, match=r"stock is 10 mm"):
         compute(with_cut(replace(job, stock=Stock(thickness=10.0)), depth=12.0))
     with pytest.raises(ParameterError, match="T9"):
-        compute(replace(job, operations=(ContourOperation(Cut(9)),)))
+        compute(replace(job, operations=(ContourOperation(CutParameters(9)),)))
 
 
 def test_the_same_job_gives_the_same_moves() -> None:
@@ -209,18 +209,18 @@ def test_the_same_job_gives_the_same_moves() -> None:
 
 def test_that_lines_are_open_is_nothing_to_say_of_an_engraving() -> None:
     part = Part().with_entities((Entity(1, Line((0.0, 0.0), (30.0, 10.0))), Entity(2, Line((30.0, 10.0), (50.0, 0.0)))))
-    engraving = Job(part, (Tool(1, 2.0),), (ContourOperation(Cut(1), Side.ON),))
+    engraving = Job(part, (Tool(1, 2.0),), (ContourOperation(CutParameters(1), Side.ON),))
     program = compute(engraving)
     assert FindingKind.OPEN_CONTOUR not in {finding.kind for finding in program.findings}
     assert len(program.moves)
     assert len(program.lines) == 1
-    inside = replace(engraving, operations=(ContourOperation(Cut(1)),))
+    inside = replace(engraving, operations=(ContourOperation(CutParameters(1)),))
     assert FindingKind.OPEN_CONTOUR in {finding.kind for finding in compute(inside).findings}
 
 
 def test_that_many_lines_are_open_is_nothing_to_say_of_an_engraving_either() -> None:
     part = Part().with_entities(tuple(Entity(n, Line((0.0, 5.0 * n), (30.0, 5.0 * n))) for n in range(1, 60)))
-    program = compute(Job(part, (Tool(1, 2.0),), (ContourOperation(Cut(1), Side.ON),)))
+    program = compute(Job(part, (Tool(1, 2.0),), (ContourOperation(CutParameters(1), Side.ON),)))
     assert FindingKind.OPEN_CONTOUR not in {finding.kind for finding in program.findings}
 
 
@@ -236,19 +236,21 @@ def test_metal_under_a_clamp_in_the_middle_of_a_pocket_is_told() -> None:
     (told,) = [finding for finding in compute(task).findings if "under clamps" in finding.text]
     assert told.counts
     assert told.amount == pytest.approx(np.pi * 16, rel=1e-3)
-    along = replace(task, operations=(ContourOperation(Cut(2)),))
+    along = replace(task, operations=(ContourOperation(CutParameters(2)),))
     assert not any("is to be cleared" in finding.text for finding in compute(along).findings)
 
 
 def test_lines_that_cross_count_for_nothing_where_they_are_engraved() -> None:
     part = Part().with_entities((Entity(1, Line((0.0, 0.0), (30.0, 0.0))), Entity(2, Line((15.0, -9.0), (15.0, 9.0)))))
-    engraving = Job(part, (Tool(1, 2.0),), (ContourOperation(Cut(1), Side.ON),))
+    engraving = Job(part, (Tool(1, 2.0),), (ContourOperation(CutParameters(1), Side.ON),))
     assert not any(finding.counts for finding in compute(engraving).findings)
 
 
 def test_a_circle_that_is_drilled_is_not_followed_as_well() -> None:
     contours = [square(40.0), circle(2.5, 20.0, 15.0)]
-    task = job_of(contours, 5.0, 3.0, operations=(DrillOperation(Cut(1)), ContourOperation(Cut(2), Side.ON)))
+    task = job_of(
+        contours, 5.0, 3.0, operations=(DrillOperation(CutParameters(1)), ContourOperation(CutParameters(2), Side.ON))
+    )
     moves = compute(task).moves
     mill = (moves.tool == 2) & (moves.kind != MoveKind.RAPID)
     assert np.hypot(*(moves.end[mill, :2] - (20, 15)).T).min() > 10

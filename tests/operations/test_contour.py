@@ -14,7 +14,7 @@ from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job, Stock
 from app.model.moves import Program, Purpose
-from app.model.operation import ContourOperation, Cut, Side
+from app.model.operation import ContourOperation, CutParameters, Side
 from app.model.part import Contour, Part
 from app.model.tool import Tool
 from app.operations.compute import compute
@@ -25,7 +25,7 @@ from tests import plain_distance
 from tests.operations.contour_jobs import about, contour_job, outside, rows_of
 from tests.part_shapes import circle, fig2, square
 
-DEEP = Cut(2, depth=6.0, stepdown=2.0, entry=Entry(EntryKind.PLUNGE))
+DEEP = CutParameters(2, depth=6.0, stepdown=2.0, entry=Entry(EntryKind.PLUNGE))
 
 
 def at_distance(program: Program, contours: list[Contour], distance: float) -> np.ndarray:
@@ -56,7 +56,7 @@ def test_or_at_each_pass_before_going_deeper() -> None:
 
 @pytest.mark.parametrize("side", [Side.INSIDE, Side.OUTSIDE])
 def test_more_than_thin_metal_is_never_finished_at_full_depth_at_once(side: Side) -> None:
-    deep = Cut(2, depth=12.0, stepdown=2.0, entry=Entry(EntryKind.PLUNGE))
+    deep = CutParameters(2, depth=12.0, stepdown=2.0, entry=Entry(EntryKind.PLUNGE))
     program = compute(
         contour_job(
             [square(40)], ContourOperation(deep, side, finish_width=2.9), stock=Stock(margin=10.0, thickness=20.0)
@@ -65,7 +65,7 @@ def test_more_than_thin_metal_is_never_finished_at_full_depth_at_once(side: Side
     assert heights(at_distance(program, [square(40)], 1.5)) == [-2, -4, -6, -8, -10, -12]
     (told,) = [each for each in program.findings if "finish pass" in each.text]
     assert not told.counts and told.amount == 2.9 and "at every depth" in told.text
-    flat = ContourOperation(Cut(2, depth=2.0, stepdown=2.0), side, finish_width=2.9)
+    flat = ContourOperation(CutParameters(2, depth=2.0, stepdown=2.0), side, finish_width=2.9)
     # one pass alone is as deep as was asked for
     assert not about(compute(contour_job([square(40)], flat)), "finish pass")
 
@@ -117,7 +117,7 @@ def test_a_smaller_tool_that_follows_takes_what_the_larger_one_leaves() -> None:
         outside(),
         copies=Copies(2, 1, 22.0),
         tools=(Tool(2, 3.0), Tool(3, 1.0)),
-        operations=(outside(), ContourOperation(Cut(3), Side.OUTSIDE)),
+        operations=(outside(), ContourOperation(CutParameters(3), Side.OUTSIDE)),
     )
     assert not [each for each in compute(job).findings if each.counts]
 
@@ -133,7 +133,7 @@ def test_clamps_are_told_with_the_length_of_wall_they_take() -> None:
 def test_no_cut_touches_a_clamp(side: Side) -> None:
     clamps = [square(12, -4, 20), square(6, 50, 50), circle(4, 65, 63), circle(2, 30, 41)]
     tabs = Tabs(2, places=((30.0, 0.0),))
-    operation = ContourOperation(Cut(2), side, tabs=tabs, dog_bones=side is not Side.ON)
+    operation = ContourOperation(CutParameters(2), side, tabs=tabs, dog_bones=side is not Side.ON)
     moves = compute(contour_job([square(60), circle(5, 30, 30)], operation, clamps=clamps)).moves
     low = (moves.end[:, 2] < 0) & (moves.kind != 0)
     points = moves.end[low, :2]
@@ -156,5 +156,5 @@ def test_a_part_of_real_life_is_clean(data: Path) -> None:
 @pytest.mark.filterwarnings("error")
 def test_a_path_of_no_length_is_at_its_point_all_along() -> None:
     """As of a tool that is as wide as its hole: places along it were the remainder of a division by zero."""
-    path = contour_path.Path(np.array([[1.0, 2, 1, 2, 0, 0, 0, 0]]), closed=True)
+    path = contour_path.ContourPath(np.array([[1.0, 2, 1, 2, 0, 0, 0, 0]]), closed=True)
     assert path.points(np.array([0.0, 0.5, 3.0])).tolist() == [[1, 2]] * 3

@@ -12,13 +12,13 @@ from app.geometry.offset.offset import offset_levels
 from app.geometry.region import polygon_contour
 from app.model.job import Job
 from app.model.part import Contour
-from app.operations.contour.fit import Narrow, narrow_places
-from app.operations.contour.gaps import Gap, gaps
+from app.operations.contour.gaps import WallGap, gaps
+from app.operations.contour.narrow_places import NarrowPlace, narrow_places
 from tests.operations.contour_jobs import contour_job, outside, sheet_of
 from tests.part_shapes import bulged, circle, fig2, square
 
 
-def found(job: Job) -> tuple[list[Gap], list[Narrow]]:
+def found(job: Job) -> tuple[list[WallGap], list[NarrowPlace]]:
     sheet, distance = sheet_of(job), job.tools[0].radius
     gone = gaps(offset_levels(sheet.primitives, [distance], frame=True)[0], sheet)
     return gone, narrow_places(gone, sheet, distance)

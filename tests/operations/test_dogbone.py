@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from app.geometry.region import polygon_contour
 from app.model.finding import FindingKind
 from app.model.moves import Program, Purpose
-from app.model.operation import ContourOperation, Cut
+from app.model.operation import ContourOperation, CutParameters
 from app.model.part import Contour
 from app.operations.compute import compute
 from tests import plain_distance
@@ -20,12 +20,14 @@ from tests.examples import examples
 from tests.operations.contour_jobs import about, contour_job, outside, rows_of
 from tests.part_shapes import bulged, square
 
-BONES = ContourOperation(Cut(2), dog_bones=True)
+BONES = ContourOperation(CutParameters(2), dog_bones=True)
 
 
 def made(contours: list[Contour], diameter: float = 3.0, leave: float = 0.0, **kwargs: object) -> Program:
     return compute(
-        contour_job(contours, ContourOperation(Cut(2, stock_to_leave=leave), dog_bones=True), diameter, **kwargs)
+        contour_job(
+            contours, ContourOperation(CutParameters(2, stock_to_leave=leave), dog_bones=True), diameter, **kwargs
+        )
     )  # type: ignore[arg-type]
 
 
@@ -113,7 +115,7 @@ def test_dog_bones_are_the_only_cuts_nearer_than_the_cutter_is_wide() -> None:
 
 
 def test_a_finish_width_has_its_own() -> None:
-    program = compute(contour_job([square(20)], ContourOperation(Cut(2), dog_bones=True, finish_width=0.4)))
+    program = compute(contour_job([square(20)], ContourOperation(CutParameters(2), dog_bones=True, finish_width=0.4)))
     lengths = sorted(round(math.dist((b.x0, b.y0), (b.x1, b.y1)), 6) for b in program.dog_bones)
     share = math.sqrt(2) - 1
     assert lengths == [round(1.5 * share, 6)] * 4 + [round(1.9 * share, 6)] * 4

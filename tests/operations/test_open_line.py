@@ -15,19 +15,19 @@ from app.model.curves import Arc, Line
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Purpose
-from app.model.operation import ContourOperation, Cut, Direction, Side
+from app.model.operation import ContourOperation, CutParameters, Direction, Side
 from app.operations.compute import compute
 from app.operations.engrave.open_line import clear_parts, line_paths
-from app.toolpath.leads.contour_path import Path
+from app.toolpath.leads.contour_path import ContourPath
 from tests import plain_distance
 from tests.examples import examples
 from tests.operations.contour_jobs import about, contour_job, rows_of, sheet_of
 from tests.part_shapes import circle, fig2, square
 
-ON = ContourOperation(Cut(2), Side.ON)
+ON = ContourOperation(CutParameters(2), Side.ON)
 
 
-def paths_of(job: Job, direction: Direction = Direction.CLIMB) -> tuple[Path, ...]:
+def paths_of(job: Job, direction: Direction = Direction.CLIMB) -> tuple[ContourPath, ...]:
     return line_paths(sheet_of(job), job.tools[0], direction, NO_PROGRESS)[0]
 
 

@@ -10,37 +10,41 @@ import pytest
 from app.core.errors import ParameterError
 from app.formats.readers import read_drawing
 from app.geometry.distance import DistanceField
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.primitives import lengths, pack
 from app.geometry.region import nest, polygon_contour
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Purpose
-from app.model.operation import Cut, Direction, PocketOperation
+from app.model.operation import CutParameters, Direction, PocketOperation
 from app.model.part import Contour, Entity, Part, Region
 from app.model.tool import Tool
 from app.operations.compute import compute, regions_of
-from app.operations.pocket.paths import MOST_COMPARED, MOST_LINKED, Cleared, Wanted, candidates, shortest
+from app.operations.pocket.paths import MOST_COMPARED, MOST_LINKED, PocketStrokes, PocketTarget, candidates, shortest
 from app.toolpath.coverage.coverage import measure
-from app.toolpath.linking.link import Manner
-from app.toolpath.narrow import necks
-from app.toolpath.sheets import Sheet
+from app.toolpath.linking.link import LinkOptions
+from app.toolpath.machining_areas import MachiningArea
+from app.toolpath.narrow_regions import necks
 from tests.conftest import ROOT
 from tests.part_shapes import circle, fig2, square
 
 R = 1.0
-WANTED = Wanted(1.5, R, Manner())
+WANTED = PocketTarget(1.5, R, LinkOptions())
 
 
-def sheet_of(regions: tuple[Region, ...]) -> Sheet:
+def sheet_of(regions: tuple[Region, ...]) -> MachiningArea:
     primitives = pack(regions)
-    return Sheet(regions, primitives, DistanceField.of(primitives.rows), np.zeros(len(primitives.rows), np.bool_))
+    return MachiningArea(
+        regions, primitives, DistanceField.of(primitives.rows), np.zeros(len(primitives.rows), np.bool_)
+    )
 
 
-def job_of(contours: list[Contour], diameter: float, stepover: float | None = None, cut: Cut | None = None) -> Job:
+def job_of(
+    contours: list[Contour], diameter: float, stepover: float | None = None, cut: CutParameters | None = None
+) -> Job:
     curves = [(curve, contour.layer) for contour in contours for curve in contour.primitives]
     part = Part().with_entities(tuple(Entity(k, curve, layer) for k, (curve, layer) in enumerate(curves, 1)))
-    return Job(part, tools=(Tool(1, diameter),), operations=(PocketOperation(cut or Cut(1), stepover),))
+    return Job(part, tools=(Tool(1, diameter),), operations=(PocketOperation(cut or CutParameters(1), stepover),))
 
 
 def neck_of(contour: Contour, diameter: float) -> tuple[float, float, float]:
@@ -50,7 +54,7 @@ def neck_of(contour: Contour, diameter: float) -> tuple[float, float, float]:
     return neck.x or 0.0, neck.y or 0.0, neck.amount or 0.0
 
 
-def ratio(regions: tuple[Region, ...]) -> tuple[Cleared, float]:
+def ratio(regions: tuple[Region, ...]) -> tuple[PocketStrokes, float]:
     """(the default, its length against that at s = R)."""
     sheet = sheet_of(regions)
     chosen = shortest(sheet, WANTED, candidates(R, len(sheet.primitives.rows)))
@@ -99,7 +103,7 @@ def test_a_stepover_of_more_than_the_diameter_is_refused() -> None:
 
 
 def test_strokes_are_counted_by_depth_pass() -> None:
-    assert compute(job_of(fig2(), 6.0, None, Cut(1, depth=3.0, stepdown=1.0))).strokes == 3 * 2
+    assert compute(job_of(fig2(), 6.0, None, CutParameters(1, depth=3.0, stepdown=1.0))).strokes == 3 * 2
 
 
 @pytest.mark.parametrize("direction", list(Direction))
@@ -108,7 +112,9 @@ def test_metal_is_on_the_same_side_in_both_orders(direction: Direction, outside_
     """Round pocket: from inside out the metal is outside, from outside in it is inside: the sense of rotation turns
     round.
     """
-    chosen = shortest(sheet_of(nest([circle(20)])), replace(WANTED, manner=Manner(direction, outside_in)), (1.7,))
+    chosen = shortest(
+        sheet_of(nest([circle(20)])), replace(WANTED, link_options=LinkOptions(direction, outside_in)), (1.7,)
+    )
     (stroke,) = chosen.strokes
     rings = stroke.rows[(stroke.rows[:, 7] != 0) & (stroke.purpose == Purpose.POCKET)]
     assert set(rings[:, 7]) == {1.0 if (direction is Direction.CLIMB) != outside_in else -1.0}
@@ -120,7 +126,7 @@ def test_a_straight_chain_of_rings_is_gone_without_a_way_back() -> None:
     chosen = shortest(sheet_of(nest([circle(20)])), WANTED, (1.7,))
     (stroke,) = chosen.strokes
     bridges = float(lengths(stroke.rows[stroke.purpose == Purpose.LINK]).sum())
-    trips = sum(trip.length for trip in chosen.filling.trips)
+    trips = sum(trip.length for trip in chosen.filling.detours)
     assert bridges <= (len(chosen.levels) - 1) * 1.7 + trips + 1e-6
 
 
@@ -168,5 +174,5 @@ def test_many_necks_are_told_together() -> None:
 
 def test_a_region_in_one_part_has_no_neck() -> None:
     primitives = pack(nest([square(20)]))
-    assert necks(Level(2.0, ()), primitives, DistanceField.of(primitives.rows), Tool(1, 4.0)) == []
+    assert necks(OffsetLevel(2.0, ()), primitives, DistanceField.of(primitives.rows), Tool(1, 4.0)) == []
     assert not [f for f in compute(job_of([square(20)], 4.0)).findings if f.kind is FindingKind.NECK_TOO_NARROW]

@@ -19,7 +19,7 @@ from app.geometry.primitives import lengths, points_at
 from app.geometry.region import nest, polygon_contour
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, Direction, Operation, PocketOperation, RestOperation
+from app.model.operation import ContourOperation, CutParameters, Direction, Operation, PocketOperation, RestOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute
@@ -37,7 +37,7 @@ def job_of(contours: list[Contour], tools: tuple[float, ...], *kinds: str) -> Jo
     curves = [curve for c in contours for curve in c.primitives]
     part = Part(tuple(Entity(k, c) for k, c in enumerate(curves, 1)))
     ways: dict[str, type[Operation]] = {"pocket": PocketOperation, "rest": RestOperation, "contour": ContourOperation}
-    operations = tuple(ways[word.split()[0]](Cut(int(word.split()[1]))) for word in kinds)
+    operations = tuple(ways[word.split()[0]](CutParameters(int(word.split()[1]))) for word in kinds)
     return Job(part, tuple(Tool(k, d) for k, d in enumerate(tools, 1)), operations)
 
 
@@ -170,7 +170,7 @@ def test_a_stepover_keeps_runs_together() -> None:
     job = job_of(room, (12.0, 4.0), "pocket 1", "rest 2")
     lengths = []
     for stepover in (4.0, 1.8):
-        changed = replace(job, operations=(job.operations[0], RestOperation(Cut(2), stepover=stepover)))
+        changed = replace(job, operations=(job.operations[0], RestOperation(CutParameters(2), stepover=stepover)))
         program = compute(changed)
         assert left(program, changed, room) == 0
         lengths.append(program.moves.lengths()[cutting(program.moves, 1)].sum())
@@ -180,7 +180,7 @@ def test_a_stepover_keeps_runs_together() -> None:
 def test_a_stepover_beyond_the_diameter_is_refused() -> None:
     job = job_of([square(20)], (6.0, 3.0), "pocket 1")
     with pytest.raises(ParameterError, match=r"3.5 mm, more than the diameter of T2"):
-        compute(replace(job, operations=(*job.operations, RestOperation(Cut(2), stepover=3.5))))
+        compute(replace(job, operations=(*job.operations, RestOperation(CutParameters(2), stepover=3.5))))
 
 
 def test_metal_that_a_shallower_operation_cut_is_still_there() -> None:

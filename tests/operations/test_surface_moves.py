@@ -10,7 +10,7 @@ import shapely
 from app.model.moves import MoveKind, Purpose
 from app.model.scene import Strategy
 from app.model.tool import Tool, ToolKind
-from app.operations.parallel.surface_moves import PLUNGE_ANGLE, Milling, SurfaceMoves, surface_moves
+from app.operations.parallel.surface_moves import PLUNGE_ANGLE, PassFamily, SurfaceMoves, surface_moves
 from app.surfaces.passes.path import Follower, FollowOptions, cutter_path
 from app.surfaces.sections.compound import NO_SURFACE
 from tests.surfaces.scenes import along_x, ball, facets_of, plane
@@ -21,7 +21,7 @@ TOOL = Tool(5, 4.0, ToolKind.BALL, feed_rate=800.0, plunge_rate=200.0)
 def moves_of(strategy: Strategy, gap: float = 4.0, area: shapely.Geometry | None = None) -> SurfaceMoves:
     follower = Follower(facets_of(plane(0, -10, 40, 10), ball(20, 0, -2, 8)), TOOL, FollowOptions(0.0, 0.01))
     path = cutter_path(follower, along_x(-4.0, -2.0, 0.0, 2.0), area)
-    return surface_moves([Milling(path, follower, TOOL, strategy, gap)], 30.0, 10.0)
+    return surface_moves([PassFamily(path, follower, TOOL, strategy, gap)], 30.0, 10.0)
 
 
 def passes(made: SurfaceMoves) -> list[np.ndarray]:
@@ -68,7 +68,7 @@ def test_links_over_a_gap_do_not_exist() -> None:
     """Where the way between two passes leaves the surfaces, it is not gone at their height."""
     follower = Follower(facets_of(plane(0, -10, 40, -6), plane(0, 6, 40, 10)), TOOL)
     path = cutter_path(follower, along_x(-7.0, 7.0))
-    made = surface_moves([Milling(path, follower, TOOL, Strategy.ZIGZAG, 50.0)], 30.0, 10.0)
+    made = surface_moves([PassFamily(path, follower, TOOL, Strategy.ZIGZAG, 50.0)], 30.0, 10.0)
     assert not (made.moves.purpose == Purpose.LINK).any()
 
 

@@ -15,12 +15,12 @@ from app.geometry.region import nested, polygon_contour
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
-from app.model.operation import Cut, PocketOperation, VcarveOperation
+from app.model.operation import CutParameters, PocketOperation, VcarveOperation
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute
-from app.operations.vcarve.branches import Branch
+from app.operations.vcarve.branches import AxisBranch
 from app.operations.vcarve.graph import graph_of, prune, trails
-from app.operations.vcarve.paths import Cone, carved
+from app.operations.vcarve.paths import VCutter, carved
 from tests.part_shapes import circle, layered_part, square
 
 RIGHT = math.radians(90)
@@ -31,7 +31,7 @@ def program_of(*curves, depth: float = 9.0, tool: Tool | None = None, more=()) -
     job = Job(
         layered_part({"a": list(curves)}),
         (tool, Tool(2, 2.0)),
-        (*more, VcarveOperation(Cut(1, depth=depth, stepdown=99.0))),
+        (*more, VcarveOperation(CutParameters(1, depth=depth, stepdown=99.0))),
         stock=Stock(thickness=20.0),
     )
     return compute(job)
@@ -72,16 +72,16 @@ def test_the_depth_is_clamped_and_the_floor_told_unless_a_pocket_clears_it() -> 
     assert program.moves.end[:, 2].min() == -3.0
     (finding,) = program.findings
     assert finding.kind is FindingKind.LEFT_OUT and finding.counts and finding.amount == pytest.approx(14.0**2)
-    pocket = PocketOperation(Cut(2, depth=3.0, stock_to_leave=3.0))
+    pocket = PocketOperation(CutParameters(2, depth=3.0, stock_to_leave=3.0))
     assert not program_of(square(20), depth=3.0, more=(pocket,)).findings
-    greedy = PocketOperation(Cut(2, depth=3.0, stock_to_leave=2.5))
+    greedy = PocketOperation(CutParameters(2, depth=3.0, stock_to_leave=2.5))
     kinds = [each.kind for each in program_of(square(20), depth=3.0, more=(greedy,)).findings]
     assert FindingKind.GOUGE in kinds and FindingKind.LEFT_OUT in kinds
 
 
 def test_passes_carve_what_is_deeper_than_the_one_before() -> None:
     walls = pack(nested([polygon_contour([(0, 0), (20, 0), (20, 8), (0, 8)])]).regions)
-    upper, lower = carved(walls, Cone(0.0, 1.0, 20.0), (-3.0, -6.0), NO_PROGRESS)
+    upper, lower = carved(walls, VCutter(0.0, 1.0, 20.0), (-3.0, -6.0), NO_PROGRESS)
     assert max(way.discs[:, 2].max() for way in upper.trails) == pytest.approx(3.0)
     assert min(way.discs[:, 2].min() for way in lower.trails) == pytest.approx(3.0, abs=1e-5)
     assert len(upper.rings) == 1 and not lower.rings
@@ -99,9 +99,9 @@ def test_a_cone_that_is_too_low_is_refused() -> None:
 
 
 def test_only_branches_that_say_nothing_are_pruned() -> None:
-    trunk = Branch(np.array([[0.0, 0.0, 5.0], [10.0, 0.0, 5.0]]))
-    kink = Branch(np.array([[10.0, 0.0, 5.0], [10.0, 5.001, 0.0]]))
-    corner = Branch(np.array([[0.0, 0.0, 5.0], [0.0, 5.1, 0.0]]))
+    trunk = AxisBranch(np.array([[0.0, 0.0, 5.0], [10.0, 0.0, 5.0]]))
+    kink = AxisBranch(np.array([[10.0, 0.0, 5.0], [10.0, 5.001, 0.0]]))
+    corner = AxisBranch(np.array([[0.0, 0.0, 5.0], [0.0, 5.1, 0.0]]))
     graph = graph_of([trunk, kink, corner])
     assert not prune(graph)
     assert sorted({k for own in graph.at for k in own}) == [0, 2]
@@ -111,7 +111,7 @@ def test_only_branches_that_say_nothing_are_pruned() -> None:
 
 
 def test_every_branch_is_walked_once_in_half_as_many_ways_as_there_are_dead_ends() -> None:
-    spokes = [Branch(np.array([[math.cos(a), math.sin(a), 0.0], [0.0, 0.0, 1.0]])) for a in range(6)]
+    spokes = [AxisBranch(np.array([[math.cos(a), math.sin(a), 0.0], [0.0, 0.0, 1.0]])) for a in range(6)]
     ways = trails(graph_of(spokes))
     assert len(ways) == 3
     assert sum(way.length for way in ways) == pytest.approx(6.0)
@@ -126,7 +126,7 @@ def test_random_areas_are_carved_to_the_walls(seed: int) -> None:
     reach = made.uniform(3, 12, count)
     corners = np.column_stack([reach * np.cos(angles), reach * np.sin(angles)]).round(3)
     walls = pack(nested([polygon_contour([tuple(each) for each in corners.tolist()])]).regions)
-    cone = Cone(0.0, 0.5, 99.0)
+    cone = VCutter(0.0, 0.5, 99.0)
     (way,) = carved(walls, cone, (-40.0,), NO_PROGRESS)
     a = np.concatenate([each.discs[:-1] for each in way.trails])
     b = np.concatenate([each.discs[1:] for each in way.trails])

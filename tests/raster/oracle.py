@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from app.model.curves import Arc, Circle, Line, Primitive
 from app.model.part import Contour
 from app.raster.codes import Codes, PixelCode
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 
 Mask = NDArray[np.bool_]
 
 
-def even_odd(frame: Frame, contours: list[Contour]) -> Mask:
+def even_odd(frame: BitmapFrame, contours: list[Contour]) -> Mask:
     """Return (rows, cols): the pixel centre is inside an odd number of times."""
     x = frame.x0 + (np.arange(frame.cols) + 0.5) * frame.pitch
     y = frame.y0 + (frame.rows - np.arange(frame.rows) - 0.5) * frame.pitch

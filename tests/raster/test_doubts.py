@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from app.raster.doubts import Ambiguity, Doubt, ambiguities
+from app.raster.ambiguities import Ambiguity, AmbiguityKind, ambiguities
 from app.raster.picture import thresholded
 from app.raster.picture_options import PictureOptions
 from tests.raster.test_picture import ink_of, paper
@@ -15,40 +15,40 @@ def test_a_clear_picture_leaves_nothing_open() -> None:
     assert ambiguities(np.zeros((9, 9), bool)) == ()
 
 
-def doubts(gray: np.ndarray) -> list[tuple[Doubt, int, int]]:
+def doubts(gray: np.ndarray) -> list[tuple[AmbiguityKind, int, int]]:
     found = ambiguities(thresholded(gray, 1.0, PictureOptions()).ink)
-    return [(each.doubt, round(each.col / 5) * 5, round(each.row / 5) * 5) for each in found]
+    return [(each.kind, round(each.col / 5) * 5, round(each.row / 5) * 5) for each in found]
 
 
 def test_where_lines_meet_is_told() -> None:
     gray = paper()
     cv2.line(gray, (110, 20), (110, 100), 30, 2)
-    assert doubts(gray) == [(Doubt.JUNCTION, 110, 20), (Doubt.JUNCTION, 110, 100)]
+    assert doubts(gray) == [(AmbiguityKind.JUNCTION, 110, 20), (AmbiguityKind.JUNCTION, 110, 100)]
 
 
 def test_where_a_line_nearly_closes_is_told() -> None:
     gray = paper()
     gray[18:24, 100:102] = 255
-    assert doubts(gray) == [(Doubt.GAP, 100, 20)]
+    assert doubts(gray) == [(AmbiguityKind.GAP, 100, 20)]
 
 
 def test_where_two_lines_have_become_one_is_told() -> None:
     gray = paper()
     cv2.line(gray, (137, 40), (137, 80), 30, 2)
-    assert [each[0] for each in doubts(gray)] == [Doubt.MERGED]
+    assert [each[0] for each in doubts(gray)] == [AmbiguityKind.MERGED]
 
 
 def test_lines_of_one_pixel_that_run_side_by_side_are_told() -> None:
     ink = ink_of(
         "............", ".##########.", ".##########.", ".#........#.", ".#........#.", ".##########.", "............"
     )
-    assert [each.doubt for each in ambiguities(ink)] == [Doubt.MERGED]
+    assert [each.kind for each in ambiguities(ink)] == [AmbiguityKind.MERGED]
 
 
 def test_lines_a_pixel_apart_are_told() -> None:
     gray = paper()
     cv2.line(gray, (136, 40), (136, 80), 30, 2)
-    assert Doubt.NARROW in [each[0] for each in doubts(gray)]
+    assert AmbiguityKind.NARROW in [each[0] for each in doubts(gray)]
 
 
 def found(gray: np.ndarray) -> tuple[np.ndarray, tuple[Ambiguity, ...]]:
@@ -92,7 +92,7 @@ def test_two_lines_of_any_width_that_run_into_one_are_told_on_the_ink(width: int
         gray[60:240, left:right] = 0
         gray[60 + width : 240 - width, left + width : right - width] = 255
     ink, places = found(gray)
-    (merged,) = [each for each in places if each.doubt is Doubt.MERGED]
+    (merged,) = [each for each in places if each.kind is AmbiguityKind.MERGED]
     assert abs(merged.col - 160) <= width + 1
     assert 140 < merged.row < 160
     assert all(ink[int(each.row), int(each.col)] for each in places)
@@ -113,7 +113,7 @@ def plate(gap: int, *, island: bool) -> np.ndarray:
 @pytest.mark.parametrize("gap", [1, 2])
 def test_a_narrow_gap_comes_first_counts_and_lies_in_the_gap(gap: int, island: bool) -> None:
     ink, (place,) = found(plate(gap, island=island))
-    assert (place.doubt, place.counts) == (Doubt.GAP, True)
+    assert (place.kind, place.counts) == (AmbiguityKind.GAP, True)
     assert not ink[int(place.row), int(place.col)]
     assert 150 <= place.col < 150 + gap
     assert place.where in ("column 150, row 50", "column 151, row 50", "column 150, row 51", "column 151, row 51")
@@ -123,7 +123,7 @@ def test_a_narrow_gap_comes_first_counts_and_lies_in_the_gap(gap: int, island: b
 @pytest.mark.parametrize("gap", [3, 4, 40])
 def test_a_line_that_encloses_nothing_is_told_with_its_ends(gap: int, island: bool) -> None:
     ink, (place,) = found(plate(gap, island=island))
-    assert (place.doubt, place.counts) == (Doubt.OPEN, True)
+    assert (place.kind, place.counts) == (AmbiguityKind.OPEN, True)
     ends = sorted([(place.col, place.row), *place.others])
     assert [round(col) for col, _ in ends] == pytest.approx([150, 150 + gap], abs=1)
     assert all(ink[int(row), int(col)] and 50 <= row < 52 for col, row in ends)
@@ -132,7 +132,7 @@ def test_a_line_that_encloses_nothing_is_told_with_its_ends(gap: int, island: bo
 @pytest.mark.parametrize("width", [1, 2, 3, 6])
 def test_a_hand_drawn_line_that_is_not_closed_is_told_with_its_ends(width: int) -> None:
     ink, (place,) = found(hand_drawn(width, upto=55))
-    assert place.doubt is Doubt.OPEN
+    assert place.kind is AmbiguityKind.OPEN
     assert len(place.others) == 1
     assert ink[int(place.row), int(place.col)]
 
@@ -152,4 +152,9 @@ def test_what_counts_comes_first() -> None:
     cv2.rectangle(gray, (100, 100), (200, 200), 0, 2)
     cv2.line(gray, (150, 100), (150, 200), 0, 2)
     cv2.line(gray, (250, 100), (250, 200), 0, 2)
-    assert [each.doubt for each in found(gray)[1]] == [Doubt.GAP, Doubt.OPEN, Doubt.JUNCTION, Doubt.JUNCTION]
+    assert [each.kind for each in found(gray)[1]] == [
+        AmbiguityKind.GAP,
+        AmbiguityKind.OPEN,
+        AmbiguityKind.JUNCTION,
+        AmbiguityKind.JUNCTION,
+    ]

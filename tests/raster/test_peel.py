@@ -9,7 +9,7 @@ import pytest
 from scipy import ndimage
 
 from app.raster.border import borders_of, mark
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.levels import SAFE_PX, RingSteps, offset_area, ring_index, thresholds_reached
 from app.raster.peel import correct_by_circles, distance_px, frame_pixels, inner_pixels, peels
 from app.raster.walls import free_pixels
@@ -26,7 +26,7 @@ def random_area(seed: int, size: int = 60) -> np.ndarray:
 
 
 def part(size: int) -> np.ndarray:
-    return free_pixels(Frame.around((6, 6, 96, 96), size), fig2())
+    return free_pixels(BitmapFrame.around((6, 6, 96, 96), size), fig2())
 
 
 def squared_distance(area: np.ndarray, targets: np.ndarray) -> np.ndarray:

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from app.core.errors import InputError, ParameterError
-from app.raster.faces import inner_faces, shows
+from app.raster.faces import ink_meaning, inner_faces
 from app.raster.picture import pitch_of, read_picture, thresholded
 from app.raster.picture_file import picture_size
-from app.raster.picture_options import PictureOptions, Shows
+from app.raster.picture_options import InkMeaning, PictureOptions
 
 SIZED = PictureOptions(pitch=0.2)
 
@@ -136,9 +136,9 @@ def test_what_lines_enclose_once_is_inside_twice_is_an_island() -> None:
     assert not inside[60, 60]
     assert not inside[5, 5]
     assert not np.any(inside & ink)
-    assert shows(ink, Shows.AUTO) is Shows.LINES
-    assert shows(inside, Shows.AUTO) is Shows.AREAS
-    assert shows(inside, Shows.LINES) is Shows.LINES
+    assert ink_meaning(ink, InkMeaning.AUTO) is InkMeaning.LINES
+    assert ink_meaning(inside, InkMeaning.AUTO) is InkMeaning.AREAS
+    assert ink_meaning(inside, InkMeaning.LINES) is InkMeaning.LINES
 
 
 def scanned(gray: np.ndarray) -> np.ndarray:
@@ -157,7 +157,7 @@ def test_lines_of_any_width_of_a_pen_are_lines(width: int, size: int) -> None:
     for end in ((far, middle), (middle, far)):
         cv2.line(gray, (middle, middle), end, 25, min(width, size // 30))
     cv2.circle(gray, (size // 4, size // 4), size // 8, 25, min(width, size // 30))
-    assert shows(scanned(gray), Shows.AUTO) is Shows.LINES
+    assert ink_meaning(scanned(gray), InkMeaning.AUTO) is InkMeaning.LINES
 
 
 @pytest.mark.parametrize("size", [300, 1200])
@@ -177,7 +177,7 @@ def test_filled_figures_are_areas(figure: str, size: int) -> None:
     else:
         cv2.rectangle(gray, (near, near), (far, near + bar), 25, -1)
         cv2.rectangle(gray, (near, near), (near + bar, far if figure == "bracket" else near + bar), 25, -1)
-    assert shows(scanned(gray), Shows.AUTO) is Shows.AREAS
+    assert ink_meaning(scanned(gray), InkMeaning.AUTO) is InkMeaning.AREAS
 
 
 @pytest.mark.parametrize("kind", ["rgba", "sixteen bits", "palette"])

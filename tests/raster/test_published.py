@@ -7,7 +7,7 @@ import numpy as np
 from app.raster.codes import PixelCode
 from app.raster.draw import draw
 from app.raster.fill import fill
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.published import published_marks, published_scan, wrong_pixels
 from tests.raster.oracle import wrong_pixels as wrongly_settled
 from tests.raster.shapes import KINDS, polygon
@@ -21,7 +21,7 @@ def picture(plane: np.ndarray) -> list[str]:
 
 def test_it_is_right_where_lines_keep_apart() -> None:
     diamond = polygon([(4.5, 0.5), (8.5, 4.5), (4.5, 8.5), (0.5, 4.5)])
-    frame = Frame(9, 9, 1.0)
+    frame = BitmapFrame(9, 9, 1.0)
     marked, chains = published_marks(draw(frame, [diamond])[0])
     assert len(chains) == 1
     assert picture(published_scan(marked)) == picture(fill(frame, [diamond]).plane)
@@ -29,7 +29,7 @@ def test_it_is_right_where_lines_keep_apart() -> None:
 
 def test_two_strands_side_by_side_count_once() -> None:
     slot = polygon([(2.5, 1.5), (3.5, 1.5), (3.5, 8.5), (2.5, 8.5)])
-    frame = Frame(10, 12, 1.0)
+    frame = BitmapFrame(10, 12, 1.0)
     marked, _ = published_marks(draw(frame, [slot])[0])
     published, settled = published_scan(marked), fill(frame, [slot]).plane
     assert picture(published)[4] == "..22iiiiiiii"
@@ -42,7 +42,7 @@ def test_it_errs_where_the_findings_say_and_the_settled_one_nowhere() -> None:
     for number, (name, kind) in enumerate(KINDS.items()):
         wrong[name] = 0
         for seed in range(12):
-            contours, frame = kind(np.random.default_rng([number, seed]), float(SIZE)), Frame(SIZE, SIZE, 1.0)
+            contours, frame = kind(np.random.default_rng([number, seed]), float(SIZE)), BitmapFrame(SIZE, SIZE, 1.0)
             settled = fill(frame, contours)
             assert not wrongly_settled(settled, contours)
             marked, _ = published_marks(draw(frame, contours)[0])

@@ -5,7 +5,7 @@ import pytest
 
 from app.raster.codes import PixelCode
 from app.raster.draw import draw
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.trace import trace
 from tests.raster.shapes import KINDS
 
@@ -55,7 +55,7 @@ def test_the_picture_s_edge_is_empty_space() -> None:
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "beyond"])
 def test_chains_close_and_stay_on_the_drawn_pixels(kind: str) -> None:
     for seed in range(10):
-        plane, _ = draw(Frame(60, 60, 1.0), KINDS[kind](np.random.default_rng(seed), 60.0))
+        plane, _ = draw(BitmapFrame(60, 60, 1.0), KINDS[kind](np.random.default_rng(seed), 60.0))
         chains, traced = trace(plane)
         assert np.array_equal(traced != 0, plane != 0)
         walked = np.zeros_like(plane)

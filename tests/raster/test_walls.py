@@ -7,14 +7,14 @@ from app.geometry.distance import DistanceField
 from app.geometry.primitives import contour_rows, points_at, signed_area
 from app.geometry.region import nest
 from app.raster.border import borders_of
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.levels import offset_area
 from app.raster.trace import chain_rows
 from app.raster.walls import free_contours, free_pixels, outline_px, wall_rows
 from tests.raster.oracle import even_odd
 from tests.raster.shapes import KINDS, polygon
 
-FRAME = Frame(64, 64, 1.0, -2.0, -2.0)
+FRAME = BitmapFrame(64, 64, 1.0, -2.0, -2.0)
 
 
 def in_wall_square(free: np.ndarray, px: np.ndarray) -> np.ndarray:
@@ -62,7 +62,7 @@ def test_walls_on_the_grid_s_lines_take_no_pixel() -> None:
 @pytest.mark.parametrize("seed", range(20))
 def test_the_edges_of_free_pixels_are_closed_contours_round_them(seed: int) -> None:
     free = np.random.default_rng(seed).random((12, 14)) < 0.6
-    frame = Frame(12, 14, 0.5, 3.0, -1.0)
+    frame = BitmapFrame(12, 14, 0.5, 3.0, -1.0)
     contours = free_contours(frame, free)
     areas = [signed_area(contour_rows(contour)) for contour in contours]
     assert sum(areas) == pytest.approx(free.sum() * 0.25)

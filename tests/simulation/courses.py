@@ -12,7 +12,7 @@ from app.model.tool import Tool, ToolKind
 from app.simulation.cutter import Cutter, cutter_of
 from app.simulation.field.workpiece import BoxStock, Grid, Workpiece
 from app.simulation.sweeps.course import Course, TrimOptions
-from app.simulation.sweeps.trim import Cut, trim
+from app.simulation.sweeps.trim import CutResult, trim
 
 CUTTERS: dict[str, Cutter] = {
     "ball": cutter_of(Tool(1, 6.0, ToolKind.BALL)),
@@ -91,11 +91,11 @@ def course_of(motions: Motions) -> Course:
     return Course(motions, np.ones(len(motions), np.int32))
 
 
-def cut(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions = PLAIN) -> Cut:
+def cut(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions = PLAIN) -> CutResult:
     return trim(piece, course_of(motions), {1: cutter}, options)
 
 
-def cut_apart(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions = PLAIN) -> Cut:
+def cut_apart(piece: Workpiece, motions: Motions, cutter: Cutter, options: TrimOptions = PLAIN) -> CutResult:
     """Cut with two tools by turns, both of the same shape: no motion goes on from another, so all are evaluated
     wherever they sweep.
     """

@@ -20,12 +20,12 @@ from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions
 from app.model.stock_box import StockBox
 from app.simulation.cutter import Cutter
-from app.simulation.field.differences import least_beside
+from app.simulation.field.differences import lowest_nearby
 from app.simulation.field.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece
 from app.simulation.gpu import depth_buffer
 from app.simulation.gpu.depth_buffer import DepthBuffer, usual
 from app.simulation.gpu.polyhedron import facet_error
-from app.simulation.gpu.wedges import CHORD_SHARE, Side, Tessellation
+from app.simulation.gpu.wedges import CHORD_SHARE, FacetSide, Tessellation
 from app.simulation.sweeps.course import Course
 from app.simulation.sweeps.trim import trim
 from tests.examples import examples
@@ -136,7 +136,7 @@ def test_nothing_stays_open_at_thousands_of_corners(context: moderngl.Context, s
         lost = stray(got, piece, motions, CUTTERS[cutter])
         assert np.count_nonzero(lost) <= 1
         record = cut(piece, motions, CUTTERS[cutter]).heights
-        assert np.all((got >= least_beside(record)) & (got <= -least_beside(-record)), where=lost)
+        assert np.all((got >= lowest_nearby(record)) & (got <= -lowest_nearby(-record)), where=lost)
 
 
 def test_overlaps_close_what_rounding_would_leave_open(context: moderngl.Context) -> None:
@@ -194,7 +194,7 @@ def test_facets_of_the_wrong_side_leave_all_the_metal_under_the_ball(context: mo
     how = usual(piece.grid)
     down, up, both = (
         drawn(context, piece, motions, CUTTERS["ball"], replace(how, side=side))
-        for side in (Side.DOWN, Side.UP, Side.BOTH)
+        for side in (FacetSide.DOWN, FacetSide.UP, FacetSide.BOTH)
     )
     assert astray(down, piece, motions, CUTTERS["ball"]) == 0
     assert astray(up, piece, motions, CUTTERS["ball"]) > 1000

@@ -14,16 +14,16 @@ from app.simulation.engines import (
     Compute,
     Cutters,
     Engine,
+    EngineReport,
     Graphics,
     HeightEngine,
     Job,
-    Told,
     hardware,
     published_error,
     quads,
     trial_of,
 )
-from app.simulation.field.differences import TOLERANCE, apart
+from app.simulation.field.differences import TOLERANCE, height_difference
 from app.simulation.field.workpiece import Heights, Workpiece
 from app.simulation.gpu.graphics import is_software, standalone_context
 from app.simulation.sweeps.course import Course
@@ -89,9 +89,11 @@ def test_the_trial_is_a_hard_one() -> None:
     whole = trim(piece, course, CUTTERS).heights
     for row in np.flatnonzero(course.motions.kind > 1).tolist():
         without = trim(piece, Course(course.motions, course.tool, (row,)), CUTTERS).heights
-        assert not apart(whole, without).agrees
+        assert not height_difference(whole, without).agrees
     for number in CUTTERS:
-        assert not apart(whole, trim(piece, course, CUTTERS | {number: CUTTERS[number].grown(2e-3)}).heights).agrees
+        assert not height_difference(
+            whole, trim(piece, course, CUTTERS | {number: CUTTERS[number].grown(2e-3)}).heights
+        ).agrees
     assert tried(lambda *job: trim(*job).heights).agrees
 
 
@@ -100,13 +102,17 @@ def test_cells_on_walls_are_no_lies_unless_they_are_many() -> None:
     record[:, 20:] = -3
     other = record.copy()
     other[10:20, 20] = 0
-    assert (apart(record, other).agrees, apart(record, other).rims, apart(record, other).cells) == (True, 10, 10)
+    assert (
+        height_difference(record, other).agrees,
+        height_difference(record, other).rims,
+        height_difference(record, other).cells,
+    ) == (True, 10, 10)
     other[10:40, 20] = 0
-    assert not apart(record, other).agrees
+    assert not height_difference(record, other).agrees
     other = record.copy()
     other[5, 5] = -1
-    assert (apart(record, other).astray, apart(record, other).largest) == (1, 1)
-    assert apart(record, record + np.float32(0.9 * TOLERANCE)).agrees
+    assert (height_difference(record, other).astray, height_difference(record, other).largest) == (1, 1)
+    assert height_difference(record, record + np.float32(0.9 * TOLERANCE)).agrees
 
 
 def test_a_sound_system_passes_and_its_heights_are_taken() -> None:
@@ -116,18 +122,20 @@ def test_a_sound_system_passes_and_its_heights_are_taken() -> None:
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, Graphics())
     heights = engine.beside(record, JOB)
-    assert heights is not record and engine.wanted
-    assert engine.told.engine is Engine.GPU and engine.told.renderer == found.renderer and not engine.told.fault
-    assert engine.told.apart == apart(record, heights) and engine.told.apart.largest < TOLERANCE
+    assert heights is not record and engine.requested
+    assert engine.report.engine is Engine.GPU and engine.report.renderer == found.renderer and not engine.report.fault
+    assert (
+        engine.report.difference == height_difference(record, heights) and engine.report.difference.largest < TOLERANCE
+    )
 
 
 def test_the_published_method_states_its_error() -> None:
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.PATENT, Graphics())
     heights = engine.beside(record, JOB)
-    assert engine.told.engine is Engine.PATENT and engine.told.error == published_error(*JOB) > 0
+    assert engine.report.engine is Engine.PATENT and engine.report.error == published_error(*JOB) > 0
     facet = 2 * JOB[0].grid.pitch
-    assert 0.8 * facet**2 / (8 * 3) <= engine.told.error <= facet**2 / (8 * 3)
+    assert 0.8 * facet**2 / (8 * 3) <= engine.report.error <= facet**2 / (8 * 3)
     assert heights is not record and not np.array_equal(heights, record)
 
 
@@ -137,7 +145,7 @@ def test_creases_and_walls_of_facets_are_no_faults(cutter: str) -> None:
         job: Job = (box_piece(cells=290), course_of(polyline(REDUCED[name])), {1: KINDS[cutter]})
         engine = HeightEngine(Engine.PATENT, Graphics())
         engine.beside(trim(*job).heights, job)
-        assert engine.told.engine is Engine.PATENT, engine.told.fault
+        assert engine.report.engine is Engine.PATENT, engine.report.fault
 
 
 def test_the_engine_of_record_needs_no_graphics_system() -> None:
@@ -146,7 +154,7 @@ def test_the_engine_of_record_needs_no_graphics_system() -> None:
 
     engine, record = HeightEngine(Engine.CPU, Graphics(opened)), trim(*JOB).heights
     assert engine.beside(record, JOB) is record
-    assert engine.told == Told(Engine.CPU)
+    assert engine.report == EngineReport(Engine.CPU)
 
 
 @pytest.mark.parametrize("lie", LIES)
@@ -156,18 +164,20 @@ def test_a_system_that_lies_is_found_out_by_the_trial(lie: str) -> None:
     assert not hardware(graphics)
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, graphics)
-    assert not engine.wanted and engine.beside(record, JOB) is record
-    assert engine.told == Told(Engine.CPU, fault=trial_of(graphics, Engine.GPU).fault)
+    assert not engine.requested and engine.beside(record, JOB) is record
+    assert engine.report == EngineReport(Engine.CPU, fault=trial_of(graphics, Engine.GPU).fault)
 
 
 @pytest.mark.parametrize("lie", LIES)
 def test_a_system_that_lies_later_is_found_out_beside_the_engine_of_record(lie: str) -> None:
     graphics, record = Graphics(quads=later(JOB, spoiled(LIES[lie]))), trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, graphics)
-    assert engine.wanted
+    assert engine.requested
     assert engine.beside(record, JOB) is record
-    assert engine.told.engine is Engine.CPU and "in cells" not in engine.told.fault and "mm off" in engine.told.fault
-    assert not engine.wanted
+    assert (
+        engine.report.engine is Engine.CPU and "in cells" not in engine.report.fault and "mm off" in engine.report.fault
+    )
+    assert not engine.requested
 
 
 def test_a_system_that_breaks_is_not_tried_again() -> None:
@@ -180,7 +190,7 @@ def test_a_system_that_breaks_is_not_tried_again() -> None:
     engine = HeightEngine(Engine.GPU, Graphics(quads=later(JOB, breaks)))
     record = trim(*JOB).heights
     assert engine.alone(JOB) is None
-    assert "fails (the context is lost)" in engine.told.fault
+    assert "fails (the context is lost)" in engine.report.fault
     assert engine.beside(record, JOB) is record and len(tries) == 1
     assert "fails (the context is lost)" in trial_of(Graphics(quads=fails), Engine.GPU).fault
 
@@ -190,7 +200,7 @@ def test_no_graphics_system_at_all() -> None:
         raise HitofudeError("There is no OpenGL 3.3 here. Install a graphics driver.")
 
     engine = HeightEngine(Engine.GPU, Graphics(opened))
-    assert not engine.wanted and engine.told.fault == "There is no OpenGL 3.3 here. Install a graphics driver"
+    assert not engine.requested and engine.report.fault == "There is no OpenGL 3.3 here. Install a graphics driver"
     assert trial_of(Graphics(opened), Engine.GPU).renderer == ""
 
 
@@ -228,7 +238,7 @@ def test_stopping_is_no_fault() -> None:
     engine = HeightEngine(Engine.GPU, Graphics(quads=later(JOB, stopped)))
     with pytest.raises(Cancelled):
         engine.alone(JOB)
-    assert engine.wanted and not engine.told.fault
+    assert engine.requested and not engine.report.fault
 
 
 def test_a_context_that_cannot_be_had_a_second_time_is_a_fall_back() -> None:
@@ -242,10 +252,10 @@ def test_a_context_that_cannot_be_had_a_second_time_is_a_fall_back() -> None:
 
     record = trim(*JOB).heights
     engine = HeightEngine(Engine.GPU, Graphics(once))
-    assert engine.wanted
+    assert engine.requested
     assert engine.beside(record, JOB) is record
-    assert engine.told.engine is Engine.CPU
-    assert "cannot be had again (There is no OpenGL 3.3 here.)" in engine.told.fault
+    assert engine.report.engine is Engine.CPU
+    assert "cannot be had again (There is no OpenGL 3.3 here.)" in engine.report.fault
 
 
 def test_each_method_is_tried_for_itself() -> None:
@@ -254,6 +264,6 @@ def test_each_method_is_tried_for_itself() -> None:
     assert not trial_of(graphics, Engine.PATENT).fault
     engine = HeightEngine(Engine.PATENT, graphics)
     engine.beside(trim(*JOB).heights, JOB)
-    assert engine.told.engine is Engine.PATENT
+    assert engine.report.engine is Engine.PATENT
     lying = Graphics(published=spoiled(LIES["no numbers"]))
     assert trial_of(lying, Engine.PATENT).fault

@@ -16,7 +16,7 @@ from app.simulation.field.workpiece import Workpiece
 from app.simulation.history.history import History, HistoryOptions, Playhead, changed_box
 from app.simulation.sweeps import sweeps
 from app.simulation.sweeps.course import Course, TrimOptions
-from app.simulation.sweeps.sweeps import Field
+from app.simulation.sweeps.sweeps import CutField
 from app.simulation.sweeps.trim import trim
 from tests.examples import examples
 from tests.simulation.courses import CUTTERS, arc, box_piece, course_of, joined, motions_of, polyline
@@ -35,7 +35,7 @@ def mixed(seed: int, count: int = 40) -> Course:
     return Course(motions, (1 + np.arange(len(motions)) // 7 % len(TOOLS)).astype(np.int32))
 
 
-def from_start(piece: Workpiece, courses: list[Course], motion: int) -> Field:
+def from_start(piece: Workpiece, courses: list[Course], motion: int) -> CutField:
     """What the first motions of some courses leave, cut one course after the other."""
     owner, done = np.full(piece.heights.shape, -1, np.int32), 0
     for course in courses:
@@ -46,10 +46,10 @@ def from_start(piece: Workpiece, courses: list[Course], motion: int) -> Field:
             cut.workpiece,
             done + len(course.motions),
         )
-    return Field(piece.heights, owner)
+    return CutField(piece.heights, owner)
 
 
-def assert_alike(got: Field, want: Field) -> None:
+def assert_alike(got: CutField, want: CutField) -> None:
     assert np.array_equal(got.heights, want.heights)
     assert np.array_equal(got.owner, want.owner)
 
@@ -82,7 +82,7 @@ def test_there_and_back_motion_by_motion() -> None:
     states = []
     for motion in range(head.history.motions + 1):
         head.move_to(motion)
-        states.append(Field(head.field.heights.copy(), head.field.owner.copy()))
+        states.append(CutField(head.field.heights.copy(), head.field.owner.copy()))
     assert len({state.heights.tobytes() for state in states}) > 30
     for motion in reversed(range(head.history.motions + 1)):
         head.move_to(motion)
@@ -95,7 +95,7 @@ def test_the_end_is_what_the_whole_course_leaves() -> None:
     head.move_to(10**9)
     whole = trim(piece, course, TOOLS, TrimOptions(trace=True))
     assert whole.owner is not None
-    assert_alike(head.field, Field(whole.heights, whole.owner))
+    assert_alike(head.field, CutField(whole.heights, whole.owner))
 
 
 def test_a_state_is_what_a_shorter_course_leaves() -> None:
@@ -151,7 +151,7 @@ def test_a_cancelled_move_leaves_no_half_state() -> None:
 def test_what_has_changed_is_told_once() -> None:
     piece = box_piece(cells=200)
     head = Playhead(History(piece, [course_of(polyline([(-9, -9, 1), (-9, -9, -1), (-5, -9, -1)]))], TOOLS))
-    shown = Field(piece.heights.copy(), np.full(piece.heights.shape, -1, np.int32))
+    shown = CutField(piece.heights.copy(), np.full(piece.heights.shape, -1, np.int32))
     head.move_to(3)
     box = changed_box(head.field, shown)
     assert box is not None

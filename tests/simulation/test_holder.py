@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from app.core.errors import ParameterError
 from app.model.motion import Floats
 from app.model.tool import HolderPoint, Tool
-from app.simulation.bodies.holder import Body, Part, bodies_of, holder_of
-from app.simulation.bodies.pyramid import Led, Pyramid, shape_rows
+from app.simulation.bodies.holder import Body, HolderPart, bodies_of, holder_of
+from app.simulation.bodies.pyramid import BodyPaths, HeightPyramid, shape_rows
 from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import Grid, Workpiece
 
@@ -33,11 +33,11 @@ def test_a_tool_of_which_nothing_is_known_has_no_bodies() -> None:
 
 def test_a_shank_begins_where_the_flutes_end() -> None:
     (shank,) = bodies_of(Tool(1, 6.0, flute_length=10.0, shank_diameter=8.0))
-    assert shank == Body(Part.SHANK, Cutter(4.0, 4.0, lift=10.0))
+    assert shank == Body(HolderPart.SHANK, Cutter(4.0, 4.0, lift=10.0))
 
 
 def test_a_holder_stands_at_the_stick_out() -> None:
-    assert bodies_of(held((0.0, 10.0), (30.0, 10.0))) == (Body(Part.HOLDER, Cutter(10.0, 10.0, lift=20.0)),)
+    assert bodies_of(held((0.0, 10.0), (30.0, 10.0))) == (Body(HolderPart.HOLDER, Cutter(10.0, 10.0, lift=20.0)),)
 
 
 def test_frustums_that_widen_are_bodies_and_those_that_do_not_are_in_their_lower_disc() -> None:
@@ -102,8 +102,8 @@ def test_the_pyramid_finds_the_deepest_place(seed: int) -> None:
     move = rng.normal(0, 8, 3) * [(1, 1, 0), (1, 1, 1), (0, 0, 1), (0, 0, 0)][seed % 4]
     way = np.concatenate([start, start + move])
     true = heights - swept(grid, shape, way)
-    pyramid = Pyramid.of(Workpiece(grid, heights, -50.0))
-    led = Led(way[None], shape[None], np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
+    pyramid = HeightPyramid.of(Workpiece(grid, heights, -50.0))
+    led = BodyPaths(way[None], shape[None], np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1))
     (depth,), (cell,) = pyramid.deeper(led, np.full(1, -1000.0))
     if not np.isfinite(true.max()):
         assert cell == -1
@@ -116,8 +116,8 @@ def test_the_pyramid_finds_the_deepest_place(seed: int) -> None:
 
 
 def test_where_there_is_no_metal_nothing_is_met() -> None:
-    pyramid = Pyramid.of(Workpiece(Grid(0.0, 0.0, 1.0, 4, 4), np.full((4, 4), -5.0, np.float32), -5.0))
-    led = Led(
+    pyramid = HeightPyramid.of(Workpiece(Grid(0.0, 0.0, 1.0, 4, 4), np.full((4, 4), -5.0, np.float32), -5.0))
+    led = BodyPaths(
         np.array([[2.0, 2, -9, 2, 2, -9]]),
         np.array([[3.0, 3, 0, 0]]),
         np.zeros(1, np.int64),

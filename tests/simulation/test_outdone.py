@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from app.model.motion import MotionKind, Motions
 from app.simulation.sweeps.course import Course, Rapids, TrimOptions
-from app.simulation.sweeps.outdone import outdone
+from app.simulation.sweeps.superseded import superseded
 from app.simulation.sweeps.tile_kernels import ASKS, CUTS
 from app.simulation.sweeps.trim import trim
 from tests.examples import examples
@@ -22,7 +22,7 @@ def _outdone(motions: Motions, asks: tuple[int, ...] = (), tools: tuple[int, ...
     does = np.full(len(motions), CUTS, np.uint8)
     does[list(asks)] = ASKS
     cutter = np.array(tools, np.int32) if tools else np.zeros(len(motions), np.int32)
-    return np.flatnonzero(outdone(motions, cutter, does)).tolist()
+    return np.flatnonzero(superseded(motions, cutter, does)).tolist()
 
 
 def _helix(turns: int, fall: float = 1.0) -> Motions:

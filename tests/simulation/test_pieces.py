@@ -12,7 +12,7 @@ from app.model.motion_path import arc_paths
 from app.model.stock_box import StockBox
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import TrimOptions
-from app.simulation.sweeps.pieces import CHORD, Pieces, Splitter, Window
+from app.simulation.sweeps.pieces import CHORD, PieceSplitter, SweepPieces, SweepWindow
 from tests.simulation.courses import CUTTERS, arc, box_piece, cut, joined, polyline
 from tests.simulation.test_sweep import excess, walk
 
@@ -50,7 +50,7 @@ def along(curve: Nurbs) -> Callable[[Floats], Floats]:
     return lambda t: nurbs_points(curve, np.ravel(t) * last).reshape(*np.shape(t), 3)
 
 
-def from_chords(pieces: Pieces, points: Floats) -> Floats:
+def from_chords(pieces: SweepPieces, points: Floats) -> Floats:
     """How far (n,) points in order along a curve are from its chords: each from those near its share of the way."""
     way = pieces.end - pieces.start
     square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-300)
@@ -68,7 +68,7 @@ def from_chords(pieces: Pieces, points: Floats) -> Floats:
 @pytest.mark.parametrize("name", SPLINES)
 def test_no_point_of_a_spline_is_far_from_its_chords(name: str) -> None:
     motions = spline_motion(SPLINES[name])
-    pieces = Splitter(motions).pieces(0, 1)
+    pieces = PieceSplitter(motions).pieces(0, 1)
     assert np.array_equal(pieces.start[1:], pieces.end[:-1])
     assert np.array_equal(pieces.start[0], motions.start[0])
     assert np.allclose(pieces.end[-1], motions.end[0], rtol=0, atol=1e-12)
@@ -78,7 +78,7 @@ def test_no_point_of_a_spline_is_far_from_its_chords(name: str) -> None:
 
 @pytest.mark.parametrize("name", CURVES)
 def test_no_point_of_a_curve_is_far_from_its_chords(name: str) -> None:
-    pieces = Splitter(CURVES[name]).pieces(0, 1)
+    pieces = PieceSplitter(CURVES[name]).pieces(0, 1)
     assert np.array_equal(pieces.start[1:], pieces.end[:-1])
     assert np.array_equal([pieces.start[0], pieces.end[-1]], [CURVES[name].start[0], CURVES[name].end[0]])
     points = arc_paths(CURVES[name]).points(np.linspace(0, 1, 3001))[0]
@@ -116,14 +116,14 @@ def winding(count: int) -> Motions:
 @pytest.mark.parametrize("cutter", ["ball", "bull"])
 def test_a_window_leaves_curves_out_and_changes_no_bit(cutter: str, monkeypatch: pytest.MonkeyPatch) -> None:
     motions, stock = winding(30), BoxStock(StockBox(-50, -50, -30, 50, 50))
-    whole = Splitter(motions).counts.sum()
+    whole = PieceSplitter(motions).counts.sum()
     for middle in motions.end[[2, 40, -1]]:
         grid = Grid(middle[0] - 2.5, middle[1] - 2.5, 5 / 200, 200, 200)
-        window = Window(grid.box, np.full(len(motions), CUTTERS[cutter].radius))
-        assert Splitter(motions, window=window).counts.sum() < 0.3 * whole
+        window = SweepWindow(grid.box, np.full(len(motions), CUTTERS[cutter].radius))
+        assert PieceSplitter(motions, window=window).counts.sum() < 0.3 * whole
         done = cut(stock.over(grid), motions, CUTTERS[cutter], TrimOptions(trace=True))
         with monkeypatch.context() as patch:
-            patch.setattr(Window, "misses", lambda self, rows, low, high: np.zeros(len(rows), bool))
+            patch.setattr(SweepWindow, "misses", lambda self, rows, low, high: np.zeros(len(rows), bool))
             every = cut(stock.over(grid), motions, CUTTERS[cutter], TrimOptions(trace=True))
         assert done.heights.min() < -1
         assert np.array_equal(done.heights, every.heights)
@@ -139,16 +139,16 @@ def test_chords_are_as_near_as_the_caller_wants(chord: float) -> None:
         (spline_motion(QUARTER), along(QUARTER)),
         (spline_motion(HEAVY), along(HEAVY)),
     ]:
-        pieces = Splitter(motions, arcs_stay=False, chord=chord).pieces(0, 1)
+        pieces = PieceSplitter(motions, arcs_stay=False, chord=chord).pieces(0, 1)
         assert 0.05 * chord < from_chords(pieces, along_it(np.linspace(0, 1, 3001))).max() <= chord
-        assert len(pieces) < len(Splitter(motions, arcs_stay=False).pieces(0, 1))
+        assert len(pieces) < len(PieceSplitter(motions, arcs_stay=False).pieces(0, 1))
 
 
 def test_many_pieces_made_in_bands_are_those_of_each_motion_alone() -> None:
     turns = [arc((4 + k, 0, 0), (4 + k, 0, -6), (k, 0, 0), turns=3, ccw=bool(k % 2)) for k in range(4)]
     level = [arc((k, 1, -2), (k, -2.5, -2), (k, 0, -2), ccw=bool(k % 2)) for k in range(3)]
     motions = joined([*turns, polyline([(0, 0, 0), (9, 9, 0)]), *level, CURVES["G18"], CURVES["widening"]])
-    splitter = Splitter(motions)
+    splitter = PieceSplitter(motions)
     whole, alone = splitter.pieces(0, len(motions)), [splitter.pieces(k, k + 1) for k in range(len(motions))]
     assert len(whole) > 20_000
     for name in ("start", "end", "motion"):

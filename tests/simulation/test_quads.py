@@ -18,7 +18,7 @@ from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
 from app.simulation.cutter import Cutter
-from app.simulation.field.differences import apart
+from app.simulation.field.differences import height_difference
 from app.simulation.field.workpiece import BoxStock, Grid, Heights, HeightStock, Workpiece
 from app.simulation.gpu.graphics import standalone_context
 from app.simulation.gpu.quads import quad_heights
@@ -49,7 +49,7 @@ def agree(
 ) -> Heights:
     """Compare with the engine of record: within 1e-4 mm, but for few cells that lie on walls."""
     want, got = trim(piece, course, cutters).heights, drawn(ctx, piece, course, cutters)
-    found = apart(want, got)
+    found = height_difference(want, got)
     steps = maximum_filter(want, 3) - minimum_filter(want, 3)
     assert found.agrees and found.rims <= 2 + rims * want.size, found
     assert np.abs(want - got)[steps < piece.grid.pitch].max(initial=0) < 1e-4
@@ -115,7 +115,7 @@ place = st.tuples(st.floats(-8, 8), st.floats(-8, 8), st.floats(-9, 1))
 @given(st.lists(place, min_size=2, max_size=7), st.sampled_from(sorted(CUTTERS)))
 def test_any_polyline_agrees(ctx: moderngl.Context, places: list[tuple[float, float, float]], cutter: str) -> None:
     piece, course = box_piece(cells=64), course_of(polyline(places))
-    assert apart(
+    assert height_difference(
         trim(piece, course, {1: CUTTERS[cutter]}).heights, drawn(ctx, piece, course, {1: CUTTERS[cutter]})
     ).agrees
 
@@ -190,7 +190,7 @@ def test_many_pieces_and_pictures(ctx: moderngl.Context, monkeypatch: pytest.Mon
     monkeypatch.setattr("app.simulation.gpu.quads.PORTION", 41)
     monkeypatch.setattr("app.simulation.gpu.quads.WORK", 1e4)
     parts = drawn(ctx, box_piece(cells=300), course_of(motions), {1: CUTTERS["ball"]})
-    assert apart(whole, parts).agrees and apart(whole, parts).cells < 10
+    assert height_difference(whole, parts).agrees and height_difference(whole, parts).cells < 10
 
 
 def test_nothing_to_do_and_nothing_below_the_floor(ctx: moderngl.Context) -> None:

@@ -154,7 +154,7 @@ def test_stock_to_leave_lies_on_the_solid_along_its_normal() -> None:
     xs, ys = centres(grid)
     middle = (xs > 3) & (xs < 7) & (ys > 1) & (ys < 4)
     expected = 0.75 * xs + 0.4 * math.hypot(1.0, 0.75)
-    assert np.abs(target.wanted - expected)[middle].max() < 0.005
+    assert np.abs(target.heights - expected)[middle].max() < 0.005
 
 
 def test_a_flat_that_is_used_up_leaves_none_and_not_less_than_none() -> None:

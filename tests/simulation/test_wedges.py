@@ -13,7 +13,7 @@ from app.simulation.gpu.polyhedron import circle_corners
 from app.simulation.gpu.wedges import (
     ROOM,
     FacetKind,
-    Side,
+    FacetSide,
     SweepFacets,
     Tessellation,
     facets_in,
@@ -25,7 +25,7 @@ from tests.examples import examples
 from tests.simulation.courses import CUTTERS, arc, course_of, joined, motions_of, polyline
 from tests.simulation.test_sweep import walk
 
-BOTH = Tessellation(0.25, side=Side.BOTH)
+BOTH = Tessellation(0.25, side=FacetSide.BOTH)
 BENT = np.array([[0.0, 0, 0], [4, 0, 1], [6, 3, 0]])
 
 
@@ -65,7 +65,7 @@ def test_a_wedge_has_the_area_of_its_angle_and_lies_between_the_end_planes() -> 
     """Of a sphere of radius r a lune of the turn has 2 r² turn."""
     for turn in (0.001, 0.3, 1.5, 3.0):
         places = np.array([[-4.0, 0, 0], [0, 0, 0], [4 * math.cos(turn), 0, 4 * math.sin(turn)]])
-        wedge = of_kind(sweep_facets(places, 2.0, Tessellation(0.05, side=Side.BOTH)), FacetKind.WEDGE)
+        wedge = of_kind(sweep_facets(places, 2.0, Tessellation(0.05, side=FacetSide.BOTH)), FacetKind.WEDGE)
         assert areas(wedge).sum() == pytest.approx(8 * turn, rel=2e-3)
         assert wedge[..., 0].min() > -1e-6
         assert (wedge @ (places[2] / 4)).max() < 1e-6
@@ -107,7 +107,8 @@ def test_upright_moves_and_ways_back(steps: list[tuple[float, float, float]]) ->
 def test_kept_facets_look_down_and_the_others_up() -> None:
     places = walk(4, 60, 1.0, 0.7)
     all_, down, up = (
-        sweep_facets(places, 1.5, Tessellation(0.2, side=side)) for side in (Side.BOTH, Side.DOWN, Side.UP)
+        sweep_facets(places, 1.5, Tessellation(0.2, side=side))
+        for side in (FacetSide.BOTH, FacetSide.DOWN, FacetSide.UP)
     )
     assert normals(down.quads.astype(float))[:, 2].min() > -0.05
     assert normals(up.quads.astype(float))[:, 2].max() < 0.05

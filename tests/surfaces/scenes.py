@@ -9,12 +9,12 @@ from app.model.scene import Scene, Surface
 from app.model.scene_shapes import CylinderShape, PlaneShape, Shape, SphereShape
 from app.surfaces.cutter_contact.scene_facets import scene_facets
 from app.surfaces.patches.build import build
-from app.surfaces.patches.facets import Facets
-from app.surfaces.sections.compound import Planes
+from app.surfaces.patches.facets import SurfaceFacets
+from app.surfaces.sections.compound import CuttingPlanes
 from tests.surfaces.surface_places import no_data
 
 
-def facets_of(*shapes: Shape | Surface, tolerance: float | None = None) -> Facets:
+def facets_of(*shapes: Shape | Surface, tolerance: float | None = None) -> SurfaceFacets:
     """Return surfaces as facets; shapes are named by their number."""
     surfaces = tuple(each if isinstance(each, Surface) else Surface(f"s{n}", each) for n, each in enumerate(shapes))
     return scene_facets(build(Scene(surfaces=surfaces), sources_of(no_data)), tolerance).facets
@@ -34,8 +34,8 @@ def half_cylinder(start: tuple[float, float, float], end: tuple[float, float, fl
     return CylinderShape(start, end, radius, (-90.0, 90.0))
 
 
-def along_x(*offsets: float) -> Planes:
-    return Planes((0.0, 0.0), 0.0, offsets)
+def along_x(*offsets: float) -> CuttingPlanes:
+    return CuttingPlanes((0.0, 0.0), 0.0, offsets)
 
 
 def turned(places: np.ndarray, degrees: float) -> np.ndarray:

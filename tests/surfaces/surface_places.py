@@ -8,9 +8,9 @@ from app.core.errors import InputError
 from app.model.motion import Nurbs
 from app.model.part import Part
 from app.model.scene import Surface
-from app.model.scene_curves import Point3, SectionCurve, Sources
+from app.model.scene_curves import Point3, SceneFiles, SectionCurve
 from app.model.scene_shapes import Shape
-from app.surfaces.patches.build import Built, build_surface
+from app.surfaces.patches.build import BuiltSurface, build_surface
 from app.surfaces.patches.patch import BsplineSurface
 
 Floats = NDArray[np.float64]
@@ -45,12 +45,12 @@ def no_part(name: str) -> Part:
     raise InputError(f"{name}: there is no such file.")
 
 
-NO_FILES = Sources(no_data, no_part)
+NO_FILES = SceneFiles(no_data, no_part)
 
 
 def built(
-    shape: Shape, turn: Point3 = (0.0, 0.0, 0.0), move: Point3 = (0.0, 0.0, 0.0), sources: Sources = NO_FILES
-) -> Built:
+    shape: Shape, turn: Point3 = (0.0, 0.0, 0.0), move: Point3 = (0.0, 0.0, 0.0), sources: SceneFiles = NO_FILES
+) -> BuiltSurface:
     return build_surface(Surface("one", shape, rotate_deg=turn, move=move), sources)
 
 

@@ -16,9 +16,9 @@ from app.model.tool import Tool, ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
 from app.surfaces.passes.path import ALLOWED, Follower, FollowOptions, cutter_path
 from app.surfaces.passes.point_kernels import BOUNDARY, NEW, X, Y, Z
-from app.surfaces.passes.thinning import Thinning, thinned
-from app.surfaces.patches.facets import Facets
-from app.surfaces.sections.compound import BoundaryKind, Compound, Planes
+from app.surfaces.passes.simplification import PathSimplification, simplified
+from app.surfaces.patches.facets import SurfaceFacets
+from app.surfaces.sections.compound import BoundaryKind, CompoundSurface, CuttingPlanes
 from app.surfaces.sections.planes import even_planes
 from tests.surfaces.scenes import along_x, ball, facets_of, plane
 
@@ -27,7 +27,7 @@ BALL = Tool(1, 4.0, ToolKind.BALL)
 GOUGE = 1e-4
 
 
-def chords(compound: Compound) -> np.ndarray:
+def chords(compound: CompoundSurface) -> np.ndarray:
     return np.concatenate([np.concatenate([run.points[:-1], run.points[1:]], axis=1) for run in compound.runs])
 
 
@@ -54,7 +54,7 @@ def farthest(ways: np.ndarray, true: shapely.LineString) -> float:
 SPHERES = ((15.0, 0.0, 1.0, 6.0), (24.0, 2.0, -3.0, 9.0))
 
 
-def spheres() -> Facets:
+def spheres() -> SurfaceFacets:
     return facets_of(plane(0, -10, 60, 10), *(ball(*each) for each in SPHERES))
 
 
@@ -150,7 +150,7 @@ def test_a_ball_over_a_torus_goes_along_the_offset_torus() -> None:
 
 def test_a_ball_over_the_triangles_of_a_torus_is_as_near_as_they_are() -> None:
     mesh = trimesh.load_mesh(io.BytesIO(TORUS.read_bytes()), file_type="stl")
-    facets, tool = Facets.of_mesh(np.array(mesh.triangles)), Tool(1, 0.5, ToolKind.BALL)
+    facets, tool = SurfaceFacets.of_mesh(np.array(mesh.triangles)), Tool(1, 0.5, ToolKind.BALL)
     x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-1.4, 1.4, 60), np.linspace(-1.4, 1.4, 60)))
     true, well = torus_height(x, y, 0.25), np.abs(np.hypot(x, y) - 1.0) < 0.6
     found = drop(facets, tool, np.column_stack([x, y])).height
@@ -210,7 +210,7 @@ def test_a_spike_beside_a_way_is_met_wherever_it_stands_along_it(tool: Tool) -> 
         for beside, clear in ((2.997, False), (3.001, True)):
             spike = np.array([[[x, beside, 4.0], [x + 1e-4, beside + 1.0, 4.0], [x - 1e-4, beside + 1.0, 4.0]]])
             for chord in (ways, np.array([[0.0, 0.0, 0.0, 8.0, 0.0, 0.0]])):
-                assert Follower(Facets.of_mesh(spike), tool).proven(chord).all() == clear
+                assert Follower(SurfaceFacets.of_mesh(spike), tool).proven(chord).all() == clear
 
 
 def test_planes_that_meet_nothing_have_no_runs() -> None:
@@ -279,10 +279,10 @@ def test_the_tolerance_is_kept_in_concave_corners(angle: float) -> None:
     """
     rise = 20 * math.tan(math.radians(angle))
     corners = np.array([[x, y, z] for x, z in ((-20, rise), (0, 0), (20, rise)) for y in (-10, 10)], float)
-    groove = Facets.of_mesh(corners[[[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]]])
+    groove = SurfaceFacets.of_mesh(corners[[[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]]])
     for tolerance in (0.002, 0.01, 0.05):
         follower = Follower(groove, BALL, FollowOptions(0.0, tolerance))
-        planes = Planes((0.0, 0.0), math.radians(20.0), (0.0, 1.3))
+        planes = CuttingPlanes((0.0, 0.0), math.radians(20.0), (0.0, 1.3))
         for run in cutter_path(follower, planes).runs:
             along = (run.points[:, :2] - planes.place(run.plane, 0.0)) @ planes.along
             low = BALL.radius / math.cos(math.radians(angle)) - BALL.radius  # of the tip where it touches both flanks
@@ -308,7 +308,7 @@ def test_points_that_cannot_be_left_out_come_back() -> None:
             asked.append(len(ways))
             return np.zeros(len(ways), np.bool_)
 
-        (same,) = thinned([rows], Thinning((1.0, 0.0), 0.008, grid, facets.owner, refused))
+        (same,) = simplified([rows], PathSimplification((1.0, 0.0), 0.008, grid, facets.owner, refused))
         assert len(same) == len(rows) and asked[0] > 10 and len(asked) == (5 if grid else 1)
         assert np.array_equal(same[:, [X, Y]], rows[:, [X, Y]]) and (same[:, Z] >= rows[:, Z]).all()
 

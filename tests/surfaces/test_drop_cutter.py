@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from app.model.tool import Tool, ToolKind
 from app.surfaces.cutter_contact.drop_cutter import NONE, drop
-from app.surfaces.patches.facets import Facets
+from app.surfaces.patches.facets import SurfaceFacets
 from tests.examples import examples
 
 TOOLS = {
@@ -48,11 +48,11 @@ def rise(tool: Tool, r: np.ndarray) -> np.ndarray:
     return np.where(r <= radius, up, np.inf)
 
 
-def mesh_of(triangles: np.ndarray) -> Facets:
-    return Facets.of_mesh(triangles)
+def mesh_of(triangles: np.ndarray) -> SurfaceFacets:
+    return SurfaceFacets.of_mesh(triangles)
 
 
-def plane(slope: float, size: float = 100.0) -> Facets:
+def plane(slope: float, size: float = 100.0) -> SurfaceFacets:
     """A square that rises along X."""
     a, b, c, d = ([x, y, slope * x] for x, y in ((-size, -size), (size, -size), (size, size), (-size, size)))
     return mesh_of(np.array([[a, b, c], [a, c, d]]))

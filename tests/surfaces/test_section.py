@@ -10,22 +10,22 @@ import pytest
 from app.model.scene import Surface
 from app.model.scene_shapes import ConeShape
 from app.surfaces.patches.facets import joined
-from app.surfaces.sections.compound import Boundaries, BoundaryKind, Compound, Planes
+from app.surfaces.sections.compound import BoundaryKind, BoundaryPoints, CompoundSurface, CuttingPlanes
 from app.surfaces.sections.section import compound_surface
 from tests.surfaces.scenes import along_x, ball, facets_of, half_cylinder, plane, turned
 
 TOLERANCE = 0.01
 
 
-def kinds(marks: Boundaries) -> list[str]:
+def kinds(marks: BoundaryPoints) -> list[str]:
     return [BoundaryKind(kind).name for kind in marks.kind.tolist()]
 
 
-def pairs(marks: Boundaries) -> list[tuple[int, int]]:
+def pairs(marks: BoundaryPoints) -> list[tuple[int, int]]:
     return list(zip(marks.before.tolist(), marks.after.tolist(), strict=True))
 
 
-def heights(compound: Compound, number: int, at: np.ndarray) -> np.ndarray:
+def heights(compound: CompoundSurface, number: int, at: np.ndarray) -> np.ndarray:
     """Return the heights of one plane's runs at places along X."""
     points = np.concatenate([run.points for run in compound.runs if run.plane == number])
     return np.interp(at, points[:, 0], points[:, 2])
@@ -144,7 +144,7 @@ def test_turning_the_scene_and_the_planes_turns_what_is_found() -> None:
     plain = facets_of(*scene())
     about = facets_of(*(Surface(each.name, each.shape, rotate_deg=(0.0, 0.0, angle)) for each in scene()))
     one = compound_surface(plain, along_x(-4.0, 0.0, 3.3), TOLERANCE)
-    other = compound_surface(about, Planes((0.0, 0.0), math.radians(angle), (-4.0, 0.0, 3.3)), TOLERANCE)
+    other = compound_surface(about, CuttingPlanes((0.0, 0.0), math.radians(angle), (-4.0, 0.0, 3.3)), TOLERANCE)
     assert kinds(one.boundaries) == kinds(other.boundaries) and pairs(one.boundaries) == pairs(other.boundaries)
     assert np.abs(turned(one.boundaries.place, angle) - other.boundaries.place).max() <= 1e-9
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.surfaces.meshes.sew import sewn
-from app.surfaces.meshes.winding import right_side_out
+from app.surfaces.meshes.orientation import orient_outwards
+from app.surfaces.meshes.sew import sew_mesh
 from tests.examples import examples
 from tests.surfaces.solids import BLOCK_MM3, pocketed_block
 from tests.surfaces.test_winding import volume
@@ -40,7 +40,7 @@ def test_a_corner_on_an_edge_opens_nothing(
     triangle: int, side: int, shares: list[float], away: float, reverse: bool
 ) -> None:
     torn = single(parted(triangle, side, shares) * 0.7 + away)
-    wound = right_side_out(torn[:, ::-1] if reverse else torn)
+    wound = orient_outwards(torn[:, ::-1] if reverse else torn)
     assert wound.fault == ""
     assert volume(wound.triangles) == pytest.approx(BLOCK_MM3 * 0.7**3, abs=1e-6 * 28 * 21 * max(abs(away), 40))
     assert int(wound.turned.sum()) == (len(torn) if reverse else 0)
@@ -51,13 +51,13 @@ def test_a_corner_on_an_edge_opens_nothing(
 def test_corners_that_differ_in_the_last_digit_are_one(seed: int) -> None:
     rng = np.random.default_rng(seed)
     torn = single((BLOCK * 0.37 + [10.1, 7.7, 3.3]) * (1 + rng.uniform(-1, 1, BLOCK.shape) * 2**-24))
-    wound = right_side_out(torn)
+    wound = orient_outwards(torn)
     assert wound.fault == "" and len(wound.triangles) == 28
     assert volume(wound.triangles) == pytest.approx(BLOCK_MM3 * 0.37**3, rel=1e-5)
 
 
 def test_what_is_closed_stays_as_it_is_to_the_bit() -> None:
-    found = sewn(BLOCK)
+    found = sew_mesh(BLOCK)
     assert found is not None and np.array_equal(found.triangles, BLOCK)
 
 
@@ -65,8 +65,8 @@ def test_gaps_that_are_wider_than_rounding_stay_open() -> None:
     gap = BLOCK.copy()
     gap[3, 0, 2] += 1e-4
     for torn in (gap, BLOCK[1:], np.concatenate([parted(5, 0, [0.5])[:-1], BLOCK[:0]])):
-        assert sewn(torn) is None
-        assert "belong to one triangle only" in right_side_out(torn).fault
+        assert sew_mesh(torn) is None
+        assert "belong to one triangle only" in orient_outwards(torn).fault
 
 
 @pytest.mark.parametrize("spread", [1.0, 1e-9])
@@ -78,5 +78,5 @@ def test_triangles_without_order_are_refused_soon(spread: float) -> None:
     soup = spread * rng.random((3300, 3, 3))
     soup[0] = [[0, 0, 0], [1, 0, 0], [0, 1, 1]]
     begin = time.process_time()
-    assert "belong to one triangle only" in right_side_out(soup).fault
+    assert "belong to one triangle only" in orient_outwards(soup).fault
     assert time.process_time() - begin < 5.0

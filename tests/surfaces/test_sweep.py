@@ -9,8 +9,8 @@ import pytest
 from app.core.errors import GeometryError
 from app.model.curves import Arc, Circle, Line
 from app.model.part import Entity, Part
-from app.model.scene_curves import CurveForm, SectionCurve, Sources
-from app.model.scene_shapes import Keep, RevolvedShape, SweptShape
+from app.model.scene_curves import CurveForm, SceneFiles, SectionCurve
+from app.model.scene_shapes import ProfileOrientation, RevolvedShape, SweptShape
 from app.surfaces.patches.section_curve import resolve
 from app.surfaces.patches.sweep import TOLERANCE
 from tests.surfaces.surface_places import NO_FILES, anywhere, built, curve, curve_places, no_data, places, spline_of
@@ -41,7 +41,7 @@ def drawn(_: str) -> Part:
     return SLOT
 
 
-SOURCES = Sources(no_data, drawn)
+SOURCES = SceneFiles(no_data, drawn)
 
 
 def test_a_parallel_sweep_is_profile_plus_guide() -> None:
@@ -55,7 +55,7 @@ def test_a_parallel_sweep_is_profile_plus_guide() -> None:
 def test_a_profile_that_follows_a_circle_makes_a_torus() -> None:
     """About a plane curve the frame that turns least keeps upright, so the sweep is one of revolution."""
     profile = SectionCurve(((26.0, 0.0, 0.0), (30.0, 0.0, 6.0), (34.0, 0.0, 0.0)), CurveForm.CONTROL, 2)
-    made = built(SweptShape(profile, QUARTER, Keep.FOLLOW))
+    made = built(SweptShape(profile, QUARTER, ProfileOrientation.FOLLOW))
     found = anywhere(made.splines[0])
     turned = anywhere(spline_of(RevolvedShape(profile, turn_deg=(0.0, 90.0))))
 
@@ -70,7 +70,7 @@ def test_a_profile_that_follows_a_circle_makes_a_torus() -> None:
 
 
 def test_a_profile_stays_rigid_and_square_to_a_bent_guide() -> None:
-    made = built(SweptShape(PROFILE, GUIDE, Keep.FOLLOW))
+    made = built(SweptShape(PROFILE, GUIDE, ProfileOrientation.FOLLOW))
     guide = resolve(GUIDE, NO_FILES).curve
     breaks = np.unique(guide.knots)
     tangent = curve_places(guide, np.array([0.0, 1e-7]))
@@ -87,7 +87,7 @@ def test_a_profile_stays_rigid_and_square_to_a_bent_guide() -> None:
 
 
 def test_spans_of_a_sweep_join() -> None:
-    made = built(SweptShape(PROFILE, GUIDE, Keep.FOLLOW)).splines
+    made = built(SweptShape(PROFILE, GUIDE, ProfileOrientation.FOLLOW)).splines
     assert len(made) > 1
     for before, after in pairwise(made):
         assert np.abs(before.points[:, -1] - after.points[:, 0]).max() <= 1e-9
@@ -97,7 +97,7 @@ def test_a_guide_with_a_corner_is_an_error_that_says_where() -> None:
     corner = curve((0.0, 0.0, 0.0), (20.0, 0.0, 0.0), (20.0, 20.0, 0.0), degree=1)
     message = r"^Surface one: The guide of a sweep has a corner at 20, 0, 0; round it, or keep the profile parallel\.$"
     with pytest.raises(GeometryError, match=message):
-        built(SweptShape(PROFILE, corner, Keep.FOLLOW))
+        built(SweptShape(PROFILE, corner, ProfileOrientation.FOLLOW))
     assert built(SweptShape(PROFILE, corner)).splines
 
 

@@ -15,7 +15,7 @@ from app.model.tool import Tool, ToolKind
 from app.surfaces.cutter_contact.drop_cutter import drop
 from app.surfaces.passes.path import Follower, FollowOptions, cutter_path
 from app.surfaces.patches.build import build_surface
-from app.surfaces.patches.facets import Facets
+from app.surfaces.patches.facets import SurfaceFacets
 from app.surfaces.patches.patch import Patches, patches_of
 from app.surfaces.patches.tessellate import tessellate
 from app.surfaces.patches.trim import AT_OUTLINES, trimmed_mesh, trimmed_patches
@@ -34,7 +34,7 @@ def whole_ball() -> Patches:
     return patches_of([build_surface(Surface("ball", ball(0, 0, 0, RADIUS)), NO_FILES).splines])
 
 
-def half_ball() -> Facets:
+def half_ball() -> SurfaceFacets:
     """Return the half of a ball that lies at x <= 0."""
     return facets_of(trimmed(ball(0, 0, 0, RADIUS), Trim(rectangle=(-100.0, -100.0, 0.0, 100.0))))
 
@@ -49,7 +49,7 @@ def over_half_ball(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.where(touches_ball, on_ball, np.where(x < r, round_edge, -np.inf))
 
 
-def area_seen(facets: Facets) -> float:
+def area_seen(facets: SurfaceFacets) -> float:
     """Return the area of facets as seen from above, those that face down as well."""
     a, b, c = facets.triangles[:, :, :2].swapaxes(0, 1)
     first, second = b - a, c - a
@@ -158,7 +158,7 @@ def test_divided_patches_know_their_own_parameters() -> None:
 
 def test_an_upright_wall_of_a_mesh_is_cut_across() -> None:
     wall = np.array([[[0, 0, 0], [20, 0, 0], [20, 0, 10]], [[0, 0, 0], [20, 0, 10], [0, 0, 10]]], float)
-    left = trimmed_mesh(Facets.of_mesh(wall), shapely.box(-1, -1, 13, 1))
+    left = trimmed_mesh(SurfaceFacets.of_mesh(wall), shapely.box(-1, -1, 13, 1))
     size = (
         np.linalg.norm(
             np.cross(left.triangles[:, 1] - left.triangles[:, 0], left.triangles[:, 2] - left.triangles[:, 0]), axis=1
@@ -167,7 +167,7 @@ def test_an_upright_wall_of_a_mesh_is_cut_across() -> None:
     )
     assert size.sum() == pytest.approx(130)
     assert left.triangles[:, :, 0].max() == pytest.approx(13) and not np.abs(left.triangles[:, :, 1]).any()
-    assert len(trimmed_mesh(Facets.of_mesh(wall), shapely.box(-1, 1, 30, 2))) == 0
+    assert len(trimmed_mesh(SurfaceFacets.of_mesh(wall), shapely.box(-1, 1, 30, 2))) == 0
 
 
 def test_trims_that_leave_nothing_are_told_by_name() -> None:

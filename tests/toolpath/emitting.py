@@ -13,13 +13,13 @@ from app.core.progress import NO_PROGRESS
 from app.geometry.primitives import Rows, contour_rows
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Purpose
-from app.model.operation import ContourOperation, Cut, Operation, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, Operation, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.build import Stroke
-from app.toolpath.drawn import drawn
-from app.toolpath.setting import Setting, emit
-from app.toolpath.sheets import Sheets
+from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.machining_areas import MachiningAreas
+from app.toolpath.operation_context import OperationContext, emit
 from tests.part_shapes import square
 
 TOOL = Tool(1, 6.0, feed_rate=600.0, plunge_rate=200.0)
@@ -27,17 +27,17 @@ TOOL = Tool(1, 6.0, feed_rate=600.0, plunge_rate=200.0)
 
 def setting_of(
     contours: Sequence[Contour] = (square(100),), operation: Operation | None = None, **changes: object
-) -> Setting:
+) -> OperationContext:
     """A setting of one operation by T1, a flat mill of 6 mm."""
     curves = [curve for contour in contours for curve in contour.primitives]
     part = Part().with_entities(tuple(Entity(k, curve) for k, curve in enumerate(curves, 1)))
-    job = replace(Job(part, (TOOL,), (operation or PocketOperation(Cut(1)),)), **changes)  # type: ignore[arg-type]
-    return Setting(job, (), Sheets(job, drawn(job)))
+    job = replace(Job(part, (TOOL,), (operation or PocketOperation(CutParameters(1)),)), **changes)  # type: ignore[arg-type]
+    return OperationContext(job, (), MachiningAreas(job, drawn_contours(job)))
 
 
-def emitted(setting: Setting, strokes: Sequence[Stroke], index: int = 0) -> Moves:
+def emitted(setting: OperationContext, strokes: Sequence[Stroke], index: int = 0) -> Moves:
     """All moves of a setting after some strokes of an operation."""
-    sheet = setting.sheets.of(setting.job.operations[index])
+    sheet = setting.areas.of(setting.job.operations[index])
     assert sheet is not None
     emit(setting, index, sheet, strokes, NO_PROGRESS)
     return setting.builder.moves()
@@ -78,5 +78,5 @@ def dense(moves: Moves, step: float = 0.02) -> tuple[np.ndarray, np.ndarray]:
 
 def contour_operation(**changes: object) -> ContourOperation:
     """A contour operation by T1."""
-    cut = {name: changes.pop(name) for name in list(changes) if name in Cut.__dataclass_fields__}
-    return ContourOperation(Cut(1, **cut), **changes)  # type: ignore[arg-type]
+    cut = {name: changes.pop(name) for name in list(changes) if name in CutParameters.__dataclass_fields__}
+    return ContourOperation(CutParameters(1, **cut), **changes)  # type: ignore[arg-type]

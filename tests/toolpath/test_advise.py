@@ -23,13 +23,13 @@ from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack
 from app.geometry.region import nest, polygon_contour
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute, regions_of
-from app.toolpath.advice.advise import Advice, RegionAdvice, Spot, advise
+from app.toolpath.advice.advise import Advice, RegionAdvice, SizedPlace, advise
 from app.toolpath.advice.reach import FITS, centres
-from app.toolpath.advice.time import Plan, distances, times
+from app.toolpath.advice.time import CuttingPlan, distances, times
 from app.toolpath.coverage.flat import region_shapes
 from app.usecases.written import write_and_check
 from tests.examples import examples
@@ -52,7 +52,7 @@ def only(contours: list[Contour], *diameters: float) -> RegionAdvice:
     return region
 
 
-def near(spot: Spot | None, x: float, y: float, size: float, within: float = 1e-3) -> bool:
+def near(spot: SizedPlace | None, x: float, y: float, size: float, within: float = 1e-3) -> bool:
     return spot is not None and math.dist((spot.x, spot.y), (x, y)) < within and abs(spot.size - size) < within
 
 
@@ -305,7 +305,7 @@ def test_the_pair_with_the_least_time_is_advised() -> None:
 def test_slow_tools_and_tool_changes_count() -> None:
     slow = [Tool(1, 5), Tool(2, 20, feed_rate=60)]
     assert advise(nest(rounded(100, 100, 2.5)), slow).pocket.number == 1
-    assert advise(nest(rounded(100, 100, 2.5)), tools(5, 20), Plan(tool_change=3600)).pocket.number == 1
+    assert advise(nest(rounded(100, 100, 2.5)), tools(5, 20), CuttingPlan(tool_change=3600)).pocket.number == 1
 
 
 def test_a_drawing_too_small_for_all_tools_says_so() -> None:
@@ -336,12 +336,15 @@ def test_it_stops_when_asked() -> None:
 def made_and_estimated(path: Path, pocket: Tool, contour: Tool) -> tuple[tuple[float, float], tuple[float, float]]:
     """Seconds of motions of both tools in the program that is made, and as estimated."""
     drawing = read_drawing(path.name, path.read_bytes(), None, ())
-    operations = (PocketOperation(Cut(tool=1, depth=4), stepover=pocket.radius), ContourOperation(Cut(tool=2, depth=4)))
+    operations = (
+        PocketOperation(CutParameters(tool=1, depth=4), stepover=pocket.radius),
+        ContourOperation(CutParameters(tool=2, depth=4)),
+    )
     job = Job(drawing.part, tools=(pocket, contour), operations=operations)
     written = write_and_check(compute(job), job, load_post(job.post), None)
     moving = [sum(float(d.moving[d.tool[:-1] == k].sum()) for d in written.durations) for k in (1, 2)]
     where = centres(pack(regions_of(job)[0]), distances(pocket, contour))
-    told = times(pocket, contour, where, Plan(depth=4))
+    told = times(pocket, contour, where, CuttingPlan(depth=4))
     return (moving[0], moving[1]), (told.pocket, told.contour)
 
 

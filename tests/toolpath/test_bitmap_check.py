@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.geometry.distance import DistanceField
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import pack
 from app.geometry.region import nest
@@ -16,7 +16,9 @@ from app.toolpath.bitmap_check import BitmapCheck, check_on_bitmap
 from tests.part_shapes import circle, fig2, random_part, square
 
 
-def field_and_level(contours: list[Contour], distance: float, crossing: bool = False) -> tuple[DistanceField, Level]:
+def field_and_level(
+    contours: list[Contour], distance: float, crossing: bool = False
+) -> tuple[DistanceField, OffsetLevel]:
     primitives = pack(nest(without_crossings(contours).contours if crossing else contours))
     return DistanceField.of(primitives.rows), offset_levels(primitives, [distance])[0]
 

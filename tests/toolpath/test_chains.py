@@ -19,30 +19,36 @@ from app.model.part import Contour
 from app.toolpath.build import Stroke
 from app.toolpath.linking.chain_net import Corridor
 from app.toolpath.linking.chains import chains
-from app.toolpath.linking.rest_runs import Chunks, Run
-from app.toolpath.rest_left import Ground
+from app.toolpath.linking.rest_runs import RingChunks, RingRun
+from app.toolpath.rest_material import CutGround
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_part, square
 
 
-def prepared(contours: list[Contour], radius: float, cut: list[tuple[np.ndarray, float]]) -> tuple[Chunks, Corridor]:
+def prepared(
+    contours: list[Contour], radius: float, cut: list[tuple[np.ndarray, float]]
+) -> tuple[RingChunks, Corridor]:
     primitives = pack(nest(contours))
     levels = offset_levels(primitives, [radius + k * radius / 4 for k in range(9)], frame=True)
-    return Chunks.of(levels, radius / 4), Corridor(DistanceField.of(primitives.rows), radius, Ground.of(cut), radius)
+    return RingChunks.of(levels, radius / 4), Corridor(
+        DistanceField.of(primitives.rows), radius, CutGround.of(cut), radius
+    )
 
 
-def scattered(chunks: Chunks, count: int, seed: int) -> list[Run]:
+def scattered(chunks: RingChunks, count: int, seed: int) -> list[RingRun]:
     """Some runs, none of which share a row."""
     rng = np.random.default_rng(seed)
     found = []
     for start in np.unique(rng.integers(0, max(1, len(chunks.rows) // 12), count)) * 12:
         ring = int(chunks.ring[start])
-        found.append(Run(int(start), int(min(rng.integers(1, 12), chunks.first[ring + 1] - start))))
+        found.append(RingRun(int(start), int(min(rng.integers(1, 12), chunks.first[ring + 1] - start))))
     return found
 
 
-def check(strokes: tuple[Stroke, ...], chunks: Chunks, runs: list[Run], contours: list[Contour], radius: float) -> None:
+def check(
+    strokes: tuple[Stroke, ...], chunks: RingChunks, runs: list[RingRun], contours: list[Contour], radius: float
+) -> None:
     asked = sum(float(chunks.size[run.chunk : run.chunk + run.count].sum()) for run in runs)
     cut = sum(float(lengths(stroke.rows)[stroke.purpose == Purpose.POCKET].sum()) for stroke in strokes)
     assert cut == pytest.approx(asked, rel=1e-9)
@@ -78,7 +84,7 @@ def test_the_tool_lifts_where_the_way_is_too_long() -> None:
     chunks, corridor = prepared(corridor_part, 1.5, [])
     first = [k for k in range(len(chunks.rows)) if chunks.level[chunks.ring[k]] == 0]
     ends = [min(first, key=lambda k: chunks.rows[k, 0]), max(first, key=lambda k: chunks.rows[k, 0])]
-    found = [Run(k, 2) for k in ends]
+    found = [RingRun(k, 2) for k in ends]
     assert len(chains(chunks, found, corridor, 50.0)) == 2
     assert len(chains(chunks, found, corridor, 500.0)) == 1
 
@@ -88,7 +94,7 @@ def test_a_chain_begins_on_ground_that_is_cut() -> None:
     middle = np.array([[10.0, 15.0, 20.0, 15.0, 0.0, 0.0, 0.0, 0.0]])
     chunks, corridor = prepared(contours, 1.0, [(middle, 12.5)])
     corner = int(np.argmin(np.hypot(*chunks.rows[:, :2].T)))
-    (stroke,) = chains(chunks, [Run(corner, 3)], corridor, 200.0)
+    (stroke,) = chains(chunks, [RingRun(corner, 3)], corridor, 200.0)
     assert DistanceField.of(middle).nearest(np.array([stroke.start]))[0][0] <= 11.5
     assert stroke.purpose[0] == Purpose.LINK
 
@@ -96,7 +102,7 @@ def test_a_chain_begins_on_ground_that_is_cut() -> None:
 def test_a_whole_ring_is_a_run() -> None:
     chunks, corridor = prepared([square(20)], 1.5, [])
     count = int(chunks.first[1])
-    (stroke,) = chains(chunks, [Run(0, count)], corridor, 100.0)
+    (stroke,) = chains(chunks, [RingRun(0, count)], corridor, 100.0)
     assert stroke.closed and lengths(stroke.rows).sum() == pytest.approx(4 * 17)
 
 
@@ -137,7 +143,7 @@ def test_a_chain_begins_on_cut_ground_even_against_its_sense() -> None:
     chunks, corridor = prepared(slot, 1.5, [(mouth, 3.0)])
     side = [k for k in range(len(chunks.rows)) if abs(chunks.rows[k, 1] - 1.5) < 1e-9 and 10 < chunks.rows[k, 0] < 55]
     for sense in (1, -1):
-        (stroke,) = chains(chunks, [Run(side[0], len(side), sense)], corridor, 20.0)
+        (stroke,) = chains(chunks, [RingRun(side[0], len(side), sense)], corridor, 20.0)
         assert stroke.start[0] < 7
 
 

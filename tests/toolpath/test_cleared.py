@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.geometry.primitives import contour_rows
 from app.model.tool import Tool, ToolKind
-from app.toolpath.cleared import Cleared, flat_radius
+from app.toolpath.cleared_ground import ClearedGround, flat_radius
 from tests.examples import examples
 from tests.part_shapes import circle
 
@@ -29,7 +29,7 @@ def at(*heights: float) -> np.ndarray:
 @given(st.integers(0, 10**6))
 def test_a_way_is_clear_where_discs_of_the_path_cover_it(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    cleared, shapes = Cleared(), []
+    cleared, shapes = ClearedGround(), []
     for _ in range(int(rng.integers(1, 200))):
         a = rng.uniform(0, 25, 2)
         b = a + rng.uniform(-8, 8, 2)
@@ -51,7 +51,7 @@ def test_a_way_is_clear_where_discs_of_the_path_cover_it(seed: int) -> None:
 def test_places_asked_one_after_the_other_are_as_clear_as_each_alone(seed: int) -> None:
     """What one place shows not to be cut rules out others, but none that is clear."""
     rng = np.random.default_rng(seed)
-    cleared = Cleared()
+    cleared = ClearedGround()
     for a in rng.uniform(0, 20, (int(rng.integers(1, 40)), 2)):
         cleared.add(TOOL, line(tuple(a), tuple(a + rng.uniform(-8, 8, 2))), at(-2.0))
     places = [tuple(place) for place in rng.uniform(0, 20, (60, 2)).tolist()]
@@ -60,7 +60,7 @@ def test_places_asked_one_after_the_other_are_as_clear_as_each_alone(seed: int) 
 
 
 def test_the_first_clear_place_behind_an_edge_is_the_one_that_is_a_radius_away() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     for y in range(11):
         cleared.add(TOOL, line((0, y), (40, y)), at(-2.0))
     places = [(20.0, -6.0 + 0.05 * k) for k in range(240)]  # cut from y = -3 on
@@ -69,7 +69,7 @@ def test_the_first_clear_place_behind_an_edge_is_the_one_that_is_a_radius_away()
 
 
 def test_a_floor_that_was_asked_for_is_deeper_when_more_is_cut() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     for z in (-1.0, -2.0, -2.0, -3.0):
         assert cleared.floor(TOOL, (10, 0)) > z or z == -2.0
         cleared.add(TOOL, line((0, 0), (20, 0)), at(z))
@@ -77,7 +77,7 @@ def test_a_floor_that_was_asked_for_is_deeper_when_more_is_cut() -> None:
 
 
 def test_depths_of_many_passes_are_kept_apart() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     for k in range(1, 400):
         cleared.add(TOOL, line((10.0 * k, 0), (10.0 * k, 5)), at(-0.01 * k))
     for k in (1, 50, 399):
@@ -86,7 +86,7 @@ def test_depths_of_many_passes_are_kept_apart() -> None:
 
 
 def test_the_deepest_cut_that_holds_the_whole_cutter_counts() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     cleared.add(TOOL, line((0, 0), (20, 0)), at(-1.0))
     cleared.add(TOOL, line((0, 0), (10, 0)), at(-2.0))
     assert cleared.floor(TOOL, (5, 0)) == -2.0 and cleared.floor(TOOL, (12, 0)) == -1.0
@@ -97,7 +97,7 @@ def test_the_deepest_cut_that_holds_the_whole_cutter_counts() -> None:
 
 
 def test_two_slots_side_by_side_clear_what_neither_clears_alone() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     for y in (0.0, 5.0):
         cleared.add(TOOL, line((0, y), (20, y)), at(-1.0))
     assert cleared.is_clear(TOOL, (5, 2.5), (15, 2.5), -1.0)
@@ -105,7 +105,7 @@ def test_two_slots_side_by_side_clear_what_neither_clears_alone() -> None:
 
 
 def test_what_stays_inside_a_ring_is_not_clear() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     ring = contour_rows(circle(3.2))
     cleared.add(TOOL, ring, np.full(len(ring), -1.0))
     assert cleared.floor(TOOL, (0, 0)) == 0.0  # a post of 0.2 mm stands in the middle
@@ -115,7 +115,7 @@ def test_what_stays_inside_a_ring_is_not_clear() -> None:
 
 
 def test_a_tab_is_not_clear_below_its_top() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     cleared.add(
         TOOL,
         np.concatenate([line((0, 0), (10, 0)), line((10, 0), (14, 0)), line((14, 0), (30, 0))]),
@@ -126,7 +126,7 @@ def test_a_tab_is_not_clear_below_its_top() -> None:
 
 def test_a_ball_clears_only_where_it_was() -> None:
     ball = Tool(3, 6.0, ToolKind.BALL)
-    cleared = Cleared()
+    cleared = ClearedGround()
     cleared.add(ball, line((0, 0), (20, 0)), at(-1.0))
     assert cleared.floor(ball, (5, 0)) == -1.0 and cleared.floor(ball, (5, 0.1)) == 0.0
     assert cleared.floor(Tool(2, 1.0), (5, 0)) == 0.0 and not cleared.is_clear(ball, (5, 0), (10, 0), -1.0)
@@ -138,6 +138,6 @@ def test_a_ball_clears_only_where_it_was() -> None:
 
 
 def test_nothing_above_the_stock_is_kept() -> None:
-    cleared = Cleared()
+    cleared = ClearedGround()
     cleared.add(TOOL, line((0, 0), (20, 0)), at(0.5))
     assert cleared.floor(TOOL, (5, 0)) == 0.0 and cleared.nearest((5, 0), -0.1) == (np.inf, None)

@@ -17,7 +17,7 @@ from app.core.progress import Progress
 from app.model.curves import Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Contour, Part, Region
 from app.model.tool import Tool
 from app.toolpath.coverage.coverage import _between_reversals, _solid, _widened, coverage_findings, measure
@@ -29,7 +29,7 @@ DISC = Region(1, Contour((Circle((0.0, 0.0), 10.0),)))
 
 def one_tool(diameter: float = 6.0, **cut: float) -> Job:
     """A job whose only operation is a pocket, 2 mm deep."""
-    return Job(Part(), tools=(Tool(1, diameter),), operations=(PocketOperation(Cut(1, **cut)),))
+    return Job(Part(), tools=(Tool(1, diameter),), operations=(PocketOperation(CutParameters(1, **cut)),))
 
 
 def rings(*radii: float, z: float = -2.0) -> Path:
@@ -82,7 +82,9 @@ def test_corners_are_out_of_reach_and_no_finding_that_counts() -> None:
 def test_a_smaller_tool_of_the_job_reaches_the_corners_so_what_it_leaves_counts() -> None:
     path = rings(7.0, 4.0, 1.0)
     task = Job(
-        Part(), tools=(Tool(1, 6.0), Tool(2, 1.0)), operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2)))
+        Part(),
+        tools=(Tool(1, 6.0), Tool(2, 1.0)),
+        operations=(PocketOperation(CutParameters(1)), ContourOperation(CutParameters(2))),
     )
     region = replace(square(-10, -10, 10, 10), islands=())
     found = measure(path.program(region), task)
@@ -97,7 +99,7 @@ def test_stock_to_leave_is_not_left_by_mistake() -> None:
 
 
 def test_a_contour_alone_is_asked_for_its_band_only() -> None:
-    task = Job(Part(), tools=(Tool(1, 6.0),), operations=(ContourOperation(Cut(1)),))
+    task = Job(Part(), tools=(Tool(1, 6.0),), operations=(ContourOperation(CutParameters(1)),))
     assert measure(rings(7.0).program(DISC), task).reachable_left_mm2 == 0
     assert measure(rings(6.8).program(DISC), task).reachable_left_mm2 == pytest.approx(
         math.pi * (100 - 9.8**2), rel=1e-2
@@ -128,7 +130,7 @@ def test_agrees_with_a_grid_of_exact_distances() -> None:
 
 def test_no_operation_no_region_no_moves() -> None:
     assert measure(rings(7.0).program(DISC), replace(one_tool(), operations=())).area_mm2 == 0
-    off = replace(one_tool(), operations=(PocketOperation(Cut(1, enabled=False)),))
+    off = replace(one_tool(), operations=(PocketOperation(CutParameters(1, enabled=False)),))
     assert measure(rings(7.0).program(DISC), off).places == ()
 
 

@@ -13,18 +13,18 @@ from app.model.curve_selectors import on_layers
 from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Contour, Entity
 from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.drawn import Drawn, drawn, layers_of, outermost
+from app.toolpath.drawn_contours import DrawnContours, drawn_contours, layers_of, outermost
 from tests.part_shapes import circle, layered_part, square
 
 
-def held(parts: Drawn) -> float:
+def held(parts: DrawnContours) -> float:
     return float(shapely.union_all(region_shapes(parts.clamps, 1e-4)).area)
 
 
-def text_of(parts: Drawn, kind: FindingKind, counts: bool = True) -> str:
+def text_of(parts: DrawnContours, kind: FindingKind, counts: bool = True) -> str:
     return " ".join(finding.text for finding in parts.findings if finding.kind is kind and finding.counts is counts)
 
 
@@ -34,8 +34,8 @@ def test_layers_of_a_job() -> None:
     assert layers_of(Job(part, layer_names=("b",))) == {"b"}
     assert layers_of(Job(part, keep_out_layers=("c",))) == {"a"}
     asked = (
-        PocketOperation(Cut(1, curves=on_layers(("b",)))),
-        ContourOperation(Cut(2, enabled=False, curves=on_layers(("nowhere",)))),
+        PocketOperation(CutParameters(1, curves=on_layers(("b",)))),
+        ContourOperation(CutParameters(2, enabled=False, curves=on_layers(("nowhere",)))),
     )
     assert layers_of(Job(part, operations=asked)) == {"a", "b", "c"}
 
@@ -44,10 +44,10 @@ def test_layers_of_a_job() -> None:
     ("changes", "words"),
     [
         ({"keep_out_layers": ("d",)}, "no layer 'd'; it has a, b, c"),
-        ({"operations": (PocketOperation(Cut(1, curves=on_layers(("A",)))),)}, "no layer 'A'"),
+        ({"operations": (PocketOperation(CutParameters(1, curves=on_layers(("A",)))),)}, "no layer 'A'"),
         ({"layer_names": ("a",), "keep_out_layers": ("a",)}, "Layer 'a' is to be machined and to be kept off"),
         (
-            {"operations": (PocketOperation(Cut(1, curves=on_layers(("b",)))),), "keep_out_layers": ("b",)},
+            {"operations": (PocketOperation(CutParameters(1, curves=on_layers(("b",)))),), "keep_out_layers": ("b",)},
             "Layer 'b' is to be machined and to be kept",
         ),
     ],
@@ -55,12 +55,12 @@ def test_layers_of_a_job() -> None:
 def test_layers_that_cannot_be(changes: dict[str, object], words: str) -> None:
     part = layered_part({"a": [square()], "b": [square(5, 50)], "c": []})
     with pytest.raises(ParameterError, match=words):
-        drawn(replace(Job(part), **changes))  # type: ignore[arg-type]
+        drawn_contours(replace(Job(part), **changes))  # type: ignore[arg-type]
 
 
-def clamped(*clamps: Contour, part: tuple[Contour, ...] = (), **changes: object) -> Drawn:
+def clamped(*clamps: Contour, part: tuple[Contour, ...] = (), **changes: object) -> DrawnContours:
     layers = {"part": list(part) or [square(100)], "clamps": list(clamps)}
-    return drawn(replace(Job(layered_part(layers)), keep_out_layers=("clamps",), **changes))  # type: ignore[arg-type]
+    return drawn_contours(replace(Job(layered_part(layers)), keep_out_layers=("clamps",), **changes))  # type: ignore[arg-type]
 
 
 def test_a_bolt_in_a_clamp_is_no_hole_in_it() -> None:
@@ -91,7 +91,7 @@ def test_outermost_of_alike_ones_is_one() -> None:
 def test_clamps_without_an_outline_are_told() -> None:
     part = layered_part({"part": [square(50)], "clamps": []})
     open_clamp = replace(part, entities=(*part.entities, Entity(99, Line((5, 5), (20, 5)), "clamps")))
-    parts = drawn(Job(open_clamp, keep_out_layers=("clamps",)))
+    parts = drawn_contours(Job(open_clamp, keep_out_layers=("clamps",)))
     assert parts.clamps == ()
     assert "is open at" in text_of(parts, FindingKind.OPEN_CONTOUR)
     assert "have no closed outline" in text_of(parts, FindingKind.LEFT_OUT)
@@ -128,24 +128,24 @@ def test_copies_are_moved_and_clamps_are_not() -> None:
     ],
 )
 def test_copies_that_meet_are_told(copies: Copies, meet: bool) -> None:
-    parts = drawn(Job(layered_part({"a": [square(10)]}), copies=copies))
+    parts = drawn_contours(Job(layered_part({"a": [square(10)]}), copies=copies))
     assert parts.crossing is meet
     assert bool(text_of(parts, FindingKind.OVERLAP)) is meet
 
 
 def test_copies_that_reach_into_one_another_do_not_meet() -> None:
     angle = polygon_contour([(0, 0), (30, 0), (30, 5), (5, 5), (5, 30), (0, 30)])
-    parts = drawn(Job(layered_part({"a": [angle]}), copies=Copies(2, 1, 8.0, 0.0)))
+    parts = drawn_contours(Job(layered_part({"a": [angle]}), copies=Copies(2, 1, 8.0, 0.0)))
     assert parts.crossing
-    nested = drawn(Job(layered_part({"a": [angle]}), copies=Copies(1, 1)))
+    nested = drawn_contours(Job(layered_part({"a": [angle]}), copies=Copies(1, 1)))
     assert not nested.crossing
     stairs = polygon_contour([(0, 0), (10, 0), (10, 4), (4, 4), (4, 10), (0, 10)])
-    apart = drawn(Job(layered_part({"a": [stairs, square(3, 6, 6)]}), copies=Copies(2, 1, 11.0, 0.0)))
+    apart = drawn_contours(Job(layered_part({"a": [stairs, square(3, 6, 6)]}), copies=Copies(2, 1, 11.0, 0.0)))
     assert not apart.crossing
 
 
 def test_diagonal_copies_that_meet_are_told() -> None:
     """Neighbours along X and Y keep off one another; those across the corner do not."""
     bar = polygon_contour([(0, 0), (2, 0), (22, 20), (20, 20)])
-    parts = drawn(Job(layered_part({"a": [bar]}), copies=Copies(2, 2, 10.0, 10.0)))
+    parts = drawn_contours(Job(layered_part({"a": [bar]}), copies=Copies(2, 2, 10.0, 10.0)))
     assert "10.000 mm apart along X and 10.000 mm along Y meet" in text_of(parts, FindingKind.OVERLAP)

@@ -15,11 +15,11 @@ from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
 from app.model.job import Stock
 from app.model.moves import MoveKind, Moves, Purpose
-from app.model.operation import Cut, Direction, PocketOperation
+from app.model.operation import CutParameters, Direction, PocketOperation
 from app.toolpath.build import Stroke
 from app.toolpath.depth.depth import pass_heights
-from app.toolpath.entry.entry import Ground
-from app.toolpath.entry.ways import keeps_off_walls
+from app.toolpath.entry.entry import EntryContext
+from app.toolpath.entry.links import keeps_off_walls
 from app.usecases.make import export
 from tests.examples import examples
 from tests.part_shapes import circle, square
@@ -30,7 +30,7 @@ PLUNGE = Entry(EntryKind.PLUNGE)
 
 
 def deep(depth: float = 6.0, stepdown: float = 2.0, **cut: object) -> PocketOperation:
-    return PocketOperation(Cut(1, depth, stepdown, **cut))  # type: ignore[arg-type]
+    return PocketOperation(CutParameters(1, depth, stepdown, **cut))  # type: ignore[arg-type]
 
 
 def heights(moves: Moves, purpose: Purpose = Purpose.POCKET) -> list[float]:
@@ -98,9 +98,9 @@ def test_a_hook_is_gone_straight_across_only_when_that_is_cut() -> None:
 
 def test_no_way_leads_past_a_wall_nearer_than_a_path() -> None:
     setting = setting_of((square(60), circle(0.01, 20, 25)))
-    sheet = setting.sheets.of(setting.job.operations[0])
+    sheet = setting.areas.of(setting.job.operations[0])
     assert sheet is not None
-    ground = Ground(TOOL, Entry(), sheet.distances, 3.0, True, Direction.CLIMB, setting.cleared)
+    ground = EntryContext(TOOL, Entry(), sheet.distances, 3.0, True, Direction.CLIMB, setting.cleared)
     assert not keeps_off_walls((10.0, 25.0), (30.0, 25.0), ground) and not keeps_off_walls(
         (10.0, 28.0), (30.0, 28.0), ground
     )

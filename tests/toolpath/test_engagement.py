@@ -20,7 +20,7 @@ from app.formats.readers import read_drawing
 from app.geometry.primitives import lengths, points_at
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Region
 from app.model.stock_box import stock_box
 from app.model.tool import Tool, ToolKind
@@ -29,14 +29,16 @@ from app.toolpath.coverage.flat import move_rows
 from app.toolpath.engagement import engagement as engagement_module
 from app.toolpath.engagement import field as engagement_field
 from app.toolpath.engagement import places as engagement_places
-from app.toolpath.engagement.engagement import engagement, look
+from app.toolpath.engagement.engagement import engagement, sample_engagement
 from app.toolpath.engagement.places import chain_begins, places
 from tests.examples import examples
 from tests.gcode.programs import Path, job, square
 from tests.part_shapes import fig2
 
 D, R = 6.0, 3.0
-JOB = job(operations=(PocketOperation(Cut(tool=1)), PocketOperation(Cut(tool=2))), stock=Stock(0.0, 10.0))
+JOB = job(
+    operations=(PocketOperation(CutParameters(tool=1)), PocketOperation(CutParameters(tool=2))), stock=Stock(0.0, 10.0)
+)
 PLATE = square(-60, -60, 60, 60)
 
 
@@ -45,7 +47,7 @@ def shares(path: Path, region: Region = PLATE, of: Job = JOB) -> np.ndarray:
 
 
 def bound(path: Path, region: Region = PLATE, tool: int = 1) -> float:
-    return look(path.program(region), JOB).bound(tool)
+    return sample_engagement(path.program(region), JOB).bound(tool)
 
 
 def turned(angle: float, x: float, y: float) -> tuple[float, float]:
@@ -73,7 +75,7 @@ def test_a_slot_in_full_stock_takes_the_whole_diameter() -> None:
 @given(st.floats(0, math.tau), st.floats(0.02, D - 0.02), st.booleans(), st.floats(-1, 1))
 def test_a_side_pass_takes_its_stepover(angle: float, step: float, left: bool, shift: float) -> None:
     path = along(along(Path(), angle, shift), angle, shift + step if left else shift - step, -4, 8)
-    seen = look(path.program(PLATE), JOB)
+    seen = sample_engagement(path.program(PLATE), JOB)
     inside = seen.first > seen.begin[8] + R
     assert inside.sum() > 10
     assert np.abs(seen.share[inside] - step / D).max() <= seen.bound(1)
@@ -114,7 +116,7 @@ def test_a_ring_outside_of_one_and_inside_of_one(ccw: bool) -> None:
         edge = first + R if second > first else first - R
         cosine = (edge**2 - second**2 - R**2) / (2 * second * R)
         angle = math.acos(cosine) if second > first else math.acos(-cosine)
-        seen = look(path.program(PLATE), JOB)
+        seen = sample_engagement(path.program(PLATE), JOB)
         inside = seen.share[(seen.first > seen.begin[8] + R) & (seen.last < seen.end[8] - 2.5 * R)]
         # the rim is looked at a little inside, where it meets the round edge elsewhere
         curved = seen.pitches[1] / (2 * second)
@@ -177,7 +179,7 @@ def test_passes_side_by_side_against_intervals_on_a_line() -> None:
             edges = int(np.count_nonzero(np.diff(cleared))) + 1
             expected.append((share_of(math.pi * (1 - cleared.mean())), edges, tool))
             done.append((y, radius, z))
-        seen = look(path.program(PLATE), JOB)
+        seen = sample_engagement(path.program(PLATE), JOB)
         for k, (share, edges, tool) in enumerate(expected):
             move = 5 * k + 3
             inside = (seen.first > seen.begin[move] + 6) & (seen.last < seen.end[move] - 6)
@@ -189,7 +191,7 @@ def fig2_program() -> tuple[Program, Job]:
 
     made = job_of(
         fig2(),
-        operations=(PocketOperation(Cut(1, 2.0, 1.0), stepover=4.8), ContourOperation(Cut(2))),
+        operations=(PocketOperation(CutParameters(1, 2.0, 1.0), stepover=4.8), ContourOperation(CutParameters(2))),
         stock=Stock(1.0, 10.0),
     )
     return compute(made), made
@@ -198,7 +200,7 @@ def fig2_program() -> tuple[Program, Job]:
 def test_a_job_against_exact_distances_to_every_earlier_move() -> None:
     program, made = fig2_program()
     moves, rows = program.moves, move_rows(program.moves)
-    seen, box = look(program, made), stock_box(made, program.regions, program.lines)
+    seen, box = sample_engagement(program, made), stock_box(made, program.regions, program.lines)
     owner = np.repeat(
         np.arange(len(moves)), np.maximum(2, moves.lengths() / 0.05).astype(int) * (moves.kind != MoveKind.RAPID)
     )
@@ -240,7 +242,7 @@ def test_what_is_seen_does_not_depend_on_how_moves_are_cut_in_pieces() -> None:
     columns["end"][inner, :2] = points_at(move_rows(moves)[owner[inner]], fraction[inner])
     columns["end"][inner, 2] = (moves.start[owner, 2] * (1 - fraction) + moves.end[owner, 2] * fraction)[inner]
     pieces = replace(program, moves=type(moves)(**columns))
-    whole, cut = look(program, made), look(pieces, made)
+    whole, cut = sample_engagement(program, made), sample_engagement(pieces, made)
     assert len(pieces.moves) > 1.5 * len(moves)
     assert np.array_equal(whole.share, cut.share) and np.array_equal(whole.block, cut.block)
     assert np.allclose(whole.first, cut.first, atol=1e-7)
@@ -271,10 +273,10 @@ def test_corners_ends_and_what_goes_straight_down_are_cut_where_they_are() -> No
 
 def test_long_paths_are_looked_at_in_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     program, made = fig2_program()
-    whole = look(program, made)
+    whole = sample_engagement(program, made)
     monkeypatch.setattr(engagement_places, "MOST_PLACES", 100)
     monkeypatch.setattr(engagement_module, "_MOST_KEPT", 500)
-    parts = look(program, made)
+    parts = sample_engagement(program, made)
     assert len(list(engagement_places.runs(program.moves, {1: R / 8, 2: R / 16}))) > 4
     assert np.array_equal(whole.share, parts.share) and np.array_equal(whole.owner, parts.owner)
     assert np.array_equal(np.diff(whole.block), np.diff(parts.block)) and np.allclose(
@@ -346,7 +348,7 @@ def test_a_real_drawing(data: object) -> None:
     made = Job(
         read_drawing(path.name, path.read_bytes(), None, ()).part,
         (Tool(1, 2.0), Tool(2, 1.0)),
-        (PocketOperation(Cut(1), stepover=1.0), ContourOperation(Cut(2))),
+        (PocketOperation(CutParameters(1), stepover=1.0), ContourOperation(CutParameters(2))),
     )
     program = compute(made)
     found = engagement(program, made)

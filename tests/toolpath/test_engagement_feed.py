@@ -16,7 +16,7 @@ from app.core.progress import Progress
 from app.formats.readers import read_drawing
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program
-from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.coverage.flat import move_rows
@@ -30,7 +30,7 @@ PLATE = square(-60, -60, 60, 60)
 
 
 def limited(*limits: float, tools: tuple[Tool, ...] = (Tool(1, 2 * R), Tool(2, R))) -> Job:
-    operations = tuple(PocketOperation(Cut(tool=k + 1), most_engaged=limit) for k, limit in enumerate(limits))
+    operations = tuple(PocketOperation(CutParameters(tool=k + 1), most_engaged=limit) for k, limit in enumerate(limits))
     return job(operations=operations, tools=tools, stock=Stock(0.0, 10.0))
 
 
@@ -163,7 +163,7 @@ def test_each_operation_has_its_own_limit() -> None:
     for limits, feeds in (((0.5, 1.0), (300, 600)), ((1.0, 0.5), (600, 300)), ((0.5, 0.4), (300, 240))):
         assert followed(path.program(PLATE), limited(*limits)).moves.feed[[3, 8]].tolist() == pytest.approx(feeds)
     assert [operation.engagement_limit for operation in limited(0.5, 1.0).operations] == [0.5, 1.0]
-    assert DrillOperation(Cut(1)).engagement_limit == 1.0
+    assert DrillOperation(CutParameters(1)).engagement_limit == 1.0
 
 
 def test_a_short_slot_slows_no_other_tool_behind_it() -> None:
@@ -217,8 +217,8 @@ def test_real_drawings(data: FilePath, name: str) -> None:
         read_drawing(path.name, path.read_bytes(), None, ()).part,
         (Tool(1, 2 * small), Tool(2, small)),
         (
-            PocketOperation(Cut(1, 2.0, 1.0), stepover=1.5 * small, most_engaged=0.5),
-            ContourOperation(Cut(2), most_engaged=0.4),
+            PocketOperation(CutParameters(1, 2.0, 1.0), stepover=1.5 * small, most_engaged=0.5),
+            ContourOperation(CutParameters(2), most_engaged=0.4),
         ),
     )
     program = compute(made)

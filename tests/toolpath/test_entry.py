@@ -14,10 +14,10 @@ from app.geometry.region import polygon_contour
 from app.model.entry import Entry, EntryKind
 from app.model.finding import FindingKind
 from app.model.moves import MoveKind, Moves, Purpose, Tab
-from app.model.operation import Cut, Direction, PocketOperation, Side
+from app.model.operation import CutParameters, Direction, PocketOperation, Side
 from app.model.part import Contour
-from app.toolpath.build import Label
-from app.toolpath.setting import Setting
+from app.toolpath.build import StrokeLabel
+from app.toolpath.operation_context import OperationContext
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_star, square
@@ -29,8 +29,8 @@ INNER = [(30.0, 50.0), (70.0, 50.0)]
 
 def cutting(
     kind: EntryKind, contours: Sequence[Contour] = (square(100),), angle: float = STEEP, **cut: object
-) -> Setting:
-    return setting_of(contours, PocketOperation(Cut(1, entry=Entry(kind, angle), **cut)))  # type: ignore[arg-type]
+) -> OperationContext:
+    return setting_of(contours, PocketOperation(CutParameters(1, entry=Entry(kind, angle), **cut)))  # type: ignore[arg-type]
 
 
 def ways_in(moves: Moves) -> np.ndarray:
@@ -46,7 +46,7 @@ def steepness(moves: Moves) -> np.ndarray:
     return np.asarray(fall / np.sqrt(moves.lengths()[chosen] ** 2 - fall**2))
 
 
-def told(setting: Setting) -> list[str]:
+def told(setting: OperationContext) -> list[str]:
     return [finding.text for finding in setting.findings if finding.kind is FindingKind.ENTRY]
 
 
@@ -156,8 +156,8 @@ def test_on_the_line_nothing_is_cut_beside_it() -> None:
 
 def test_ways_in_keep_off_clamps_outside_of_the_walls() -> None:
     curves = [circle(5, 50, 53.0 + 8.1), square(100)]
-    setting = setting_of([square(100)], PocketOperation(Cut(1)))
-    clamped = setting_of(curves[1:] + curves[:1], PocketOperation(Cut(1)))
+    setting = setting_of([square(100)], PocketOperation(CutParameters(1)))
+    clamped = setting_of(curves[1:] + curves[:1], PocketOperation(CutParameters(1)))
     free = emitted(setting, [path([(50, 53), (60, 53)])])
     kept = emitted(clamped, [path([(50, 53), (60, 53)])])
     assert free.centre[ways_in(free)][0, 1] > 53 > kept.centre[ways_in(kept)][0, 1]
@@ -170,9 +170,9 @@ def test_a_helix_goes_round_no_tab() -> None:
     assert np.all(moves.centre[ways_in(moves)][:, 1] < 50)
 
 
-def drilled_at(setting: Setting, x: float, y: float, z: float) -> None:
+def drilled_at(setting: OperationContext, x: float, y: float, z: float) -> None:
     """A hole that the tool itself was led down in."""
-    label = Label(0, 1, 600.0, 200.0)
+    label = StrokeLabel(0, 1, 600.0, 200.0)
     for end, purpose in (((x, y, 5.0), Purpose.RAPID), ((x, y, z), Purpose.DRILL), ((x, y, 5.0), Purpose.RAPID)):
         setting.builder.straight(end, purpose, label)
 

@@ -22,8 +22,8 @@ from app.model.operation import Direction, Side
 from app.model.part import Contour
 from app.model.tool import Tool
 from app.operations.compute import compute
-from app.toolpath.leads.contour_path import Path, Paths, headings_at, keep_clear
-from app.toolpath.leads.lead import Around, Run, about_leads, about_overlaps, corners_of, runs
+from app.toolpath.leads.contour_path import ContourPath, ContourPaths, headings_at, keep_clear
+from app.toolpath.leads.lead import LeadContext, PathWithLeads, corners_of, lead_findings, overlap_findings, runs
 from app.toolpath.side import wall_paths
 from tests import plain_distance
 from tests.examples import examples
@@ -33,13 +33,13 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 def runs_of(
     job: Job, lead: Lead = Lead(), taken: list[tuple[float, float]] | None = None
-) -> tuple[tuple[Run, ...], Around]:
+) -> tuple[tuple[PathWithLeads, ...], LeadContext]:
     sheet, tool = sheet_of(job), job.tools[0]
     cut = job.operations[0].cut
     need = tool.radius + cut.stock_to_leave
     level = offset_levels(sheet.primitives, [need], frame=True)[0]
     paths = wall_paths(level, sheet, cut.direction)
-    around = Around(sheet.distances, tool, need, 1.0 if cut.direction is Direction.CLIMB else -1.0, lead)
+    around = LeadContext(sheet.distances, tool, need, 1.0 if cut.direction is Direction.CLIMB else -1.0, lead)
     return runs(paths, [taken or [] for _ in paths], around), around
 
 
@@ -109,7 +109,7 @@ def test_leads_keep_off_clamps_on_both_sides_of_the_wall() -> None:
 
 
 def test_where_a_quarter_arc_does_not_fit_it_is_smaller_then_straight_then_left_out() -> None:
-    def only(contours: list[Contour], lead: Lead) -> Run:
+    def only(contours: list[Contour], lead: Lead) -> PathWithLeads:
         return runs_of(contour_job(contours), lead)[0][0]
 
     assert only([circle(2.2)], Lead()).share == 0.25 and only([circle(2.2)], Lead()).bent  # in a path of 0.7 mm
@@ -124,15 +124,15 @@ def test_where_a_quarter_arc_does_not_fit_it_is_smaller_then_straight_then_left_
 
 def test_what_does_not_fit_is_told_once() -> None:
     made, around = runs_of(contour_job([circle(1.51), circle(1.51, 20, 0), circle(2.2, 40, 0), square(40, 60, 0)]))
-    (finding,) = about_leads(made, around)
+    (finding,) = lead_findings(made, around)
     assert (
         "Of 4 paths" in finding.text
         and " 1 has smaller" in finding.text
         and "2 have no leads" in finding.text
         and not finding.counts
     )
-    assert about_leads(made[3:], around) == []
-    assert about_leads(made, replace(around, lead=Lead(LeadKind.NONE))) == []
+    assert lead_findings(made[3:], around) == []
+    assert lead_findings(made, replace(around, lead=Lead(LeadKind.NONE))) == []
 
 
 @pytest.mark.parametrize("kind", [LeadKind.ARC, LeadKind.LINE])
@@ -151,13 +151,13 @@ def test_leads_of_any_length_fit_outside_where_no_wall_or_clamp_is(kind: LeadKin
 
 def test_an_overlap_longer_than_half_the_path_is_told() -> None:
     made, around = runs_of(contour_job([circle(2.5), square(40, 20, 0)]), Lead(overlap=4.0))
-    (finding,) = about_overlaps(made, around)
+    (finding,) = overlap_findings(made, around)
     assert (
         "Of 2 paths" in finding.text
         and "1 goes on over the beginning by half the length" in finding.text
         and not finding.counts
     )
-    assert about_overlaps(*runs_of(contour_job([circle(2.5)]), Lead(overlap=3.0))) == []
+    assert overlap_findings(*runs_of(contour_job([circle(2.5)]), Lead(overlap=3.0))) == []
     inner = replace(outside(lead=Lead(overlap=4.0)), side=Side.INSIDE)
     assert about(compute(contour_job([circle(2.5)], inner)), "less than the 4 mm asked for")
 
@@ -202,14 +202,14 @@ def test_many_paths_are_cut_as_each_alone_is() -> None:
     rings = [
         ring.rows for part in (fig2(), [circle(6, 80, 5)]) for ring in offset_levels(pack(nest(part)), [1.0])[0].rings
     ]
-    paths = [Path(rows, True) for rows in rings] + [Path(rows[:-1], False) for rows in rings]
+    paths = [ContourPath(rows, True) for rows in rings] + [ContourPath(rows[:-1], False) for rows in rings]
     lengths_ = [path.length for path in paths]
     start = np.array([share * long for share, long in zip([0.0, 0.3, 0.9] * len(paths), lengths_, strict=False)])
     stop = np.array(
         [at + long + 0.5 if path.closed else long for path, at, long in zip(paths, start, lengths_, strict=True)]
     )
     breaks = [np.array([0.2, 0.7]) * long if k % 2 else np.zeros(0) for k, long in enumerate(lengths_)]
-    found, middle = Paths.of(paths).spans(start, stop, breaks)
+    found, middle = ContourPaths.of(paths).spans(start, stop, breaks)
     for k, path in enumerate(paths):
         rows, where = path.span(float(start[k]), float(stop[k]), breaks[k])
         mine = slice(*found.first[k : k + 2].tolist())

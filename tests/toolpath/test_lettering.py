@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import pytest
 
-from app.geometry.lettering import engraving
+from app.geometry.stroke_font import engraving
 from app.model.curves import Arc, Circle
 from app.model.finding import FindingKind
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Operation, PocketOperation, Side
+from app.model.operation import ContourOperation, CutParameters, Operation, PocketOperation, Side
 from app.model.part import Entity, Part
 from app.model.tool import Tool
-from app.operations.compute import about_drawing, compute, followed_lines, machined
-from app.toolpath.drawn import drawn
-from app.toolpath.lettering import strokes_of
+from app.operations.compute import compute, drawing_findings, followed_lines, machined_regions
+from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.text_strokes import strokes_of
 
 PLATE = Circle((5.0, 7.0), 60.0)
 
@@ -30,21 +30,23 @@ def test_no_letter_changes_what_is_cleared(letters: str) -> None:
     """Letters close, cross and meet in threes, and all the same the plate is whole; one remark says that nobody follows
     them.
     """
-    written, plain = (job(words, PocketOperation(Cut(1))) for words in (letters, ""))
-    parts = drawn(written)
-    assert machined(parts).regions == machined(drawn(plain)).regions
-    (found,) = about_drawing(written, parts, followed_lines(written, parts))
+    written, plain = (job(words, PocketOperation(CutParameters(1))) for words in (letters, ""))
+    parts = drawn_contours(written)
+    assert machined_regions(parts).regions == machined_regions(drawn_contours(plain)).regions
+    (found,) = drawing_findings(written, parts, followed_lines(written, parts))
     assert found.kind is FindingKind.OPEN_CONTOUR and not found.counts
     assert found.text.startswith("Layer 0 has ") and "no operation follows; --side on" in found.text
     assert {e.id for e in written.part.entities if e.lettering} >= set(found.entity_ids)
 
 
 def test_an_operation_on_the_lines_follows_them_all() -> None:
-    written = job("OX", ContourOperation(Cut(2, depth=0.2, stepdown=0.2), Side.ON))
-    parts = drawn(written)
+    written = job("OX", ContourOperation(CutParameters(2, depth=0.2, stepdown=0.2), Side.ON))
+    parts = drawn_contours(written)
     lines = followed_lines(written, parts)
     strokes = sorted(number for line in lines for number in line.entity_ids)
-    assert strokes == [e.id for e in written.part.entities if e.lettering] and not about_drawing(written, parts, lines)
+    assert strokes == [e.id for e in written.part.entities if e.lettering] and not drawing_findings(
+        written, parts, lines
+    )
     program = compute(written)
     low = program.moves.end[:, 2] <= -0.2 + 1e-9
     assert [9.4, 14.0] in program.moves.end[low, :2].round(6).tolist()
@@ -63,9 +65,9 @@ def test_closed_strokes_are_open_lines_that_end_where_they_begin() -> None:
 
 
 def test_letters_on_a_layer_of_clamps_keep_nothing_off() -> None:
-    written = job("O", PocketOperation(Cut(1)))
+    written = job("O", PocketOperation(CutParameters(1)))
     part = replace(
         written.part, entities=tuple(replace(e, layer="clamps") if e.lettering else e for e in written.part.entities)
     )
     part = replace(part, layers=(*part.layers, replace(part.layers[0], name="clamps")))
-    assert drawn(replace(written, part=part, keep_out_layers=("clamps",), keep_out_height=5.0)).clamps == ()
+    assert drawn_contours(replace(written, part=part, keep_out_layers=("clamps",), keep_out_height=5.0)).clamps == ()

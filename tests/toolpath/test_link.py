@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from app.core import tolerances
 from app.geometry.distance import DistanceField
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import lengths, pack, points_at, signed_area
 from app.geometry.region import nest, polygon_contour
@@ -18,7 +18,7 @@ from app.model.operation import Direction
 from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke, started_at
-from app.toolpath.linking.link import Manner, link
+from app.toolpath.linking.link import LinkOptions, link
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
@@ -30,20 +30,20 @@ def pocket(
     step: float,
     direction: Direction = Direction.CLIMB,
     crossing: bool = False,
-) -> tuple[tuple[Level, ...], tuple[Stroke, ...]]:
+) -> tuple[tuple[OffsetLevel, ...], tuple[Stroke, ...]]:
     primitives = pack(nest(without_crossings(contours).contours if crossing else contours))
     field = DistanceField.of(primitives.rows)
     distances = pocket_distances(outermost, step, field)
     levels = without_empty(offset_levels(primitives, distances))
-    return levels, link(levels, field, Manner(direction))
+    return levels, link(levels, field, LinkOptions(direction))
 
 
-def areas_of_tool_centre(levels: tuple[Level, ...]) -> int:
+def areas_of_tool_centre(levels: tuple[OffsetLevel, ...]) -> int:
     """Connected areas = rings of the outermost level that turn left."""
     return sum(ring.area > 0 for ring in levels[0].rings) if levels else 0
 
 
-def check(levels: tuple[Level, ...], strokes: tuple[Stroke, ...], contours: list[Contour]) -> None:
+def check(levels: tuple[OffsetLevel, ...], strokes: tuple[Stroke, ...], contours: list[Contour]) -> None:
     assert len(strokes) == areas_of_tool_centre(levels)
     cut = sum(float(lengths(s.rows[s.purpose == Purpose.POCKET]).sum()) for s in strokes)
     rings = sum(float(lengths(ring.rows).sum()) for level in levels for ring in level.rings)

@@ -21,11 +21,11 @@ from app.model.moves import Purpose
 from app.model.operation import Direction
 from app.model.part import Region
 from app.operations.compute import regions_of
-from app.operations.pocket.paths import Cleared, Wanted, shortest
+from app.operations.pocket.paths import PocketStrokes, PocketTarget, shortest
 from app.toolpath.coverage.uncut import uncut
-from app.toolpath.linking.link import Manner
+from app.toolpath.linking.link import LinkOptions
 from app.toolpath.linking.slant import covers
-from app.toolpath.sheets import Sheet
+from app.toolpath.machining_areas import MachiningArea
 from tests import plain_distance
 from tests.conftest import ROOT
 from tests.examples import examples
@@ -34,19 +34,23 @@ from tests.part_shapes import fig2, random_part
 R = 1.0
 
 
-def cleared(regions: tuple[Region, ...], stepover: float, manner: Manner | None = None) -> tuple[Cleared, Sheet]:
+def cleared(
+    regions: tuple[Region, ...], stepover: float, manner: LinkOptions | None = None
+) -> tuple[PocketStrokes, MachiningArea]:
     primitives = pack(regions)
-    sheet = Sheet(regions, primitives, DistanceField.of(primitives.rows), np.zeros(len(primitives.rows), np.bool_))
-    return shortest(sheet, Wanted(1.5 * R, R, manner or Manner()), (stepover,)), sheet
+    sheet = MachiningArea(
+        regions, primitives, DistanceField.of(primitives.rows), np.zeros(len(primitives.rows), np.bool_)
+    )
+    return shortest(sheet, PocketTarget(1.5 * R, R, manner or LinkOptions()), (stepover,)), sheet
 
 
-def nothing_left(made: Cleared, sheet: Sheet) -> bool:
+def nothing_left(made: PocketStrokes, sheet: MachiningArea) -> bool:
     (frame,) = offset_levels(sheet.primitives, [1.5 * R], frame=True)
     left = uncut(sheet.distances, frame, R, [(stroke.rows, R) for stroke in made.strokes])
     return not left.sure.any()
 
 
-def rings(made: Cleared) -> float:
+def rings(made: PocketStrokes) -> float:
     return sum(ring.length for level in made.levels for ring in level.rings)
 
 
@@ -66,7 +70,7 @@ def test_random_parts(seed: int, direction: Direction, outside_in: bool) -> None
     contours, crossing = random_part(seed)
     contours = list(without_crossings(contours).contours) if crossing else contours
     stepover = float(np.random.default_rng(seed).uniform(0.4, 1.0))
-    made, sheet = cleared(nest(contours), stepover, Manner(direction, outside_in))
+    made, sheet = cleared(nest(contours), stepover, LinkOptions(direction, outside_in))
     if not made.levels:
         return
     assert nothing_left(made, sheet)

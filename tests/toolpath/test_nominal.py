@@ -11,14 +11,14 @@ from app.core.tolerances import NOMINAL
 from app.model.finding import FindingKind
 from app.model.operation import Side
 from app.usecases.bitmap_options import BitmapOptions, BitmapSize
-from app.usecases.machining import Machining
-from app.usecases.make import Made, make
+from app.usecases.machining import MachiningOptions
+from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
 
 WIDTH = 3.175
 
 
-def made_with(text: str, diameter: float = WIDTH) -> Made:
+def made_with(text: str, diameter: float = WIDTH) -> MakeResult:
     return make("words.draw", text.encode(), MakeOptions(pocket_diameter=diameter, contour_diameter=diameter))
 
 
@@ -48,7 +48,7 @@ def slot(angle: float, off: float = 0.0) -> str:
     return f"line {a} {b}\narc {b} {c} {d}\nline {d} {e}\narc {e} {f} {a}\n"
 
 
-def assert_cleared(made: Made) -> None:
+def assert_cleared(made: MakeResult) -> None:
     assert made.coverage.reachable_left_mm2 == 0
     assert made.coverage.unreachable_mm2 < 0.01
     assert made.clean, [finding.text for finding in made.findings if finding.counts]
@@ -97,7 +97,7 @@ def test_a_bay_as_wide_as_its_tool_is_entered(side: Side, angle: float, off: flo
     end = 20 + (deep if side is Side.INSIDE else -deep) + (half if side is Side.INSIDE else -half)
     bay = [(0, 0), (20, 0), (20, 10 - half), (end, 10 - half), (end, 10 + half), (20, 10 + half), (20, 20), (0, 20)]
     pocket = WIDTH if side is Side.INSIDE else None
-    options = MakeOptions(pocket_diameter=pocket, contour_diameter=WIDTH, machining=Machining.of(side=side))
+    options = MakeOptions(pocket_diameter=pocket, contour_diameter=WIDTH, machining=MachiningOptions.of(side=side))
     made = make("words.draw", outline(angle, bay, off).encode(), options)
     corners = 6 if side is Side.INSIDE else 2
     assert made.coverage.reachable_left_mm2 == 0
@@ -110,7 +110,7 @@ def test_a_line_as_far_from_a_clamp_as_its_tool_is_wide_is_cut(angle: float, off
     half = WIDTH / 2
     clamp = outline(angle, [(10, half), (30, half), (30, 20), (10, 20)], off)
     text = f"layer clamps\n{clamp}layer 0\nline {turned(angle, 0, 0, off)} {turned(angle, 40, 0, off)}\n"
-    machining = Machining.of(side=Side.ON, keep_out=("clamps",), keep_out_height=5.0)
+    machining = MachiningOptions.of(side=Side.ON, keep_out=("clamps",), keep_out_height=5.0)
     made = make("words.draw", text.encode(), MakeOptions(contour_diameter=WIDTH, machining=machining))
     assert not [finding.text for finding in made.findings if "cuts" in finding.text]
     assert made.clean, [finding.text for finding in made.findings if finding.counts]
@@ -138,7 +138,7 @@ def test_a_tool_that_is_wider_by_more_does_not_fit() -> None:
     assert [finding for finding in made.findings if "too small" in finding.text]
 
 
-def narrow_words(made: Made) -> list[str]:
+def narrow_words(made: MakeResult) -> list[str]:
     return [
         finding.text
         for finding in made.findings

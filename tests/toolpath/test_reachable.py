@@ -6,12 +6,12 @@ import pytest
 from app.geometry.region import polygon_contour
 from app.model.curves import Point
 from app.model.job import Job
-from app.model.operation import Cut, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.part import Entity, Part, Region
 from app.model.tool import Tool
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import measure
-from app.toolpath.coverage.reachable import Cutter, Fields, reached
+from app.toolpath.coverage.reachable import CutterInArea, Fields, reached
 
 
 def slot(width: float) -> tuple[Region, ...]:
@@ -23,18 +23,18 @@ SLOTS = [(6.0, True), (5.9999995, True), (5.99902, True), (5.9985, False), (5.99
 
 @pytest.mark.parametrize(("width", "fits"), SLOTS)
 def test_a_slot_is_reached_only_where_the_cutter_fits(width: float, fits: bool) -> None:
-    cutter = Cutter(slot(width), 3.0, 3.0)
+    cutter = CutterInArea(slot(width), 3.0, 3.0)
     assert reached(np.array([[15.0, width / 2]]), [cutter], Fields(), 1.0) is fits
 
 
 @pytest.mark.parametrize(("width", "counts"), [(6.0, False), (6.0015, False), (6.0021, True)])
 def test_a_sliver_counts_where_a_cutter_with_a_micrometre_to_spare_reaches_it(width: float, counts: bool) -> None:
-    cutter = Cutter(slot(width), 3.0, 3.0)
+    cutter = CutterInArea(slot(width), 3.0, 3.0)
     assert reached(np.array([[15.0, width / 2]]), [cutter], Fields(), 0.05) is counts
 
 
 def test_a_corner_is_out_of_reach_and_what_lies_beside_it_is_not() -> None:
-    cutter, fields = Cutter(slot(20.0), 3.0, 3.0), Fields()
+    cutter, fields = CutterInArea(slot(20.0), 3.0, 3.0), Fields()
     assert not reached(np.array([[0.5, 0.5]]), [cutter], fields, 1.0)
     assert reached(np.array([[0.5, 0.5], [1.0, 1.0]]), [cutter], fields, 1.0)
     assert not reached(np.array([[-1.0, 10.0]]), [cutter], fields, 1.0)
@@ -46,7 +46,7 @@ def test_points_asked_together_are_reached_where_one_of_them_is() -> None:
         regions = (*slot(5.5), Region(2, polygon_contour([(100, 90), (130, 90), (130, 90 + width), (100, 90 + width)])))
         points = np.array([[15.0, 2.75], [115.0, 90.0], [2.0, 2.0]])
         for some in (points, points[::-1]):
-            assert reached(some, [Cutter(regions, 3.0, 3.0)], Fields(), 1.0) is fits
+            assert reached(some, [CutterInArea(regions, 3.0, 3.0)], Fields(), 1.0) is fits
 
 
 def two_rooms(width: float) -> list[Point]:
@@ -72,7 +72,7 @@ def two_rooms(width: float) -> list[Point]:
 def test_a_passage_too_narrow_by_micrometres_is_not_said_to_be_left_within_reach(width: float) -> None:
     lines = polygon_contour(two_rooms(width)).primitives
     part = Part().with_entities(tuple(Entity(k, line) for k, line in enumerate(lines, 1)))
-    job = Job(part, (Tool(1, 6.0),), (PocketOperation(Cut(1)),))
+    job = Job(part, (Tool(1, 6.0),), (PocketOperation(CutParameters(1)),))
     found = measure(compute(job), job)
     assert found.reachable_left_mm2 == 0
     assert found.unreachable_mm2 > 100  # the passage

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from app.core import tolerances
 from app.geometry.distance import DistanceField
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import Primitives, Rows, lengths, pack, points_at, sample, within_half_turn
 from app.geometry.region import nest, polygon_contour
@@ -24,8 +24,8 @@ from app.toolpath.coverage.uncut import uncut
 from app.toolpath.coverage.uncut_kernels import widest
 from app.toolpath.linking import runs_kernels
 from app.toolpath.linking.bridge import RingField
-from app.toolpath.linking.link import Manner, link
-from app.toolpath.linking.runs import NOTHING, Filling, between, fill, gaps_of
+from app.toolpath.linking.link import LinkOptions, link
+from app.toolpath.linking.runs import NOTHING, GapFilling, between, fill, gaps_of
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, fig2, random_part, square
@@ -33,7 +33,7 @@ from tests.part_shapes import circle, fig2, random_part, square
 
 def rings(
     primitives: Primitives, first: float, stepover: float, radius: float
-) -> tuple[tuple[Level, ...], tuple[Level, ...]]:
+) -> tuple[tuple[OffsetLevel, ...], tuple[OffsetLevel, ...]]:
     """(levels, levels between them)."""
     distances = pocket_distances(first, stepover, DistanceField.of(primitives.rows))
     halves = between(distances, stepover, radius)
@@ -45,7 +45,7 @@ def rings(
 
 def filled(
     contours: list[Contour], first: float, stepover: float, radius: float
-) -> tuple[tuple[Level, ...], Filling, DistanceField]:
+) -> tuple[tuple[OffsetLevel, ...], GapFilling, DistanceField]:
     primitives = pack(nest(without_crossings(contours).contours))
     field = DistanceField.of(primitives.rows)
     levels, halves = rings(primitives, first, stepover, radius)
@@ -53,7 +53,7 @@ def filled(
 
 
 def left_by_squares(
-    levels: tuple[Level, ...], strokes: tuple[Stroke, ...], field: DistanceField, radius: float
+    levels: tuple[OffsetLevel, ...], strokes: tuple[Stroke, ...], field: DistanceField, radius: float
 ) -> float:
     """Area whose squares' centres are farther than 2 um beyond what the strokes sweep, mm2."""
     left = uncut(field, levels[0], radius, [(stroke.rows, radius) for stroke in strokes]).thicker(2e-6)
@@ -93,7 +93,7 @@ def test_runs_lie_between_two_rings_and_near_enough_to_the_inner_one(stepover: f
 def test_the_corners_of_a_square_get_spurs_of_the_length_that_theory_says() -> None:
     """At s = 2R the ring's corner is sqrt(2) R from the uncut tip, so a spur goes (sqrt(2) - 1) R there, and back."""
     levels, filling, _ = filled([square(40)], 1.0, 2.0, 1.0)
-    corners = [trip for trip in filling.trips if trip.length < 1.5]
+    corners = [trip for trip in filling.detours if trip.length < 1.5]
     assert len(corners) == 4 * (len(levels) - 2)  # the innermost ones are too near to one another to be told apart
     needed = 2 * (math.sqrt(2) - 1)
     assert all(needed <= trip.length <= needed + 0.1 for trip in corners)
@@ -102,7 +102,7 @@ def test_the_corners_of_a_square_get_spurs_of_the_length_that_theory_says() -> N
 def test_a_round_pocket_needs_no_runs_but_in_its_middle() -> None:
     levels, filling, _ = filled([circle(20)], 1.0, 1.8, 1.0)
     middle = 20 - levels[-1].distance
-    assert len(filling.trips) + sum(len(half.rings) for half in filling.halves) == (1 if middle > 1 else 0)
+    assert len(filling.detours) + sum(len(half.rings) for half in filling.halves) == (1 if middle > 1 else 0)
 
 
 def test_parallel_rings_as_far_apart_as_the_tool_is_wide_leave_nothing_between() -> None:
@@ -118,7 +118,7 @@ def test_a_corridor_without_a_ring_is_run_along_on_the_way_round() -> None:
     right = [(20, 0), (20, 7), (45, 7), (45, 0), (65, 0)]
     bone = [polygon_contour([(0, 0), *right, (65, 20), (45, 20), (45, 12.2), (20, 12.2), (20, 20), (0, 20)])]
     levels, filling, field = filled(bone, 1.0, 1.9, 1.0)
-    strokes = link(levels, field, Manner(), filling)
+    strokes = link(levels, field, LinkOptions(), filling)
     assert len(strokes) == 1
     assert left_by_squares(levels, strokes, field, 1.0) == 0
     assert filling.length < 2.5 * 25 + 0.05 * sum(ring.length for level in levels for ring in level.rings)
@@ -127,7 +127,7 @@ def test_a_corridor_without_a_ring_is_run_along_on_the_way_round() -> None:
 @pytest.mark.parametrize("share", [1.01, 1.2, 1.4, 1.7, 1.9, 2.0])
 def test_fig2_is_covered_at_any_stepover(share: float) -> None:
     levels, filling, field = filled(fig2(), 3.0, 2 * share, 2.0)
-    strokes = link(levels, field, Manner(), filling)
+    strokes = link(levels, field, LinkOptions(), filling)
     assert len(strokes) == 2
     assert left_by_squares(levels, strokes, field, 2.0) == 0
     assert left_by_polygons(fig2(), 3.0, strokes, 2.0) == 0
@@ -136,7 +136,7 @@ def test_fig2_is_covered_at_any_stepover(share: float) -> None:
 def test_a_tip_between_two_corners_of_inner_rings_is_not_forgotten() -> None:
     """Uncut places end where the swaths round two corners meet, too, and not only on the level along which runs go."""
     levels, filling, field = filled(fig2(), 3.0, 4.8, 3.0)
-    assert left_by_polygons(fig2(), 3.0, link(levels, field, Manner(), filling), 3.0) == 0
+    assert left_by_polygons(fig2(), 3.0, link(levels, field, LinkOptions(), filling), 3.0) == 0
 
 
 @settings(max_examples=examples(8), deadline=None)
@@ -162,7 +162,7 @@ def check_random_part(seed: int, share: float, outside_in: bool) -> None:
     levels, filling, field = filled(contours, first, share * radius, radius)
     if not levels:
         return
-    strokes = link(levels, field, Manner(outside_in=outside_in), filling)
+    strokes = link(levels, field, LinkOptions(outside_in=outside_in), filling)
     assert len(strokes) == sum(ring.area > 0 for ring in levels[0].rings)
     assert left_by_squares(levels, strokes, field, radius) == 0
     assert left_by_polygons(contours, first, strokes, radius) <= 1e-9

@@ -16,15 +16,15 @@ from app.model.curve_selectors import read_selectors
 from app.model.finding import FindingKind
 from app.model.job import Copies, Job
 from app.model.moves import Program
-from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, Side
+from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import measure
 from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.drawn import drawn
-from app.toolpath.selected import about_selected, selected
-from app.toolpath.sheets import Sheets
+from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.machining_areas import MachiningAreas
+from app.toolpath.selected import selected, selection_findings
 from tests.part_shapes import circle, layered_part, square
 
 PLATE = {
@@ -37,8 +37,8 @@ boss of 8 mm in the pocket (#12).
 MILL, DRILL = Tool(1, 2.0), Tool(2, 6.0, ToolKind.DRILL)
 
 
-def cut(*curves: str, tool: int = 1, depth: float = 2.0) -> Cut:
-    return Cut(tool, depth, curves=read_selectors(curves))
+def cut(*curves: str, tool: int = 1, depth: float = 2.0) -> CutParameters:
+    return CutParameters(tool, depth, curves=read_selectors(curves))
 
 
 def job(*operations: Operation, **changes: object) -> Job:
@@ -46,7 +46,7 @@ def job(*operations: Operation, **changes: object) -> Job:
 
 
 def area(operation: Operation, task: Job) -> float:
-    found = Sheets(task, drawn(task)).of(operation)
+    found = MachiningAreas(task, drawn_contours(task)).of(operation)
     return 0.0 if found is None else float(shapely.union_all(region_shapes(found.regions, 1e-4)).area)
 
 
@@ -120,7 +120,7 @@ def test_each_operation_keeps_to_its_own_curves_and_is_judged_by_them() -> None:
 )
 def test_a_selector_that_finds_nothing_says_what_is_there(operation: Operation, text: str) -> None:
     task = job(operation)
-    (finding,) = about_selected(task, drawn(task))
+    (finding,) = selection_findings(task, drawn_contours(task))
     assert finding.counts and finding.kind is FindingKind.LEFT_OUT and finding.text.endswith(text)
     assert text in " ".join(each.text for each in compute(task).findings)
 
@@ -129,9 +129,11 @@ def test_a_curve_that_is_open_cannot_be_a_pocket_and_is_told() -> None:
     document = Document()
     document.run("line 0,0 50,0; circle 20,20 5")
     task = Job(document.part, (MILL,), (PocketOperation(cut("#1")),))
-    (finding,) = about_selected(task, drawn(task))
+    (finding,) = selection_findings(task, drawn_contours(task))
     assert "asks for #1, which is open, beginning at (0.000, 0.000): close it" in finding.text
-    assert not about_selected(replace(task, operations=(ContourOperation(cut("#1"), Side.ON),)), drawn(task))
+    assert not selection_findings(
+        replace(task, operations=(ContourOperation(cut("#1"), Side.ON),)), drawn_contours(task)
+    )
 
 
 def test_named_circles_that_a_drill_does_not_drill_count() -> None:
@@ -148,7 +150,8 @@ def test_a_number_stays_with_its_curve_through_edits_and_undo() -> None:
     def radius() -> list[float]:
         task = Job(document.part)
         return [
-            round(math.sqrt(abs(each.primitives[0].radius ** 2)), 6) for each in selected(drawn(task), curves).closed
+            round(math.sqrt(abs(each.primitives[0].radius ** 2)), 6)
+            for each in selected(drawn_contours(task), curves).closed
         ]  # type: ignore[union-attr]
 
     assert radius() == [6.0]

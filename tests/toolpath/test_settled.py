@@ -64,7 +64,7 @@ def test_circles_are_settled_and_leave_nothing() -> None:
     area = one_floor(program, job)
     assert area is not None
     quick, slow = _both(program, job)
-    (wanted,) = quick.wanted
+    (wanted,) = quick.targets
     assert wanted.floor is wanted.reach and wanted.out_of_reach is not None and wanted.beyond.is_empty
     assert quick.places == slow.places == ()
     assert quick.area_mm2 == pytest.approx(slow.area_mm2, abs=1e-9) and quick.area_mm2 == pytest.approx(
@@ -80,7 +80,7 @@ def test_corners_beside_settled_circles_are_told_as_before() -> None:
     assert quick.unreachable_mm2 == pytest.approx(4 - np.pi, rel=0.05)
     assert quick.unreachable_mm2 == pytest.approx(slow.unreachable_mm2, abs=1e-9)
     assert quick.reachable_left_mm2 == 0
-    assert quick.wanted[0].floor.area == pytest.approx(slow.area_mm2, abs=1e-9)
+    assert quick.targets[0].floor.area == pytest.approx(slow.area_mm2, abs=1e-9)
 
 
 def test_of_a_plate_only_what_is_round_open_squares_is_asked() -> None:
@@ -91,7 +91,7 @@ def test_of_a_plate_only_what_is_round_open_squares_is_asked() -> None:
     assert quick.unreachable_mm2 == pytest.approx(slow.unreachable_mm2, rel=1e-3)
     assert quick.unreachable_mm2 == pytest.approx(6 * (1 - np.pi / 4), rel=0.05)
     assert quick.area_mm2 == pytest.approx(slow.area_mm2, abs=1e-6)
-    (wanted,) = quick.wanted
+    (wanted,) = quick.targets
     assert wanted.out_of_reach is not None
     assert wanted.out_of_reach.area == pytest.approx(quick.unreachable_mm2, rel=0.05)
 
@@ -120,7 +120,7 @@ def test_a_circle_without_its_paths_is_left() -> None:
 def test_moves_that_are_not_known_to_be_clear_settle_nothing() -> None:
     program, job = _job(corners=False)
     none = measure_beside_clear(program, job, np.zeros(len(program.moves), np.bool_))
-    assert none.wanted[0].out_of_reach is None
+    assert none.targets[0].out_of_reach is None
     assert settled(program, job, [], NO_PROGRESS) is None
 
 

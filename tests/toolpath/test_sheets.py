@@ -12,23 +12,31 @@ from app.geometry.overlay.overlay import without_outlines
 from app.geometry.region import nest, polygon_contour
 from app.model.curve_selectors import on_layers
 from app.model.job import Copies, Job
-from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from app.model.operation import (
+    ContourOperation,
+    CutParameters,
+    DrillOperation,
+    Operation,
+    PocketOperation,
+    RestOperation,
+    Side,
+)
 from app.model.part import Contour, Region
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.drawn import drawn
-from app.toolpath.sheets import Sheet, Sheets
+from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.machining_areas import MachiningArea, MachiningAreas
 from tests.part_shapes import circle, layered_part, random_part, square
 
-INSIDE, OUTSIDE, ON = (ContourOperation(Cut(2), side) for side in Side)
+INSIDE, OUTSIDE, ON = (ContourOperation(CutParameters(2), side) for side in Side)
 
 
-def sheets(layers: dict[str, list[Contour]], *operations: Operation, **changes: object) -> Sheets:
+def sheets(layers: dict[str, list[Contour]], *operations: Operation, **changes: object) -> MachiningAreas:
     job = replace(Job(layered_part(layers), operations=operations), **changes)  # type: ignore[arg-type]
-    return Sheets(job, drawn(job))
+    return MachiningAreas(job, drawn_contours(job))
 
 
-def sheet(layers: dict[str, list[Contour]], operation: Operation, **changes: object) -> Sheet:
+def sheet(layers: dict[str, list[Contour]], operation: Operation, **changes: object) -> MachiningArea:
     found = sheets(layers, operation, **changes).of(operation)
     assert found is not None
     return found
@@ -60,7 +68,7 @@ def test_sides() -> None:
     assert shapely.symmetric_difference(shape(outside.regions), shapely.difference(frame, area)).area < 0.05
     assert int(outside.bare.sum()) == 4
     on = sheet({"a": PLATE}, ON)
-    assert on.lines == tuple(drawn(Job(layered_part({"a": PLATE}))).closed)
+    assert on.lines == tuple(drawn_contours(Job(layered_part({"a": PLATE}))).closed)
     assert shape(on.regions).area == pytest.approx(84**2)
     assert on.bare.all()
 
@@ -99,7 +107,7 @@ def test_random_parts_under_random_clamps(seed: int) -> None:
             else square(size * rng.uniform(0.05, 0.3), x, y)
         )
     job = Job(layered_part({"a": contours, "k": clamps}), operations=(INSIDE,), keep_out_layers=("k",))
-    made = Sheets(job, drawn(job)).of(INSIDE)
+    made = MachiningAreas(job, drawn_contours(job)).of(INSIDE)
     wanted = shapely.difference(polygon(contours), shapely.union_all([polygon([clamp]) for clamp in clamps]))
     found = shape(made.regions) if made is not None else shapely.Polygon()
     assert shapely.symmetric_difference(found, wanted).area < 1e-4 * size**2
@@ -134,10 +142,10 @@ def test_a_region_wholly_under_a_clamp_is_none() -> None:
 def test_operations_machine_their_own_layers() -> None:
     layers = {"a": [square(60)], "b": [circle(5, 20, 20)]}
     inner, outer = (
-        PocketOperation(Cut(1, curves=on_layers(("b",)))),
-        ContourOperation(Cut(2, curves=on_layers(("a",))), Side.OUTSIDE),
+        PocketOperation(CutParameters(1, curves=on_layers(("b",)))),
+        ContourOperation(CutParameters(2, curves=on_layers(("a",))), Side.OUTSIDE),
     )
-    made = sheets(layers, inner, outer, RestOperation(Cut(2)), INSIDE)
+    made = sheets(layers, inner, outer, RestOperation(CutParameters(2)), INSIDE)
     small, beyond, rest, walls = made.areas()
     assert shape(small.regions).area == pytest.approx(np.pi * 25, rel=1e-4)
     assert (small.whole, beyond.whole, rest.whole, walls.whole) == (True, False, True, False)
@@ -160,7 +168,7 @@ def test_copies_that_lie_over_one_another_count_even_odd() -> None:
 
 
 def test_a_drill_stays_in_its_circles() -> None:
-    operation = DrillOperation(Cut(3))
+    operation = DrillOperation(CutParameters(3))
     tools = (Tool(1, 6.0), Tool(2, 3.0), Tool(3, 5.08))
     layers = {"a": [square(60), circle(2.5, 10, 10), circle(2.56, 30, 10), circle(8, 40, 40)]}
     (area,) = sheets(layers, operation, tools=tools).areas()
@@ -174,7 +182,7 @@ def test_a_drill_stays_in_its_circles() -> None:
 
 def test_clamps_keep_the_area_apart_where_they_cut_it() -> None:
     bar = polygon_contour([(0, 0), (100, 0), (100, 10), (0, 10)])
-    (clamp,) = drawn(
+    (clamp,) = drawn_contours(
         Job(layered_part({"k": [square(20, 40, -5)], "a": []}), operations=(), keep_out_layers=("k",))
     ).clamps
     regions = nest(without_outlines([bar], [clamp.boundary]).contours)

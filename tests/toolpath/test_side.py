@@ -12,16 +12,16 @@ import shapely
 from app.geometry.offset.offset import offset_levels
 from app.geometry.primitives import contour_rows, points_at, sample, signed_area
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Direction, Side
+from app.model.operation import ContourOperation, CutParameters, Direction, Side
 from app.model.part import Contour
-from app.toolpath.leads.contour_path import Path, headings_at, left_of
+from app.toolpath.leads.contour_path import ContourPath, headings_at, left_of
 from app.toolpath.side import ranks, wall_paths
 from tests import plain_distance
 from tests.operations.contour_jobs import contour_job, outside, polygon, sheet_of
 from tests.part_shapes import circle, fig2, random_part, square
 
 
-def paths_of(job: Job, distance: float, direction: Direction = Direction.CLIMB) -> tuple[Path, ...]:
+def paths_of(job: Job, distance: float, direction: Direction = Direction.CLIMB) -> tuple[ContourPath, ...]:
     sheet = sheet_of(job)
     return wall_paths(offset_levels(sheet.primitives, [distance], frame=True)[0], sheet, direction)
 
@@ -37,7 +37,7 @@ def test_round_a_square_the_path_is_its_offset_with_round_corners() -> None:
 def test_climb_milling_has_the_metal_that_stays_on_the_right(side: Side, direction: Direction) -> None:
     contours = [square(40), circle(8, 20, 20)]
     plate = shapely.difference(polygon(contours[0]), polygon(contours[1]))
-    for path in paths_of(contour_job(contours, ContourOperation(Cut(2), side)), 1.5, direction):
+    for path in paths_of(contour_job(contours, ContourOperation(CutParameters(2), side)), 1.5, direction):
         middle = points_at(path.rows, np.full(len(path.rows), 0.5))
         aside = left_of(headings_at(path.rows, np.full(len(path.rows), 0.5))) * (
             1 if direction is Direction.CLIMB else -1

@@ -15,7 +15,7 @@ from app.model.curves import Line, Primitive
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
 from app.model.job import Copies, Job
 from app.model.moves import Program, Purpose
-from app.model.operation import ContourOperation, Cut, Side
+from app.model.operation import ContourOperation, CutParameters, Side
 from app.model.part import Contour
 from app.operations.compute import compute
 from tests import plain_distance
@@ -27,7 +27,7 @@ PLUNGE = Entry(EntryKind.PLUNGE)
 
 
 def job_with(tabs: Tabs, contours: list[Contour] | None = None, depth: float = 4.0, **changes: object) -> Job:
-    operation = replace(outside(tabs=tabs), cut=Cut(2, depth=depth, stepdown=depth, entry=PLUNGE))
+    operation = replace(outside(tabs=tabs), cut=CutParameters(2, depth=depth, stepdown=depth, entry=PLUNGE))
     return contour_job([square(40)] if contours is None else contours, operation, **changes)  # type: ignore[arg-type]
 
 
@@ -91,7 +91,7 @@ def test_short_paths_have_fewer_and_that_is_told() -> None:
 @pytest.mark.parametrize("lead", [Lead(), Lead(LeadKind.NONE)])
 def test_paths_that_clamps_cut_open_are_held_too(lead: Lead) -> None:
     clamps = [square(10, 15, -5)]
-    operation = replace(outside(tabs=Tabs(4), lead=lead), cut=Cut(2, depth=4.0, stepdown=2.0, entry=PLUNGE))
+    operation = replace(outside(tabs=Tabs(4), lead=lead), cut=CutParameters(2, depth=4.0, stepdown=2.0, entry=PLUNGE))
     program = compute(contour_job([square(40)], operation, clamps=clamps))
     assert len(program.tabs) == 4 and not about(program, "tabs") and not about(program, "no tab")
     middles = np.array([(tab.x, tab.y) for tab in program.tabs])
@@ -117,7 +117,7 @@ def test_a_part_that_no_piece_of_its_path_holds_is_told() -> None:
 
 
 def test_lines_that_clamps_cut_open_are_held_piece_by_piece() -> None:
-    operation = ContourOperation(Cut(2, depth=4.0, stepdown=2.0, entry=PLUNGE), Side.ON, tabs=Tabs(3))
+    operation = ContourOperation(CutParameters(2, depth=4.0, stepdown=2.0, entry=PLUNGE), Side.ON, tabs=Tabs(3))
     clamps = [square(10, 15, -5), square(10, 15, 35)]
     program = compute(contour_job([square(40)], operation, clamps=clamps))
     middles = np.array([(tab.x, tab.y) for tab in program.tabs])
@@ -138,7 +138,7 @@ def test_lines_that_clamps_cut_open_are_held_piece_by_piece() -> None:
 
 def test_each_loop_on_the_line_is_held_by_itself() -> None:
     """Two alike, clamps over both; nothing of the one under the larger clamp is long enough for a tab."""
-    operation = ContourOperation(Cut(2, depth=4.0, stepdown=4.0, entry=PLUNGE), Side.ON, tabs=Tabs(2))
+    operation = ContourOperation(CutParameters(2, depth=4.0, stepdown=4.0, entry=PLUNGE), Side.ON, tabs=Tabs(2))
     clamps = [square(10, 15, -5), polygon_contour([(98, -5), (145, -5), (145, 45), (104, 45), (104, 38), (98, 38)])]
     program = compute(contour_job([square(40), square(40, 100, 0)], operation, clamps=clamps))
     assert len(program.tabs) == 2 and max(tab.x for tab in program.tabs) < 45
@@ -148,7 +148,9 @@ def test_each_loop_on_the_line_is_held_by_itself() -> None:
 
 @pytest.mark.parametrize("round_a_part", [True, False])
 def test_a_tab_by_hand_on_a_path_too_short_for_it_is_told(round_a_part: bool) -> None:
-    operation = replace(outside(tabs=Tabs(places=((6.0, 0.0), (60.0, -2.0)), width=40.0)), cut=Cut(2, entry=PLUNGE))
+    operation = replace(
+        outside(tabs=Tabs(places=((6.0, 0.0), (60.0, -2.0)), width=40.0)), cut=CutParameters(2, entry=PLUNGE)
+    )
     if not round_a_part:
         operation = replace(operation, side=Side.INSIDE)
     program = compute(contour_job([circle(5), square(40, 40, 0)], operation))
@@ -182,7 +184,7 @@ def test_leads_and_overlap_keep_off_tabs() -> None:
 
 
 def test_each_depth_pass_goes_over_the_tabs() -> None:
-    operation = replace(outside(tabs=Tabs(4, height=1.0)), cut=Cut(2, depth=6.0, stepdown=2.0, entry=PLUNGE))
+    operation = replace(outside(tabs=Tabs(4, height=1.0)), cut=CutParameters(2, depth=6.0, stepdown=2.0, entry=PLUNGE))
     moves = compute(contour_job([square(40)], operation)).moves
     over = (moves.purpose == Purpose.TAB) & (np.hypot(*(moves.end - moves.start)[:, :2].T) > 0)
     assert sorted(set(moves.end[over, 2].round(6))) == [-5, -4, -2]
@@ -191,7 +193,9 @@ def test_each_depth_pass_goes_over_the_tabs() -> None:
 @settings(max_examples=examples(8), deadline=None)
 @given(st.integers(1, 12), st.floats(0.5, 12), st.floats(0.5, 8), st.sampled_from([LeadKind.ARC, LeadKind.NONE]))
 def test_no_cut_at_the_floor_comes_into_a_tab(count: int, width: float, diameter: float, kind: LeadKind) -> None:
-    operation = replace(outside(tabs=Tabs(count, width=width), lead=Lead(kind)), cut=Cut(2, 4.0, 4.0, entry=PLUNGE))
+    operation = replace(
+        outside(tabs=Tabs(count, width=width), lead=Lead(kind)), cut=CutParameters(2, 4.0, 4.0, entry=PLUNGE)
+    )
     program = compute(contour_job(fig2()[::2], operation, diameter))
     moves = program.moves
     deep = (moves.end[:, 2] < -3.9) & (moves.start[:, 2] < -3.9) & (moves.purpose == Purpose.CONTOUR)

@@ -26,7 +26,7 @@ from app.operations.compute import regions_of
 from app.operations.contour.paths import contour_strokes
 from app.operations.pocket.paths import pocket_distances, without_empty
 from app.toolpath.build import Stroke
-from app.toolpath.linking.link import Manner, link
+from app.toolpath.linking.link import LinkOptions, link
 from app.toolpath.ordering.tour import _Tour, in_short_order
 from tests.examples import examples
 
@@ -235,7 +235,7 @@ def drawn_strokes(path: Path, radius: float) -> tuple[tuple[Stroke, ...], tuple[
     field = DistanceField.of(primitives.rows)
     rings = offset_levels(primitives, [radius], frame=True)[0].rings
     levels = without_empty(offset_levels(primitives, pocket_distances(4 * radius, 3 * radius, field), frame=True))
-    return contour_strokes(rings, Direction.CLIMB), link(levels, field, Manner(Direction.CLIMB))
+    return contour_strokes(rings, Direction.CLIMB), link(levels, field, LinkOptions(Direction.CLIMB))
 
 
 @pytest.mark.parametrize(

@@ -12,33 +12,33 @@ from hypothesis import strategies as st
 from app.core.errors import Cancelled
 from app.core.progress import Progress
 from app.geometry.distance import DistanceField
-from app.geometry.offset.offset import Level, offset_levels
+from app.geometry.offset.offset import OffsetLevel, offset_levels
 from app.geometry.overlay.overlay import without_crossings
 from app.geometry.primitives import Rows, pack
 from app.geometry.region import nest
 from app.model.part import Contour
 from app.operations.pocket.paths import pocket_distances, without_empty
-from app.toolpath.coverage.uncut import Uncut, uncut
+from app.toolpath.coverage.uncut import UncutSquares, uncut
 from tests import plain_distance
 from tests.examples import examples
 from tests.part_shapes import circle, random_part, square
 
 
-def ringed(contours: list[Contour], first: float, step: float) -> tuple[DistanceField, tuple[Level, ...]]:
+def ringed(contours: list[Contour], first: float, step: float) -> tuple[DistanceField, tuple[OffsetLevel, ...]]:
     primitives = pack(nest(without_crossings(contours).contours))
     field = DistanceField.of(primitives.rows)
     return field, without_empty(offset_levels(primitives, pocket_distances(first, step, field), frame=True))
 
 
-def paths(levels: tuple[Level, ...], radius: float) -> list[tuple[Rows, float]]:
+def paths(levels: tuple[OffsetLevel, ...], radius: float) -> list[tuple[Rows, float]]:
     return [(ring.rows, radius) for level in levels for ring in level.rings]
 
 
-def area(left: Uncut) -> float:
+def area(left: UncutSquares) -> float:
     return float((4 * left.halves[left.sure] ** 2).sum())
 
 
-def holds(left: Uncut, points: np.ndarray) -> np.ndarray:
+def holds(left: UncutSquares, points: np.ndarray) -> np.ndarray:
     away = np.abs(points[:, None] - left.centres[None]).max(axis=2)
     held: np.ndarray = (away <= left.halves + 1e-9).any(axis=1)
     return held
@@ -70,7 +70,7 @@ def test_a_smaller_tool_is_told_the_corners_alone() -> None:
 
 
 def test_without_room_for_the_tool_there_is_nothing_to_cut() -> None:
-    assert not uncut(ringed([square(20)], 1.0, 1.0)[0], Level(12.0, ()), 1.0, []).halves.size
+    assert not uncut(ringed([square(20)], 1.0, 1.0)[0], OffsetLevel(12.0, ()), 1.0, []).halves.size
 
 
 def test_it_can_be_stopped() -> None:

@@ -12,19 +12,19 @@ import pytest
 from app.geometry.arcs.bezier import pieces_of
 from app.geometry.arcs.chord_kernels import chords
 from app.geometry.chaining import chain
-from app.geometry.chaining.chain import Chaining
+from app.geometry.chaining.chain import ChainingResult
 from app.geometry.distance import DistanceField
 from app.geometry.outlines import Outlines
-from app.geometry.overlay import net as overlay_net
-from app.geometry.region import Nesting
+from app.geometry.overlay import planar_graph as overlay_net
+from app.geometry.region import NestingResult
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.part import Contour, Entity, Part
 from app.operations import compute
-from app.toolpath import drawn, sheets, witness
-from app.usecases.machining import Machining
-from app.usecases.make import Made, make
+from app.toolpath import drawn_contours, machining_areas, witness
+from app.usecases.machining import MachiningOptions
+from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
 from tests.geometry.meeting_shapes import OFFSETS
 from tests.part_shapes import circle, layered_part, random_part, square
@@ -35,7 +35,7 @@ APART = "rect 0,0 40,30\ncircle 12,15 6\nslot 60,0 90,0 14\n"
 CLAMPED = "layer clamps\ncircle 20,0 8\nlayer 0\nrect 0,0 40,30\nrect 60,0 90,30\n"
 
 
-def made_of(text: str, options: MakeOptions | None = None) -> Made:
+def made_of(text: str, options: MakeOptions | None = None) -> MakeResult:
     return make("words.draw", text.encode(), options or MakeOptions())
 
 
@@ -46,7 +46,7 @@ def lens(r: float, s: float, gap: float) -> float:
     return r * r * (a - math.sin(2 * a) / 2) + s * s * (b - math.sin(2 * b) / 2)
 
 
-def area_of(made: Made) -> float:
+def area_of(made: MakeResult) -> float:
     return float(Outlines.of([contour for region in made.program.regions for contour in region.contours]).areas.sum())
 
 
@@ -116,55 +116,55 @@ def lose_a_loop(patch: pytest.MonkeyPatch) -> None:
 
 
 def lose_a_region(patch: pytest.MonkeyPatch) -> None:
-    def fewer(contours: tuple[Contour, ...]) -> Nesting:
+    def fewer(contours: tuple[Contour, ...]) -> NestingResult:
         found = nested(contours)
         return replace(found, regions=found.regions[:-1])
 
-    nested = sheets.nested
-    patch.setattr(sheets, "nested", fewer)
+    nested = machining_areas.nested
+    patch.setattr(machining_areas, "nested", fewer)
     patch.setattr(compute, "nested", fewer)
 
 
 def fill_an_island(patch: pytest.MonkeyPatch) -> None:
-    def filled(contours: tuple[Contour, ...]) -> Nesting:
+    def filled(contours: tuple[Contour, ...]) -> NestingResult:
         found = nested(contours)
         return replace(found, regions=tuple(replace(region, islands=()) for region in found.regions))
 
-    nested = sheets.nested
-    patch.setattr(sheets, "nested", filled)
+    nested = machining_areas.nested
+    patch.setattr(machining_areas, "nested", filled)
 
 
 def lose_a_contour(patch: pytest.MonkeyPatch) -> None:
-    def fewer(entities: list[Entity], join_tolerance: float) -> Chaining:
+    def fewer(entities: list[Entity], join_tolerance: float) -> ChainingResult:
         found = chain.chain(entities, join_tolerance)
         return replace(found, contours=found.contours[:-1])
 
-    patch.setattr(drawn, "chain", fewer)
+    patch.setattr(drawn_contours, "chain", fewer)
 
 
 def bend_a_contour(patch: pytest.MonkeyPatch) -> None:
-    def smaller(entities: list[Entity], join_tolerance: float) -> Chaining:
+    def smaller(entities: list[Entity], join_tolerance: float) -> ChainingResult:
         first, *rest = (found := chain.chain(entities, join_tolerance)).contours
         curve = first.primitives[0]
         bent = Circle(curve.centre, curve.radius - 0.01) if isinstance(curve, Circle) else Circle((20, 15), 15)
         return replace(found, contours=(replace(first, primitives=(bent,)), *rest))
 
-    patch.setattr(drawn, "chain", smaller)
+    patch.setattr(drawn_contours, "chain", smaller)
 
 
 def move_a_region(patch: pytest.MonkeyPatch) -> None:
     """The same area in another place."""
 
-    def moved(contours: tuple[Contour, ...]) -> Nesting:
+    def moved(contours: tuple[Contour, ...]) -> NestingResult:
         found = nested(contours)
         last = found.regions[-1]
-        primitives = tuple(drawn.moved(each, 0.01, 0.0) for each in last.boundary.primitives)
+        primitives = tuple(drawn_contours.moved(each, 0.01, 0.0) for each in last.boundary.primitives)
         return replace(
             found, regions=(*found.regions[:-1], replace(last, boundary=replace(last.boundary, primitives=primitives)))
         )
 
-    nested = sheets.nested
-    patch.setattr(sheets, "nested", moved)
+    nested = machining_areas.nested
+    patch.setattr(machining_areas, "nested", moved)
 
 
 def lose_a_floor(patch: pytest.MonkeyPatch) -> None:
@@ -186,7 +186,7 @@ LINKS = {
 @pytest.mark.parametrize("link", list(LINKS))
 def test_a_broken_link_turns_the_verdict_red(link: str, monkeypatch: pytest.MonkeyPatch) -> None:
     damage, text = LINKS[link]
-    options = MakeOptions(machining=Machining.of(keep_out=("clamps",))) if text is CLAMPED else MakeOptions()
+    options = MakeOptions(machining=MachiningOptions.of(keep_out=("clamps",))) if text is CLAMPED else MakeOptions()
     assert not [each for each in made_of(text, options).findings if each.kind is FindingKind.AREA]
     damage(monkeypatch)
     broken = made_of(text, options)
@@ -207,11 +207,13 @@ def test_what_chaining_mends_is_no_loss(seed: int) -> None:
     for curve in (curve for contour in contours for curve in contour.primitives):
         dx, dy = rng.uniform(-0.003, 0.003, 2)
         torn = (
-            drawn.moved(curve, float(dx), float(dy)) if not isinstance(curve, Circle) and rng.random() < 0.5 else curve
+            drawn_contours.moved(curve, float(dx), float(dy))
+            if not isinstance(curve, Circle) and rng.random() < 0.5
+            else curve
         )
         curves += [torn] * (2 if rng.random() < 0.1 else 1)
     curves = [curves[k] for k in rng.permutation(len(curves))]
-    found = drawn.drawn(job_of(curves)).findings
+    found = drawn_contours.drawn_contours(job_of(curves)).findings
     assert not [each for each in found if each.kind is FindingKind.AREA]
 
 
@@ -224,7 +226,7 @@ def test_ellipses_and_splines_are_measured_as_they_are() -> None:
         Line((40, 30), (0, 30)),
         Line((0, 30), (0, 0)),
     ]
-    found = drawn.drawn(job_of(curves))
+    found = drawn_contours.drawn_contours(job_of(curves))
     assert len(found.closed) == 2 and not found.findings
     outlines = [curves[:1], curves[1:]]
     measured = [
@@ -237,18 +239,22 @@ def test_ellipses_and_splines_are_measured_as_they_are() -> None:
 def test_arcs_of_one_circle_that_overlap_are_no_loss() -> None:
     ends = [(10.0, 0.0), (0.0, 10.0), (-10.0, 0.0), (0.0, -10.0)]
     curves: list[Curve] = [Arc(ends[0], ends[2], (0, 0)), Arc(ends[1], ends[3], (0, 0)), Arc(ends[3], ends[0], (0, 0))]
-    assert not [each for each in drawn.drawn(job_of(curves)).findings if each.kind is FindingKind.AREA]
+    assert not [
+        each for each in drawn_contours.drawn_contours(job_of(curves)).findings if each.kind is FindingKind.AREA
+    ]
 
 
 @pytest.mark.parametrize("over", [0.0, 5e-4])
 def test_a_clamp_is_left_out_only_where_another_holds_all_of_it(over: float) -> None:
-    clamps = drawn.outermost([square(20), square(10, 10 + over, 5), circle(3, 5, 5), circle(10, 10, 10), square(20)])
+    clamps = drawn_contours.outermost(
+        [square(20), square(10, 10 + over, 5), circle(3, 5, 5), circle(10, 10, 10), square(20)]
+    )
     assert len(clamps) == (2 if over else 1)
 
 
 def test_a_part_of_many_layers_is_asked_area_by_area() -> None:
     part = layered_part({"a": [square(40), circle(5, 20, 20)], "k": [square(10, 35, 5)]})
-    made = sheets.Sheets(job := Job(part, keep_out_layers=("k",)), drawn.drawn(job))
+    made = machining_areas.MachiningAreas(job := Job(part, keep_out_layers=("k",)), drawn_contours.drawn_contours(job))
     made.areas()
     assert made.findings == []
 

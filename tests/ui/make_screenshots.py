@@ -20,7 +20,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
 from app.core.settings import ThemeChoice
-from app.fitting.point_curves.correction import Select
+from app.fitting.point_curves.correction import CorrectionScope
 from app.ui.framework.computation import State
 from app.ui.framework.view import View, views
 from app.ui.shell.start import build
@@ -192,7 +192,7 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
         panel.tolerance.committed.emit(0.2)
         panel.points.points.buttons[True].click()
         panel.points.others.buttons["corrected"].click()
-        panel.points.select.buttons[Select.RATIO].click()
+        panel.points.select.buttons[CorrectionScope.RATIO].click()
         panel.points.near.show_value(0.3)
         panel.smooth.click()
         wait_until(lambda: view.curves is not None and not wiring.smoothing.reading.worker.busy)

@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPixmap
 from pytestqt.qtbot import QtBot
 
-from app.drafting.curves.meet import foot, meets, tangent_points
-from app.drafting.curves.touching import square_points
+from app.drafting.curves.intersections import intersection_points, nearest_point, tangent_points
+from app.drafting.curves.perpendiculars import perpendicular_feet
 from app.model.curves import Ellipse, Line, Spline
 from app.model.notes import Guide, Mark
 from app.model.part import Part
@@ -52,12 +52,12 @@ def test_where_curves_cross_is_met_by_both_to_the_nanometre(hand: Hand, lines: t
         hand.document.run(line)
     a, b = (entity.curve for entity in hand.document.part.entities)
     hand.canvas.aiming.switch(kinds=frozenset({SnapKind.INTERSECTION}))
-    crossings = meets(a, b)
+    crossings = intersection_points(a, b)
     assert crossings
     for x, y in crossings:
         kind, point = aimed(hand, (x + 0.3, y - 0.4))
         assert kind is SnapKind.INTERSECTION
-        assert all(math.dist(foot(curve, point), point) <= 1e-9 for curve in (a, b))
+        assert all(math.dist(nearest_point(curve, point), point) <= 1e-9 for curve in (a, b))
 
 
 def test_perpendicular_and_tangent_start_from_the_base(hand: Hand) -> None:
@@ -82,7 +82,7 @@ def test_the_nearest_point_of_a_curve_is_taken_where_it_is_asked_for_and_gives_w
     kind, point = aimed(hand, (45.2, 30))
     assert kind is SnapKind.NEAREST
     curve = hand.document.part.entities[0].curve
-    assert math.dist(foot(curve, point), point) < 1e-6
+    assert math.dist(nearest_point(curve, point), point) < 1e-6
     assert aimed(hand, (11, 11))[0] is SnapKind.END
 
 
@@ -222,7 +222,7 @@ def test_ellipses_and_splines_are_met_square_and_touched(hand: Hand, line: str, 
     hand.document.run(line)
     curve, base = hand.document.part.entities[0].curve, (12.0, 60.0)
     assert isinstance(curve, Ellipse | Spline)
-    places = square_points(curve, base) if kind is SnapKind.PERPENDICULAR else tangent_points(curve, base)
+    places = perpendicular_feet(curve, base) if kind is SnapKind.PERPENDICULAR else tangent_points(curve, base)
     assert len(places) >= others
     hand.canvas.set_tool(CanvasTool.LINE)
     hand.click(base)
@@ -241,7 +241,7 @@ def test_rays_stop_where_they_meet_a_curve(hand: Hand, line: str) -> None:
     hand.canvas.set_tool(CanvasTool.LINE)
     hand.click((10, 10))
     ray, curve = Line((10, 10), (10 + 90 * math.cos(math.radians(30)), 55)), hand.document.part.entities[0].curve
-    crossings = meets(ray, curve)
+    crossings = intersection_points(ray, curve)
     assert crossings
     for x, y in crossings:
         hand.move(x + 0.5, y + 0.4)

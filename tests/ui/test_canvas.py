@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
 from app.ui.framework.theme import LIGHT
-from app.ui.views.canvas.canvas import Canvas, CanvasTool, Frame
+from app.ui.views.canvas.canvas import BitmapFrame, Canvas, CanvasTool
 from app.ui.views.canvas.view import View
 
 LEFT, RIGHT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton
@@ -351,7 +351,7 @@ def test_cells_show_when_a_pixel_is_six_screen_pixels(hand: Hand) -> None:
     assert not hand.canvas.cells_shown
     hand.canvas.set_view(View(24.0, 100, 500))
     assert hand.canvas.cells_shown
-    hand.canvas.set_frame(Frame(100, 100, 0.1))
+    hand.canvas.set_frame(BitmapFrame(100, 100, 0.1))
     assert not hand.canvas.cells_shown
 
 

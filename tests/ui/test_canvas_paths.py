@@ -19,7 +19,7 @@ from app.model.job import Job
 from app.model.moves import MoveKind, Moves, Program, Purpose
 from app.model.part import Contour, Entity, Part, Region
 from app.operations.compute import compute
-from app.toolpath.coverage.coverage import Place
+from app.toolpath.coverage.coverage import UncutPlace
 from app.ui.framework.theme import DARK, LIGHT, Theme
 from app.ui.views.canvas.canvas import Canvas, CanvasMode, CanvasTool, ColourBy, PathLayers
 from app.ui.views.canvas.program_chunks import chunks, plunges, rapids, rapids_path
@@ -167,7 +167,7 @@ def test_what_is_left_is_hatched_but_for_its_holes(
             [(40 - half, 50 - half), (40 + half, 50 - half), (40 + half, 50 + half), (40 - half, 50 + half)]
         )
 
-    place = Place(40.0, 50.0, 48.0, 2.0, reachable, square(4.0), (square(2.0),))
+    place = UncutPlace(40.0, 50.0, 48.0, 2.0, reachable, square(4.0), (square(2.0),))
     canvas.set_program(ProgramPicture(TWO_RINGS, (place,)))
 
     def share_of_hatch(x: float) -> float:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.ui.framework.computation import State
 from app.ui.framework.view import View
 from app.ui.panels.changes import with_tool
@@ -62,7 +62,10 @@ def test_metal_left_is_shown_in_the_cut_before_anything_is_written(qtbot, comput
     document, exporting, window = computed.document, computed.files.exporting, computed.window_
     asked = []
     exporting.choose_file = lambda ending: asked.append(ending)
-    document.change_job("wide", replace(document.job, operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2)))))
+    document.change_job(
+        "wide",
+        replace(document.job, operations=(PocketOperation(CutParameters(1)), ContourOperation(CutParameters(2)))),
+    )
     document.change_job("large", with_tool(document.job, 1, replace(document.job.tool(1), diameter=12.0)))
     exporting.start()
     notice = window.notice

@@ -7,7 +7,7 @@ from pytestqt.qtbot import QtBot
 
 from app.model.curves import Circle, Line
 from app.model.job import Job
-from app.model.notes import Dimension, Guide, Mark, Measure
+from app.model.notes import Dimension, DimensionKind, Guide, Mark
 from app.model.part import Part
 from app.ui.views.canvas.gripping import CarryTool, PullTool
 from app.ui.views.canvas.modes import CanvasMode, CanvasTool
@@ -158,7 +158,7 @@ def test_tab_goes_from_one_to_the_next_under_the_mouse_and_a_click_takes_it(qtbo
 
 def test_notes_are_seen_picked_described_and_pulled(qtbot: QtBot) -> None:
     part = Part().with_note(Mark((30, 30)), "0").with_note(Guide((0, 60), 0.0), "0")
-    part = part.with_note(Dimension(Measure.ALIGNED, ((40, 20), (90, 20)), (65, 10)), "0")
+    part = part.with_note(Dimension(DimensionKind.ALIGNED, ((40, 20), (90, 20)), (65, 10)), "0")
     hand = Hand(qtbot)
     empty = hand.canvas.grab().toImage()
     hand.document.load(Job(part))
@@ -186,7 +186,7 @@ def test_what_is_fitted_takes_in_dimensions_and_points_but_no_construction_line(
     for line in ("dimension 10,10 60,10 place 35,-30", "point 140,0", "guide across 0,500"):
         plate.document.run(line)
     assert plate.canvas.picture.box == (10, -30, 140, 70)
-    plate.document.load(Job(Part().with_note(Dimension(Measure.ALIGNED, ((0, 0), (400, 0)), (200, 300)), "0")))
+    plate.document.load(Job(Part().with_note(Dimension(DimensionKind.ALIGNED, ((0, 0), (400, 0)), (200, 300)), "0")))
     area, shown = plate.canvas.area, [plate.canvas.view.to_screen(at) for at in ((0, 0), (400, 0), (200, 300))]
     assert all(area.contains(place) for place in shown)
     plate.document.run("hide 0")

@@ -12,7 +12,15 @@ from app.drafting.document import Document
 from app.gcode.posts.posts import post_titles
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
-from app.model.operation import OPERATION_KINDS, ContourOperation, Cut, DrillOperation, Order, PocketOperation, Side
+from app.model.operation import (
+    OPERATION_KINDS,
+    ContourOperation,
+    CutParameters,
+    DrillOperation,
+    Order,
+    PocketOperation,
+    Side,
+)
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style
@@ -230,7 +238,7 @@ def test_stock_and_origin(qtbot, document, panel):
 
 
 def test_what_only_the_job_knows_is_said_at_the_field(qtbot, document, panel):
-    document.change_job("Tools", Job(Part(), tools=(Tool(1, 6.0),), operations=(PocketOperation(Cut(1)),)))
+    document.change_job("Tools", Job(Part(), tools=(Tool(1, 6.0),), operations=(PocketOperation(CutParameters(1)),)))
     panel.choose(Subject(SubjectKind.TOOL, 1))
     enter(qtbot, panel.tool_form.speed, "12in")
     assert "type the number alone" in panel.tool_form.speed.reason.text()
@@ -272,8 +280,12 @@ def styled(qapp, request) -> Iterator[None]:
 
 def test_nothing_is_wider_than_the_panel_when_all_is_set_and_unfolded(qtbot, styled, document, panel):
     lead, tabs = Lead(LeadKind.ARC, 2.0), Tabs(3)
-    contour = ContourOperation(Cut(2, finish_depth=0.2, floor_to_leave=0.1), Side.OUTSIDE, lead, tabs, 2, True, 0.2)
-    document.change_job("All", replace(document.job, operations=(contour, DrillOperation(Cut(1), 1.0, 2.0, 3.0, 1.0))))
+    contour = ContourOperation(
+        CutParameters(2, finish_depth=0.2, floor_to_leave=0.1), Side.OUTSIDE, lead, tabs, 2, True, 0.2
+    )
+    document.change_job(
+        "All", replace(document.job, operations=(contour, DrillOperation(CutParameters(1), 1.0, 2.0, 3.0, 1.0)))
+    )
     for index in (0, 1):
         panel.choose(Subject(SubjectKind.OPERATION, index))
         for group in panel.operation_form.groups:

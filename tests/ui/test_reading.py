@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QLabel, QPushButton
 from app.formats.project.files import load_project
 from app.model.part import Units
 from app.model.read_options import DrawingOptions
-from app.model.reading import Reading, Source
+from app.model.reading import DrawingSource, ReadingOptions
 from app.ui.shell.translation import translate_all
 from app.ui.shell.wiring import Wiring
 from tests.ui.conftest import WAIT_MS
@@ -91,7 +91,7 @@ def answer(qtbot, wiring: Wiring, words: str) -> None:
         qtbot.mouseClick(button(wiring, words), Qt.MouseButton.LeftButton)
 
 
-def source(wiring: Wiring) -> Source:
+def source(wiring: Wiring) -> DrawingSource:
     found = wiring.document.state.source
     assert found is not None
     return found
@@ -117,23 +117,23 @@ def reread(qtbot, wiring: Wiring, act: Callable[[], object]) -> None:
             6,
             "40\u2009000 \u00d7 20\u2009000 mm, and the largest tool 6 mm. The file names m",
             "Take it as mm",
-            Reading(Units.MM, (), DrawingOptions(overrule=True)),
+            ReadingOptions(Units.MM, (), DrawingOptions(overrule=True)),
         ),
         (
             far,
             4,
             "more than 1 km from zero: its first curve, at (2300000.000, 410000.000) mm, 2.3 km away",
             "Move it to zero",
-            Reading(None, (), DrawingOptions(to_zero=True)),
+            ReadingOptions(None, (), DrawingOptions(to_zero=True)),
         ),
         (
             on_paper,
             4,
             "all that is drawn stands on the layout A3",
             "Take layout A3",
-            Reading(None, (), DrawingOptions(layout="A3")),
+            ReadingOptions(None, (), DrawingOptions(layout="A3")),
         ),
-        (frozen, 4, "Nothing of it is shown", "Read layer Old", Reading(None, ("Old",))),
+        (frozen, 4, "Nothing of it is shown", "Read layer Old", ReadingOptions(None, ("Old",))),
     ],
 )
 def test_a_drawing_that_cannot_be_read_is_asked_about_and_read_by_the_answer(
@@ -156,7 +156,7 @@ def test_a_drawing_that_cannot_be_read_is_asked_about_and_read_by_the_answer(
     answer(qtbot, wiring, words)
     assert not card.isVisible() and len(wiring.document.part.entities) == 4
     assert size(wiring) == pytest.approx((40.0, 20.0))
-    assert source(wiring) == Source(str(path), how)
+    assert source(wiring) == DrawingSource(str(path), how)
     assert all(layer.visible for layer in wiring.document.part.layers)
 
 
@@ -310,7 +310,7 @@ def test_the_page_shows_how_it_was_read_and_reads_it_again(qtbot, wiring, tmp_pa
     assert wiring.document.undo_name == "Read both.dxf"
     for _ in range(3):
         wiring.document.undo()
-    assert len(wiring.document.part.entities) == 5 and source(wiring).reading == Reading()
+    assert len(wiring.document.part.entities) == 5 and source(wiring).reading == ReadingOptions()
     qtbot.waitUntil(lambda: not section.to_zero.switch.isChecked())
 
 
@@ -334,7 +334,7 @@ def test_a_way_in_which_it_cannot_be_read_is_refused_and_shown_no_longer(qtbot, 
     with qtbot.waitSignal(wiring.files.rereading.failed, timeout=WAIT_MS) as caught:
         section.layers.chosen.emit(("0",))
     assert "without layer 0 nothing is left" in caught.args[0]
-    assert section.layers.text.text() == "none" and source(wiring).reading == Reading()
+    assert section.layers.text.text() == "none" and source(wiring).reading == ReadingOptions()
 
 
 def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(qtbot, wiring, tmp_path) -> None:

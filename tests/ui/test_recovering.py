@@ -8,8 +8,8 @@ import pytest
 from app.core.settings import state_folder
 from app.drafting.document import Document
 from app.formats.project.files import save_project, stamp_of
-from app.formats.project.project import Look, Project, read_project
-from app.formats.project.recovery import Edited, RecoveryFile
+from app.formats.project.project import Project, SavedView, read_project
+from app.formats.project.recovery import EditedFile, RecoveryFile
 from app.ui.shell import start
 from app.ui.shell.recovering import WAIT_S
 from tests.ui.conftest import WAIT_MS
@@ -33,7 +33,7 @@ def crashed(tmp_path):
     stamp = save_project(path, Project(document.state))
     document.run("circle 9,9 2")
     file = RecoveryFile()
-    file.keep(Project(document.state, Look("view_draw", (7.0, 7.0), 20.0)), Edited(path, stamp))
+    file.keep(Project(document.state, SavedView("view_draw", (7.0, 7.0), 20.0)), EditedFile(path, stamp))
     file._lock._handle, handle = -1, file._lock._handle
     os.close(handle)
     return path
@@ -72,7 +72,7 @@ def test_a_text_that_was_only_typed_is_kept_and_comes_back(qtbot, wiring):
     keep_now(qtbot, wiring)
     (file,) = kept()
     left = RecoveryFile()
-    left.keep(read_project("x", file.read_bytes()), Edited())
+    left.keep(read_project("x", file.read_bytes()), EditedFile())
     os.close(left._lock._handle)
     wiring.language.control.text = ""
     wiring.recovering.offer()

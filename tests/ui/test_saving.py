@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage
 
-from app.formats.project.beside import Beside
+from app.formats.project.extras import ProjectExtras
 from app.formats.project.files import load_project, save_project
 from app.formats.project.project import Project, read_project
 from app.model.underlay import Underlay
@@ -317,7 +317,7 @@ def test_the_text_of_the_editor_and_the_picture_lie_in_the_file(qtbot, wiring, t
 def test_a_picture_that_has_gone_is_told_and_its_place_is_not_lost(qtbot, wiring, tmp_path):
     place = Underlay(str(tmp_path / "gone.png"), (1.0, 2.0), 0.1, 0.3)
     wiring.document.run("circle 0,0 5")
-    save_project(tmp_path / "a.hito", Project(wiring.document.state, beside=Beside(place)))
+    save_project(tmp_path / "a.hito", Project(wiring.document.state, beside=ProjectExtras(place)))
     wiring.files.new()
     open_it(qtbot, wiring, tmp_path / "a.hito")
     assert len(wiring.document.part.entities) == 1

@@ -13,11 +13,11 @@ from app.model.curve_selectors import on_layers
 from app.model.curves import Line
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Moves, Program, Purpose
-from app.model.operation import ContourOperation, Cut, PocketOperation, Side
+from app.model.operation import ContourOperation, CutParameters, PocketOperation, Side
 from app.model.part import Contour
 from app.model.tool import Tool
 from app.operations.compute import compute
-from app.toolpath.engagement.engagement import look
+from app.toolpath.engagement.engagement import sample_engagement
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.canvas import Canvas
 from app.ui.views.canvas.engaged import colours
@@ -36,18 +36,18 @@ def slot_beside_a_slot() -> tuple[Program, Job]:
         name: [Contour((Line((x, y), (40.0, y)),), closed=False)]
         for name, x, y in (("first", 20.0, 2.0), ("then", 0.0, 0.0))
     }
-    operations = tuple(ContourOperation(Cut(1, curves=on_layers((name,))), side=Side.ON) for name in lines)
+    operations = tuple(ContourOperation(CutParameters(1, curves=on_layers((name,))), side=Side.ON) for name in lines)
     job = Job(layered_part(lines), (Tool(1, 6.0),), operations, Stock(margin=10.0))
     return compute(job), job
 
 
 def pocket(stepover: float) -> tuple[Program, Job]:
-    job = Job(layered_part({"a": [square(60)]}), (Tool(1, 6.0),), (PocketOperation(Cut(1), stepover),))
+    job = Job(layered_part({"a": [square(60)]}), (Tool(1, 6.0),), (PocketOperation(CutParameters(1), stepover),))
     return compute(job), job
 
 
 def seen_of(program: Program, job: Job) -> Stretches:
-    return stretches(program.moves, look(program, job))
+    return stretches(program.moves, sample_engagement(program, job))
 
 
 def test_one_move_has_a_colour_for_each_of_its_stretches() -> None:

@@ -10,7 +10,7 @@ import pytest
 from app.core.errors import ParameterError
 from app.drafting.document import Document
 from app.model.job import Job
-from app.model.operation import OPERATION_KINDS, Cut, DrillOperation
+from app.model.operation import OPERATION_KINDS, CutParameters, DrillOperation
 from app.model.tool import Tool, ToolKind
 from app.ui.framework.computation import Computation, State
 from app.ui.framework.labels import Elided
@@ -53,7 +53,7 @@ def refused(word: str, tool: Tool) -> str:
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
 @pytest.mark.parametrize("word", OPERATION_KINDS)
 def test_it_is_computed_or_refused(qtbot, word, tool, way):
-    job = Job(PART, (tool,), (OPERATION_KINDS[word](Cut(1)),))
+    job = Job(PART, (tool,), (OPERATION_KINDS[word](CutParameters(1)),))
     computation = Computation(Document(job), worker := Worker(), lambda made: None)
     if way == "pixels":
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
@@ -67,7 +67,7 @@ def test_it_is_computed_or_refused(qtbot, word, tool, way):
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
 @pytest.mark.parametrize("word", OPERATION_KINDS)
 def test_the_panel_marks_the_tool_at_once(qtbot, word, tool):
-    panel = SidePanel(Document(Job(PART, (tool,), (OPERATION_KINDS[word](Cut(1)),))))
+    panel = SidePanel(Document(Job(PART, (tool,), (OPERATION_KINDS[word](CutParameters(1)),))))
     qtbot.addWidget(panel)
     panel.show()
     reason = panel.operation_form.tool.reason
@@ -78,7 +78,7 @@ def test_the_panel_marks_the_tool_at_once(qtbot, word, tool):
 
 def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
     window, drill = wiring.window_, Tool(1, 6.0, ToolKind.DRILL)
-    wiring.document.load(Job(PART, (drill,), (OPERATION_KINDS["pocket"](Cut(1)),)))
+    wiring.document.load(Job(PART, (drill,), (OPERATION_KINDS["pocket"](CutParameters(1)),)))
     wiring.compute()
     qtbot.waitUntil(lambda: wiring.computation.state is State.FAILED, timeout=20_000)
     assert window.notice.text.text() == window.status.message.toolTip() == NO_MILL.format("pocket")

@@ -31,7 +31,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.toml_tables import Worded
+from app.core.toml_tables import Keyword
 from app.ui.shell.wiring import Wiring
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
@@ -77,7 +77,7 @@ class _Sort(enum.Enum):
 def _sort_of(kind: type) -> _Sort:
     dataclass = getattr(kind, "__dataclass_params__", None)
     if issubclass(
-        kind, (*_SIMPLE, Worded, np.ndarray)
+        kind, (*_SIMPLE, Keyword, np.ndarray)
     ):  # arrays are made anew, never written into, once they are shown
         return _Sort.SIMPLE
     if issubclass(kind, tuple) or (dataclass is not None and dataclass.frozen and dataclass.eq):

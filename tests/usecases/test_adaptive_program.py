@@ -8,7 +8,7 @@ import pytest
 
 from app.core.resources import resource
 from app.formats.job.toml import read_job
-from app.usecases.make import Made, make
+from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
 from tests.gcode.rs274_oracle import assert_same_motion
 
@@ -23,17 +23,17 @@ most_engaged_deg = 55
 """
 
 
-def made_of(drawing: str, job: str) -> Made:
+def made_of(drawing: str, job: str) -> MakeResult:
     options = MakeOptions(job=read_job("job", job.encode()).job)
     return make("part.draw", drawing.encode(), options)
 
 
 @pytest.fixture(scope="module")
-def pocket() -> Made:
+def pocket() -> MakeResult:
     return made_of("rectangle 0,0 20,13\n", JOB)
 
 
-def test_the_report_tells_the_greatest_angle_and_its_line(pocket: Made) -> None:
+def test_the_report_tells_the_greatest_angle_and_its_line(pocket: MakeResult) -> None:
     assert pocket.clean
     (operation,) = json.loads(pocket.report.text())["operations"]
     engaged = operation["engaged"]
@@ -44,13 +44,13 @@ def test_the_report_tells_the_greatest_angle_and_its_line(pocket: Made) -> None:
     assert pocket.nc.text.splitlines()[engaged["line"] - 1].startswith(("G1", "G3", "X", "G2"))
 
 
-def test_nothing_is_left_and_nothing_gouged(pocket: Made) -> None:
+def test_nothing_is_left_and_nothing_gouged(pocket: MakeResult) -> None:
     report = json.loads(pocket.report.text())
     assert report["left"]["reachable_mm2"] == 0 and report["gouge"]["max_mm"] < 1e-6
     assert report["rapids_in_material"] == [] and report["cut"]["gouged_places"] == 0
 
 
-def test_linuxcnc_reads_the_same_motion(pocket: Made) -> None:
+def test_linuxcnc_reads_the_same_motion(pocket: MakeResult) -> None:
     assert_same_motion(pocket.program.moves, pocket.nc, pocket.job)
 
 

@@ -10,7 +10,7 @@ from app.cli.main import main
 from app.geometry.region import polygon_contour
 from app.model.finding import FindingKind
 from app.model.part import Contour
-from app.usecases.make import Made, finish
+from app.usecases.make import MakeResult, finish
 from tests.usecases.test_bitmap_way import job_of, made
 
 
@@ -37,7 +37,7 @@ def two_rooms(corridor: float) -> Contour:
     return polygon_contour(corners(corridor))
 
 
-def cut_on_bitmap(contour: Contour, points: int) -> Made:
+def cut_on_bitmap(contour: Contour, points: int) -> MakeResult:
     job = job_of([contour], 3.0, 6.0)
     return finish(made(job, points).program, job)
 

@@ -11,7 +11,7 @@ from app.formats.readers import read_drawing
 from app.geometry.primitives import points_at
 from app.model.job import Job
 from app.model.moves import MoveKind
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Contour, Entity, Part
 from app.model.tool import Tool
 from app.toolpath.coverage.flat import move_rows
@@ -31,7 +31,7 @@ ROUNDING = 1e-6
 def job_of(contours: list[Contour], contour: float = 2.0, pocket: float = 4.0, stepover: float | None = None) -> Job:
     """Both tools on a drawing; a contour tool of 0 mm is none."""
     curves = [curve for each in contours for curve in each.primitives]
-    operations = (PocketOperation(Cut(1), stepover), ContourOperation(Cut(2)))
+    operations = (PocketOperation(CutParameters(1), stepover), ContourOperation(CutParameters(2)))
     return Job(
         Part().with_entities(tuple(Entity(k, curve) for k, curve in enumerate(curves, 1))),
         (Tool(1, pocket), Tool(2, contour or 1.0)),

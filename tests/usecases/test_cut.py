@@ -7,12 +7,12 @@ import pytest
 
 from app.core.resources import resource
 from app.usecases.cut import CutProgram
-from app.usecases.make import Made, make
+from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
 
 
 @cache
-def made(post: str) -> Made:
+def made(post: str) -> MakeResult:
     return make("fig2.dxf", resource("samples", "fig2.dxf").read_bytes(), MakeOptions(post=post))
 
 

@@ -31,7 +31,7 @@ from app.simulation.cutter import Cutter
 from app.simulation.field.workpiece import BoxStock, Grid
 from app.simulation.sweeps.course import Course, Rapids, TrimOptions
 from app.simulation.sweeps.trim import trim
-from app.usecases.smooth import Smoothed, SmoothOptions, smooth
+from app.usecases.smooth import SmoothedProgram, SmoothOptions, smooth
 from app.verify.course import course_of, picked
 from tests.simulation.courses import joined
 from tests.usecases.test_smooth_oracle import WAYS, program
@@ -80,7 +80,7 @@ JOBS = [
 """Only the waves have a level stretch, without which G5.2 writes what arcs write."""
 
 
-def smoothed(text: bytes, way: str, tolerance: float) -> Smoothed:
+def smoothed(text: bytes, way: str, tolerance: float) -> SmoothedProgram:
     form, post = WAYS[way]
     return smooth("part.nc", text, SmoothOptions(tolerance, form, post=load_post(post)))
 

@@ -16,19 +16,19 @@ from app.simulation.sweeps.course import Course
 from app.usecases.cut import CutOptions, CutProgram, cut
 from app.usecases.cut_report import cut_report
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.setup import Ready, Wishes, setup_of
+from app.usecases.setup import ReadySetup, SetupRequest, setup_of
 from app.usecases.setup_stock import box_stock
-from app.usecases.setup_tools import ToolsTold
+from app.usecases.setup_tools import ToolSource
 
 FIRST = "G21 G90 G17 G54\nT1 M6\nG0 Z5\nX10 Y10\nG1 Z-2 F100\nX40 Z-3\nG2 X30 Y20 I-10 J0\nG0 Z5\nG0 X20\nM2\n"
 SECOND = "G21 G90 G17 G54\nT2 M6\nG0 Z5\nX10 Y18\nG1 Z-1 F100\nX40 Y4\nG0 Z-0.5\nX10 Y10\nZ5\nM2\n"
-TOOLS = ToolsTold("--tool", {1: Tool(1, 6.0, ToolKind.BALL), 2: Tool(2, 5.0)})
+TOOLS = ToolSource("--tool", {1: Tool(1, 6.0, ToolKind.BALL), 2: Tool(2, 5.0)})
 STAGES = 2
 
 
-def ready(*texts: str) -> Ready:
+def ready(*texts: str) -> ReadySetup:
     programs = tuple(examine(f"{k}.ngc", text.encode(), ExamineOptions()) for k, text in enumerate(texts, 1))
-    return setup_of(programs, Wishes((TOOLS,), stock=box_stock([0, 0, -10, 50, 30, 0])))
+    return setup_of(programs, SetupRequest((TOOLS,), stock=box_stock([0, 0, -10, 50, 30, 0])))
 
 
 TWO = ready(FIRST, SECOND)
@@ -73,7 +73,11 @@ def test_each_programs_stock_is_what_the_same_engine_left() -> None:
     assert np.array_equal(jobs[1].heights, one.cut.heights)
     assert np.abs(record.cut.heights - done.cut.heights).max() < 1e-4
     assert not np.array_equal(record.cut.heights, done.cut.heights)
-    assert done.told.engine is Engine.GPU and done.told.apart is not None and done.told.apart.cells == 0
+    assert (
+        done.engine_report.engine is Engine.GPU
+        and done.engine_report.difference is not None
+        and done.engine_report.difference.cells == 0
+    )
 
 
 def test_what_only_the_engine_of_record_tells_it_goes_on_telling() -> None:
@@ -105,7 +109,7 @@ def test_a_context_that_is_lost_between_programs_is_said_once() -> None:
     done = run(Engine.GPU, Graphics(quads=counted(jobs, 1)))
     assert np.abs(done.cut.heights - run(Engine.CPU).cut.heights).max() < 1e-4
     assert sum("fails (lost)" in finding.text for finding in done.findings) == 1
-    assert done.told.engine is Engine.CPU
+    assert done.engine_report.engine is Engine.CPU
 
 
 def test_automatically_software_is_not_taken_and_nothing_is_said() -> None:
@@ -114,7 +118,7 @@ def test_automatically_software_is_not_taken_and_nothing_is_said() -> None:
     jobs: list[Workpiece] = []
     for look in ({}, {"trace": False, "judge": False}):
         done = run(Engine.AUTO, Graphics(quads=counted(jobs), present=lambda: True), **look)
-        assert done.told.engine is Engine.CPU and not jobs
+        assert done.engine_report.engine is Engine.CPU and not jobs
     done = run(Engine.AUTO, Graphics(no_graphics, present=lambda: True), trace=False, judge=False)
     assert not [finding for finding in done.findings if "processor" in finding.text]
 
@@ -131,13 +135,21 @@ def test_automatically_a_look_is_hardwares_alone() -> None:
     jobs: list[Workpiece] = []
     graphics = Graphics(hardware, counted(jobs), present=lambda: True)
     looked, record = run(Engine.AUTO, graphics, trace=False, judge=False), run(Engine.CPU, trace=False, judge=False)
-    assert looked.told.engine is Engine.GPU and looked.told.renderer == "a card" and looked.told.apart is None
+    assert (
+        looked.engine_report.engine is Engine.GPU
+        and looked.engine_report.renderer == "a card"
+        and looked.engine_report.difference is None
+    )
     assert np.abs(looked.cut.heights - record.cut.heights).max() < 1e-4 and len(jobs) == STAGES
     judged = run(Engine.AUTO, graphics)
-    assert judged.told.engine is Engine.GPU and judged.told.apart is not None and len(jobs) == 2 * STAGES
+    assert (
+        judged.engine_report.engine is Engine.GPU
+        and judged.engine_report.difference is not None
+        and len(jobs) == 2 * STAGES
+    )
     assert judged.cut.owner is not None and judged.cut.rapids
     broken = run(Engine.AUTO, Graphics(hardware, counted([], 0), present=lambda: True), trace=False, judge=False)
-    assert broken.told.engine is Engine.CPU and np.array_equal(broken.cut.heights, record.cut.heights)
+    assert broken.engine_report.engine is Engine.CPU and np.array_equal(broken.cut.heights, record.cut.heights)
     assert not [finding for finding in broken.findings if "processor" in finding.text]
 
 
@@ -146,7 +158,7 @@ def test_a_window_is_painted_and_the_whole_is_the_engine_of_records() -> None:
     options = CutOptions(200, (10.0, 5.0, 30.0, 20.0), engine=Engine.GPU)
     done = cut(TWO.setup, options, graphics=Graphics(quads=counted(jobs)))
     assert [job.grid for job in jobs] == [done.cut.before.grid] * STAGES
-    assert done.told.engine is Engine.GPU and done.cut.rapids
+    assert done.engine_report.engine is Engine.GPU and done.cut.rapids
 
 
 def test_the_context_is_used_on_the_working_thread_alone() -> None:
@@ -168,4 +180,4 @@ def test_automatically_nothing_is_opened_where_there_is_no_device() -> None:
     def opened() -> moderngl.Context:
         raise AssertionError("nobody asked for it")
 
-    assert run(Engine.AUTO, Graphics(opened, present=lambda: False)).told.engine is Engine.CPU
+    assert run(Engine.AUTO, Graphics(opened, present=lambda: False)).engine_report.engine is Engine.CPU

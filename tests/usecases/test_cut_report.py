@@ -14,11 +14,11 @@ from app.simulation.field.workpiece import BoxStock
 from app.usecases.cut import CutOptions, cut
 from app.usecases.cut_report import CutReport, cut_report
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.setup import Wishes, setup_of
-from app.usecases.setup_tools import ToolsTold
+from app.usecases.setup import SetupRequest, setup_of
+from app.usecases.setup_tools import ToolSource
 
 STOCK = BoxStock(StockBox(0.0, 0.0, -10.0, 60.0, 40.0, 0.0))
-TOLD = (ToolsTold("--tool", {1: Tool(1, 6.0), 2: Tool(2, 4.0)}),)
+TOLD = (ToolSource("--tool", {1: Tool(1, 6.0), 2: Tool(2, 4.0)}),)
 HEAD, FOOT = "G21 G90\nT1 M6\n", "G0 Z5\nM2\n"
 
 
@@ -26,7 +26,7 @@ def report(*bodies: str, cells: int = 240) -> CutReport:
     programs = tuple(
         examine(f"p{k}.ngc", f"{HEAD}{body}{FOOT}".encode(), ExamineOptions()) for k, body in enumerate(bodies, 1)
     )
-    ready = setup_of(programs, Wishes(tools=TOLD, stock=STOCK))
+    ready = setup_of(programs, SetupRequest(tools=TOLD, stock=STOCK))
     return cut_report(cut(ready.setup, CutOptions(cells)), ready)
 
 
@@ -104,7 +104,7 @@ def test_places_name_their_file_where_there_are_several() -> None:
 
 def test_findings_and_what_was_assumed() -> None:
     programs = (examine("p.ngc", f"{HEAD}G0 Z5\nX10 Y10\nG0 Z-1\nG1 X30 F300\n{FOOT}".encode(), ExamineOptions()),)
-    ready = setup_of(programs, Wishes(tools=TOLD))
+    ready = setup_of(programs, SetupRequest(tools=TOLD))
     made = cut_report(cut(ready.setup, CutOptions(120)), ready)
     assert made.data["assumed"] == [ready.findings[0].text]
     kinds = [finding["kind"] for finding in made.data["findings"]]

@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 from app.core.errors import InputError
 from app.fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from app.fitting.point_curves.effective_points import EffectiveOptions
-from app.usecases.smooth import Form, Smoothed, SmoothOptions, smooth
+from app.usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
 from app.usecases.smooth_report import report
 from tests.usecases.written_curves import Floats, moves_of
 
@@ -80,7 +80,7 @@ def faceted(shape: str, sag: float) -> bytes:
 
 
 @cache
-def written(shape: str, sag: float, form: Form, method: int) -> Smoothed:
+def written(shape: str, sag: float, form: OutputForm, method: int) -> SmoothedProgram:
     choose = EffectiveOptions(max(sag / 10, 2 * DIGIT))
     effective = [None, EffectiveMethod(choose), EffectiveMethod(choose, second_embodiment())][method]
     options = SmoothOptions(2.5 * sag + 5 * DIGIT, form, effective=effective)
@@ -97,7 +97,7 @@ def off(shape: str, places: Floats) -> float:
     return float(np.max(np.abs(apart[:, 0] * way[:, 1] - apart[:, 1] * way[:, 0]) / np.linalg.norm(way, axis=1)))
 
 
-def cut(done: Smoothed) -> Floats:
+def cut(done: SmoothedProgram) -> Floats:
     """Places of all that the written text cuts at its depth."""
     moves = [move for move in moves_of(done.data.decode()) if not move.rapid and move.start[2] == move.end[2] == -1]
     return np.vstack([move.at(np.linspace(0, 1, 400))[:, :2] for move in moves])
@@ -114,7 +114,7 @@ FAMILY = [(shape, sag) for shape in SHAPES for sag in (0.002, 0.01, 0.05)]
 FAST = {("ellipse", 0.01), ("circle", 0.05)}
 
 
-@pytest.mark.parametrize("form", [Form.ARCS, Form.NURBS], ids=lambda form: form.value)
+@pytest.mark.parametrize("form", [OutputForm.ARCS, OutputForm.NURBS], ids=lambda form: form.value)
 @pytest.mark.parametrize(
     ("shape", "sag"),
     [
@@ -122,7 +122,7 @@ FAST = {("ellipse", 0.01), ("circle", 0.05)}
         for each in FAMILY
     ],
 )
-def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag: float, form: Form) -> None:
+def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag: float, form: OutputForm) -> None:
     """No farther from it than twice the plain spline through the points and what they and the blocks are rounded by."""
     by_points, by_all = (off(shape, cut(written(shape, sag, form, method))) for method in (1, 0))
     done = written(shape, sag, form, 1)
@@ -132,7 +132,7 @@ def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag
     assert all(not piece.kept for piece in done.pieces)
 
 
-@pytest.mark.parametrize("form", [Form.ARCS, Form.NURBS], ids=lambda form: form.value)
+@pytest.mark.parametrize("form", [OutputForm.ARCS, OutputForm.NURBS], ids=lambda form: form.value)
 @pytest.mark.parametrize(
     ("shape", "sag"),
     [
@@ -140,13 +140,13 @@ def test_the_curve_goes_along_the_shape_and_not_along_the_facets(shape: str, sag
         for each in FAMILY
     ],
 )
-def test_corrected_points_lead_nearer_to_the_shape_than_all_points(shape: str, sag: float, form: Form) -> None:
+def test_corrected_points_lead_nearer_to_the_shape_than_all_points(shape: str, sag: float, form: OutputForm) -> None:
     corrected, by_all = (off(shape, cut(written(shape, sag, form, method))) for method in (2, 0))
     assert corrected <= max(by_all / 3, 6 * DIGIT)
 
 
 def test_the_certificate_states_both_limits_and_each_point() -> None:
-    done = written("ellipse", 0.01, Form.ARCS, 1)
+    done = written("ellipse", 0.01, OutputForm.ARCS, 1)
     told = report(done)
     ends = len(facet_ends("ellipse", 0.01))
     assert told["points"]["effective"] == ends and told["points"]["left_out"] == INNER * (ends - 1)
@@ -163,7 +163,7 @@ def test_a_nearness_that_is_asked_for_is_kept() -> None:
     wide = smooth("facets.ngc", faceted("ellipse", 0.01), SmoothOptions(0.03, effective=method))
     assert wide.nearness == 0.004
     assert sum(piece.blocks[1] for piece in wide.pieces) < 0.7 * sum(
-        piece.blocks[1] for piece in written("ellipse", 0.01, Form.ARCS, 1).pieces
+        piece.blocks[1] for piece in written("ellipse", 0.01, OutputForm.ARCS, 1).pieces
     )
     ends = facet_ends("ellipse", 0.01)
     places = cut(wide)

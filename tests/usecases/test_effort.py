@@ -16,12 +16,12 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool
 from app.simulation.field.workpiece import BoxStock
 from app.surfaces.passes.facet_crossings import facet_crossings
-from app.surfaces.patches.facets import Facets
-from app.surfaces.sections.compound import Planes
+from app.surfaces.patches.facets import SurfaceFacets
+from app.surfaces.sections.compound import CuttingPlanes
 from app.usecases.cut import CutOptions, CutSetup, cut
 from app.usecases.effort import cut_effort, smooth_effort
 from app.usecases.smooth import smooth
-from app.usecases.smoothed import Form, SmoothOptions
+from app.usecases.smooth_result import OutputForm, SmoothOptions
 from app.usecases.surface import read_and_compute
 from tests.conftest import ROOT
 
@@ -72,7 +72,7 @@ def test_a_long_scene_is_announced() -> None:
 
 def test_a_long_smoothing_is_announced() -> None:
     with pytest.raises(HeardError, match=r"about \d+ seconds: 110,001 moves in 1 stretch"):
-        smooth("a.ngc", waves(110_000), SmoothOptions(form=Form.NURBS), Progress(remarks=stop))
+        smooth("a.ngc", waves(110_000), SmoothOptions(form=OutputForm.NURBS), Progress(remarks=stop))
 
 
 def test_short_ones_say_nothing() -> None:
@@ -85,10 +85,10 @@ def test_planes_cross_facets_as_often_as_these_are_wide_across_them() -> None:
     """Two triangles that halve a square 10 mm wide, under planes 1 mm apart: each is crossed by all of them."""
     square = np.array([[[0, 0, 0], [10, 0, 0], [10, 10, 0]], [[0, 0, 0], [10, 10, 0], [0, 10, 0]]], float)
     none = np.zeros(2, np.int64)
-    facets = Facets(square, none, none, np.zeros((2, 3, 2)), np.zeros(2), np.zeros((2, 2)), ())
-    found = facet_crossings(facets, Planes((0.0, 0.0), 0.0, tuple(float(k) for k in range(10))))
+    facets = SurfaceFacets(square, none, none, np.zeros((2, 3, 2)), np.zeros(2), np.zeros((2, 2)), ())
+    found = facet_crossings(facets, CuttingPlanes((0.0, 0.0), 0.0, tuple(float(k) for k in range(10))))
     assert (found.planes, found.crossings) == (10, pytest.approx(20.0))
-    turned = facet_crossings(facets, Planes((0.0, 0.0), math.pi / 2, tuple(float(k) for k in range(10))))
+    turned = facet_crossings(facets, CuttingPlanes((0.0, 0.0), math.pi / 2, tuple(float(k) for k in range(10))))
     assert turned.crossings == pytest.approx(20.0)
 
 
@@ -110,8 +110,8 @@ def test_what_is_said_of_scenes_is_within_a_factor_of_three() -> None:
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("form", list(Form))
-def test_what_is_said_of_smoothing_is_within_a_factor_of_three(form: Form) -> None:
+@pytest.mark.parametrize("form", list(OutputForm))
+def test_what_is_said_of_smoothing_is_within_a_factor_of_three(form: OutputForm) -> None:
     data, options = waves(40_000), SmoothOptions(form=form)
     smooth("a.ngc", waves(300), options)  # loads the code
     begun = time.process_time()

@@ -15,8 +15,8 @@ from app.formats.plot.layout import PlotOptions, lay_out
 from app.formats.plot.surface_plot import VIEWS, PlotColouring, Projection
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.moves import Purpose
-from app.usecases.surface import Computed, compute
-from app.usecases.surface_plot import FORMATS, Drawn, PlotScene, boundary_name, by_surface, plot_surface
+from app.usecases.surface import ComputedScene, compute
+from app.usecases.surface_plot import FORMATS, PlotScene, PlottedPart, boundary_name, by_surface, plot_surface
 from tests.conftest import ROOT
 from tests.formats.hpgl_player import Plotter
 
@@ -29,7 +29,7 @@ FIGURE_1 = {
 
 
 @cache
-def the_compound() -> Computed:
+def the_compound() -> ComputedScene:
     scene = read_scene("compound.toml", (SAMPLES / "compound.toml").read_bytes())
     return compute(scene, sources_of(lambda name: (SAMPLES / name).read_bytes()))
 
@@ -80,8 +80,8 @@ def test_an_angle_of_view_moves_no_end() -> None:
 
 
 def test_the_compound_surface_is_drawn_finer_plane_by_plane_before_the_paths() -> None:
-    both = by_surface(the_compound(), PlotScene(drawn=Drawn.BOTH)).pieces
-    surface = by_surface(the_compound(), PlotScene(drawn=Drawn.SURFACE)).pieces
+    both = by_surface(the_compound(), PlotScene(drawn=PlottedPart.BOTH)).pieces
+    surface = by_surface(the_compound(), PlotScene(drawn=PlottedPart.SURFACE)).pieces
     assert len(both) == len(surface) + len(by_surface(the_compound()).pieces)
     assert [piece.surface for piece in surface[:6]] == [0, 1, 2, 0, 1, 2]
     assert all(piece.fine for piece in surface)

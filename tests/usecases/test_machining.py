@@ -18,7 +18,7 @@ from app.model.entry import EntryKind, LeadKind
 from app.model.job import Copies, Job
 from app.model.operation import (
     ContourOperation,
-    Cut,
+    CutParameters,
     DrillOperation,
     Order,
     PocketOperation,
@@ -28,16 +28,16 @@ from app.model.operation import (
 )
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind
-from app.usecases.machining import Machining, check_order
+from app.usecases.machining import MachiningOptions, check_order
 from app.usecases.make import export, make
 from app.usecases.options import MakeOptions, Stepover, job_with_options, layers_of_drawing
 
-HOLES = Job(Part(), (Tool(1, 3.0),), (DrillOperation(Cut(1)),))
+HOLES = Job(Part(), (Tool(1, 3.0),), (DrillOperation(CutParameters(1)),))
 NO_OPTIONS = MakeOptions()
 
 
 def made(job: Job | None = None, options: MakeOptions = NO_OPTIONS, part: Part = Part(), **asked: Any) -> Job:  # noqa: B008  # frozen
-    return job_with_options(part, replace(options, job=job, machining=Machining.of(**asked)))
+    return job_with_options(part, replace(options, job=job, machining=MachiningOptions.of(**asked)))
 
 
 def contour_of(job: Job) -> ContourOperation:
@@ -46,7 +46,7 @@ def contour_of(job: Job) -> ContourOperation:
 
 
 def test_nothing_asked_for_changes_nothing() -> None:
-    assert Machining().asked == ()
+    assert MachiningOptions().requested == ()
     assert made() == Job(Part())
 
 
@@ -85,7 +85,7 @@ def test_a_side_beyond_the_areas_leaves_them_alone(side: Side) -> None:
     assert [type(each) for each in job.operations] == [ContourOperation]
     assert contour_of(job).side is side
     assert [tool.number for tool in job.tools] == [2]
-    own = Job(Part(), operations=(PocketOperation(Cut(1)), ContourOperation(Cut(2))))
+    own = Job(Part(), operations=(PocketOperation(CutParameters(1)), ContourOperation(CutParameters(2))))
     assert [type(each) for each in made(own, side=side).operations] == [PocketOperation, ContourOperation]
 
 
@@ -103,8 +103,8 @@ def test_drills_come_first_with_tools_of_their_own() -> None:
     job = made(options=MakeOptions(feed=99.0), depth=7.0, stock_to_leave=0.5, drills=(5.0, 3.3), peck=1.5, through=0.5)
     first, second = job.operations[:2]
     assert (first, second) == (
-        DrillOperation(Cut(3, 7.0), 1.5, through=0.5),
-        DrillOperation(Cut(4, 7.0), 1.5, through=0.5),
+        DrillOperation(CutParameters(3, 7.0), 1.5, through=0.5),
+        DrillOperation(CutParameters(4, 7.0), 1.5, through=0.5),
     )
     drills = job.tools[2:]
     assert [(tool.number, tool.diameter, tool.kind, tool.feed_rate) for tool in drills] == [
@@ -112,7 +112,7 @@ def test_drills_come_first_with_tools_of_their_own() -> None:
         (4, 3.3, ToolKind.DRILL, 99.0),
     ]
     assert all(each.cut.stock_to_leave == 0.5 for each in job.operations[2:])
-    deep = Job(Part(), operations=(PocketOperation(Cut(1, 6.0, 3.0)),))
+    deep = Job(Part(), operations=(PocketOperation(CutParameters(1, 6.0, 3.0)),))
     assert made(deep, drills=(5.0,)).operations[0].cut.depth == 6.0
 
 
@@ -128,11 +128,11 @@ def test_layers_that_are_read_are_all_that_the_job_needs() -> None:
     job = Job(
         Part(),
         operations=(
-            PocketOperation(Cut(1, curves=on_layers(("p",)))),
-            ContourOperation(Cut(2, enabled=False, curves=on_layers(("q",)))),
+            PocketOperation(CutParameters(1, curves=on_layers(("p",)))),
+            ContourOperation(CutParameters(2, enabled=False, curves=on_layers(("q",)))),
         ),
     )
-    machining = Machining.of(keep_out=("k",))
+    machining = MachiningOptions.of(keep_out=("k",))
     assert layers_of_drawing(MakeOptions(job=job, machining=machining)) == ()
     assert layers_of_drawing(MakeOptions(job=job, layers=("a",), machining=machining)) == ("a", "p", "k")
 
@@ -188,14 +188,17 @@ def test_tools_and_steps_of_operations_that_are_not_there(options: MakeOptions, 
     with pytest.raises(ParameterError, match=words):
         made(HOLES, options)
     off = Job(
-        Part(), operations=tuple(type(each)(Cut(each.cut.tool, enabled=False)) for each in Job(Part()).operations)
+        Part(),
+        operations=tuple(type(each)(CutParameters(each.cut.tool, enabled=False)) for each in Job(Part()).operations),
     )
     with pytest.raises(ParameterError, match=words):
         made(off, options)
 
 
 def test_the_order_of_1986_needs_contours_and_others() -> None:
-    contours = Job(Part(), operations=(ContourOperation(Cut(2)), PocketOperation(Cut(1, enabled=False))))
+    contours = Job(
+        Part(), operations=(ContourOperation(CutParameters(2)), PocketOperation(CutParameters(1, enabled=False)))
+    )
     for job, words in ((contours, "no operation but contours"), (HOLES, "no contour operation")):
         with pytest.raises(ParameterError, match=f"--order has no effect: the job has {words}"):
             check_order(job, Order.PATENT_1986)
@@ -206,15 +209,21 @@ def test_the_order_of_1986_needs_contours_and_others() -> None:
 
 
 def test_a_drill_mills_nothing() -> None:
-    job = Job(Part(), (Tool(1, 3.0, ToolKind.DRILL),), (DrillOperation(Cut(1)),))
+    job = Job(Part(), (Tool(1, 3.0, ToolKind.DRILL),), (DrillOperation(CutParameters(1)),))
     assert job.cutter(job.operations[0]).number == 1
-    for operation in (PocketOperation(Cut(1)), RestOperation(Cut(1)), ContourOperation(Cut(1))):
+    for operation in (
+        PocketOperation(CutParameters(1)),
+        RestOperation(CutParameters(1)),
+        ContourOperation(CutParameters(1)),
+    ):
         with pytest.raises(ParameterError, match="T1 is a drill, which cannot cut sideways; a " + operation.WORD):
             export(replace(job, operations=(operation,)))
 
 
 def test_a_switched_off_operation_is_left_as_it_is() -> None:
-    off = Job(Part(), operations=(ContourOperation(Cut(1, enabled=False)), ContourOperation(Cut(2))))
+    off = Job(
+        Part(), operations=(ContourOperation(CutParameters(1, enabled=False)), ContourOperation(CutParameters(2)))
+    )
     job = made(off, tabs=4)
     assert [each.tabs.count for each in job.operations if isinstance(each, ContourOperation)] == [0, 4]
 
@@ -223,7 +232,7 @@ def test_every_field_can_be_asked_for() -> None:
     given: dict[str, Any] = {"drills": (1.0,), "keep_out": ("a",), "copies": Copies(2, 1, 5.0), "keep_out_height": 1.0}
     options = {"drills": "drill", "entry_angle": "ramp-angle"}
     for name, value in {**given, **dict.fromkeys(parameters(), 1.0)}.items():
-        assert Machining.of(**{name: value}).asked == (options.get(name, name.replace("_", "-")),)
+        assert MachiningOptions.of(**{name: value}).requested == (options.get(name, name.replace("_", "-")),)
 
 
 def test_a_thousand_passes_can_be_stopped(samples: Path) -> None:
@@ -236,7 +245,7 @@ def test_a_thousand_passes_can_be_stopped(samples: Path) -> None:
             stop.set()
 
     with pytest.raises(Cancelled):
-        options = MakeOptions(machining=Machining.of(depth=1.0, stepdown=0.001))
+        options = MakeOptions(machining=MachiningOptions.of(depth=1.0, stepdown=0.001))
         make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), options, Progress(listen, stop))
     assert told[-1] == "Depth passes"
 
@@ -248,7 +257,7 @@ def test_every_depth_pass_tells_how_far_it_is(samples: Path) -> None:
         if text == "Depth passes":
             told.append(fraction)
 
-    options = MakeOptions(machining=Machining.of(depth=1.0, stepdown=0.1))
+    options = MakeOptions(machining=MachiningOptions.of(depth=1.0, stepdown=0.1))
     made = make("fig2.dxf", (samples / "fig2.dxf").read_bytes(), options, Progress(listen))
     assert len(told) >= 10 * len(set(made.program.moves.operation.tolist()))
     assert told == sorted(set(told))

@@ -18,12 +18,12 @@ from app.gcode.posts.posts import load_post
 from app.model.finding import FindingKind
 from app.model.job import Job, OriginXY, OriginZ
 from app.model.moves import MoveKind
-from app.model.operation import ContourOperation, Cut, PocketOperation, RestOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation, RestOperation
 from app.model.part import Part, Units
 from app.model.stock_box import stock_box, work_origin
 from app.model.tool import ToolKind
-from app.usecases.machining import Machining
-from app.usecases.make import Made, finish, make
+from app.usecases.machining import MachiningOptions
+from app.usecases.make import MakeResult, finish, make
 from app.usecases.options import MakeOptions
 from tests.gcode.rs274_oracle import assert_same_motion, canonical_calls
 from tests.usecases.truth import assert_left_is_true
@@ -61,7 +61,7 @@ def drawing(name: str) -> Path:
 
 
 @cache
-def made(name: str) -> Made:
+def made(name: str) -> MakeResult:
     return make(name, drawing(name).read_bytes(), DRAWINGS[name])
 
 
@@ -195,7 +195,7 @@ def test_the_first_approach_is_among_the_rapids() -> None:
     )
 
 
-def rapids(this: Made) -> np.ndarray:
+def rapids(this: MakeResult) -> np.ndarray:
     return this.program.moves.kind == MoveKind.RAPID
 
 
@@ -207,7 +207,7 @@ def test_gear_is_cleared_of_the_rest_that_its_pocket_tool_leaves() -> None:
 
 def test_what_is_left_without_rest_machining_is_told() -> None:
     """Peers leave about 30 mm2 here with these tools and say nothing of it."""
-    job = Job(Part(), operations=(PocketOperation(Cut(1), 1.0), ContourOperation(Cut(2))))
+    job = Job(Part(), operations=(PocketOperation(CutParameters(1), 1.0), ContourOperation(CutParameters(2))))
     this = make("gear.dxf", drawing("gear.dxf").read_bytes(), replace(DRAWINGS["gear.dxf"], job=job))
     assert this.report.data["left"]["reachable_mm2"] == pytest.approx(30, abs=1)
     assert not this.clean
@@ -261,7 +261,7 @@ def test_depth_passes_origin_and_units_reach_the_program() -> None:
         out_units=Units.INCH,
         safe_z=0.5,
         feed=333,
-        machining=Machining.of(depth=5, stepdown=2),
+        machining=MachiningOptions.of(depth=5, stepdown=2),
     )
     this = make("fig2.dxf", drawing("fig2.dxf").read_bytes(), options)
     level = this.program.moves.start[:, 2] == this.program.moves.end[:, 2]
@@ -279,7 +279,7 @@ def test_depth_passes_origin_and_units_reach_the_program() -> None:
 
 def test_a_depth_below_the_stock_makes_it_thicker() -> None:
     this = make(
-        "fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(machining=Machining.of(depth=14, stepdown=14))
+        "fig2.dxf", drawing("fig2.dxf").read_bytes(), MakeOptions(machining=MachiningOptions.of(depth=14, stepdown=14))
     )
     assert this.job.stock.thickness == 14
 
@@ -295,7 +295,7 @@ def test_a_wrong_option_names_itself() -> None:
     for options, words in (
         (MakeOptions(overlap=6), "Overlap is 6 mm with a pocket tool of 6 mm"),
         (MakeOptions(overlap=1, stepover=None, pocket_diameter=0.5), "Overlap is 1 mm with a pocket tool of 0.5 mm"),
-        (MakeOptions(machining=Machining.of(depth=-1)), "Depth is -1 mm"),
+        (MakeOptions(machining=MachiningOptions.of(depth=-1)), "Depth is -1 mm"),
         (MakeOptions(safe_z=0), "Safe Z is 0 mm"),
     ):
         with pytest.raises(ParameterError, match=words):

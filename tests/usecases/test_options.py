@@ -9,16 +9,16 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.model.job import Job, Stock
-from app.model.operation import ContourOperation, Cut, Direction, PocketOperation, parameters
+from app.model.operation import ContourOperation, CutParameters, Direction, PocketOperation, parameters
 from app.model.part import Part
 from app.model.tool import Tool
-from app.usecases.machining import Machining
+from app.usecases.machining import MachiningOptions
 from app.usecases.options import MakeOptions, Stepover, job_with_options
 
 
 def made(**options: Any) -> Job:
     asked = {key: options.pop(key) for key in tuple(options) if key in parameters() and key != "stepover"}
-    return job_with_options(Part(), MakeOptions(**options, machining=Machining(asked)))
+    return job_with_options(Part(), MakeOptions(**options, machining=MachiningOptions(asked)))
 
 
 def diameters(job: Job) -> dict[str, float]:
@@ -47,11 +47,15 @@ def test_tools_of_the_default_job(options: dict[str, float], tools: list[tuple[i
 
 
 def test_a_tool_option_over_a_job_changes_its_kind_of_operation_only() -> None:
-    shared = Job(Part(), (Tool(5, 6.0, name="old"),), (PocketOperation(Cut(5)), ContourOperation(Cut(5))))
+    shared = Job(
+        Part(), (Tool(5, 6.0, name="old"),), (PocketOperation(CutParameters(5)), ContourOperation(CutParameters(5)))
+    )
     job = made(job=shared, contour_diameter=2.0)
     assert diameters(job) == {"PocketOperation": 6.0, "ContourOperation": 2.0}
     assert len({tool.number for tool in job.tools}) == 2
-    apart = Job(Part(), (Tool(1, 6.0), Tool(4, 3.0)), (PocketOperation(Cut(1)), ContourOperation(Cut(4))))
+    apart = Job(
+        Part(), (Tool(1, 6.0), Tool(4, 3.0)), (PocketOperation(CutParameters(1)), ContourOperation(CutParameters(4)))
+    )
     assert diameters(made(job=apart, pocket_diameter=8.0)) == {"PocketOperation": 8.0, "ContourOperation": 3.0}
 
 
@@ -72,7 +76,7 @@ def test_a_stepover_may_be_the_whole_diameter() -> None:
 
 
 def test_a_stepover_of_the_job_that_no_longer_fits_its_tool_is_refused() -> None:
-    job = Job(Part(), operations=(PocketOperation(Cut(1), 5.0), ContourOperation(Cut(2))))
+    job = Job(Part(), operations=(PocketOperation(CutParameters(1), 5.0), ContourOperation(CutParameters(2))))
     with pytest.raises(ParameterError, match="Stepover is 5 mm with a pocket tool of 4 mm"):
         made(job=job, pocket_diameter=4.0)
 
@@ -90,7 +94,7 @@ def test_every_other_value() -> None:
         join_tolerance=0.0,
     )
     assert {operation.cut for operation in job.operations} == {
-        Cut(number, 4.0, 1.5, 0.1, Direction.CONVENTIONAL) for number in (1, 2)
+        CutParameters(number, 4.0, 1.5, 0.1, Direction.CONVENTIONAL) for number in (1, 2)
     }
     assert {(tool.feed_rate, tool.plunge_rate, tool.spindle_speed) for tool in job.tools} == {(500.0, 90.0, 9000.0)}
     assert (job.safe_z, job.retract_z, job.join_tolerance) == (0.4, 0.4, 0.0)
@@ -104,10 +108,10 @@ def test_stock_grows_with_the_depth_and_never_shrinks() -> None:
 
 def test_an_operation_without_its_tool_is_refused() -> None:
     with pytest.raises(ParameterError, match="no tool T9"):
-        made(job=replace(Job(Part()), operations=(PocketOperation(Cut(9)),)), depth=3.0)
+        made(job=replace(Job(Part()), operations=(PocketOperation(CutParameters(9)),)), depth=3.0)
 
 
 def test_the_stock_that_a_job_says_is_never_made_thicker() -> None:
     thin = Job(Part(), stock=Stock(0.0, 1.0))
     assert job_with_options(Part(), MakeOptions(job=thin)).stock.thickness == 1.0
-    assert job_with_options(Part(), MakeOptions(machining=Machining.of(depth=12.0))).stock.thickness == 12.0
+    assert job_with_options(Part(), MakeOptions(machining=MachiningOptions.of(depth=12.0))).stock.thickness == 12.0

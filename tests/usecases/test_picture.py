@@ -10,7 +10,7 @@ import pytest
 from app.formats.plot.picture import CONTOUR, LINK, POCKET, RAPID
 from app.geometry.primitives import lengths
 from app.model.moves import Moves, Program, Purpose
-from app.toolpath.coverage.coverage import Coverage, Place
+from app.toolpath.coverage.coverage import Coverage, UncutPlace
 from app.usecases.picture import picture_of
 from tests.gcode.programs import Path, square
 
@@ -45,7 +45,7 @@ def test_runs_by_purpose() -> None:
 def test_what_is_left_is_shown_by_its_sort() -> None:
     outline = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     places = tuple(
-        Place(0.2, 0.2, 0.5, 0.5, reachable, outline + reachable, (outline / 9,) * reachable)
+        UncutPlace(0.2, 0.2, 0.5, 0.5, reachable, outline + reachable, (outline / 9,) * reachable)
         for reachable in (True, False)
     )
     picture = picture_of("plate", Program(moves(), (square(),)), Coverage(places=places))

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from app.core.errors import GeometryError, ParameterError
-from app.fitting.corner_smoothing.smooth import SmoothOptions
+from app.fitting.corner_smoothing.smooth import CornerSmoothingOptions
 from app.geometry.distance import DistanceField
 from app.geometry.primitives import points_at
 from app.model.finding import FindingKind
 from app.model.job import Job
 from app.model.moves import Moves, Purpose
-from app.model.operation import ContourOperation, Cut, Direction, Order, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, Direction, Order, PocketOperation
 from app.model.part import Contour, Part
 from app.raster.border import borders_of
-from app.raster.frame import Frame
+from app.raster.frame import BitmapFrame
 from app.raster.levels import offset_area
 from app.raster.walls import free_pixels, wall_rows
 from app.toolpath.coverage.coverage import coverage_findings, measure
@@ -32,7 +32,7 @@ from tests.plain_distance import distance
 from tests.raster.shapes import KINDS
 from tests.usecases.test_bitmap_way import job_of, made
 
-FRAME = Frame(200, 200, 0.5)
+FRAME = BitmapFrame(200, 200, 0.5)
 
 
 def kept(contours: list[Contour], radius: float) -> tuple[WallLimits, list[np.ndarray]]:
@@ -51,7 +51,7 @@ def test_no_path_is_nearer_to_the_squares_than_asked(kind: str) -> None:
             continue
         keep, chains = kept(contours, 1.6)
         for points in chains:
-            rows = pixel_path(points, keep, SmoothOptions(TOLERANCE_PX * FRAME.pitch)).rows
+            rows = pixel_path(points, keep, CornerSmoothingOptions(TOLERANCE_PX * FRAME.pitch)).rows
             dense = points_at(np.repeat(rows, 200, axis=0), np.tile(np.linspace(0, 1, 200), len(rows)))
             assert keep.field.nearest(dense)[0].min() >= 1.6 - 1e-6
             col, row = np.floor(FRAME.to_px(dense)).astype(int).T
@@ -60,14 +60,14 @@ def test_no_path_is_nearer_to_the_squares_than_asked(kind: str) -> None:
 
 def test_a_straight_wall_is_followed_as_near_as_its_squares_allow() -> None:
     keep, (points,) = kept([square(80)], 3.0)
-    path = pixel_path(points, keep, SmoothOptions(TOLERANCE_PX * FRAME.pitch))
+    path = pixel_path(points, keep, CornerSmoothingOptions(TOLERANCE_PX * FRAME.pitch))
     assert len(path.rows) == 4
     assert np.allclose(np.sort(path.rows[:, :2].ravel()), [3] * 4 + [77] * 4, atol=0.03 * FRAME.pitch)
 
 
 def test_a_round_wall_gives_one_circle() -> None:
     keep, (points,) = kept([circle(40, 50.1, 49.8)], 5.0)
-    path = pixel_path(points, keep, SmoothOptions(TOLERANCE_PX * FRAME.pitch))
+    path = pixel_path(points, keep, CornerSmoothingOptions(TOLERANCE_PX * FRAME.pitch))
     assert len(path.rows) == 1
     assert 35 - 2 * FRAME.pitch < path.rows[0, 6] <= 35
     assert math.dist(path.rows[0, 4:6], (50.1, 49.8)) < 0.5 * FRAME.pitch
@@ -84,7 +84,7 @@ def test_clearance_is_a_bound_along_the_whole_row() -> None:
 
 def test_a_pixel_alone_is_cut_as_a_spot() -> None:
     keep, _ = kept([square(80)], 3.0)
-    rows = pixel_path(np.array([[40.25, 40.25]]), keep, SmoothOptions(0.5)).rows
+    rows = pixel_path(np.array([[40.25, 40.25]]), keep, CornerSmoothingOptions(0.5)).rows
     assert len(rows) == 2
     assert np.array_equal(rows[0, :2], rows[1, 2:4])
     assert 0 < math.dist(rows[0, :2], rows[0, 2:4]) < FRAME.pitch
@@ -150,7 +150,7 @@ def test_climb_and_conventional_go_opposite_ways() -> None:
     areas = []
     for direction in Direction:
         base = job_of([square(40)], 3.0, 6.0)
-        job = Job(base.part, base.tools, (ContourOperation(Cut(2, direction=direction)),))
+        job = Job(base.part, base.tools, (ContourOperation(CutParameters(2, direction=direction)),))
         end = made(job, 200).program.moves
         path = end.end[end.purpose == Purpose.CONTOUR][:, :2]
         areas.append(float(np.sum(path[:, 0] * np.roll(path[:, 1], -1) - path[:, 1] * np.roll(path[:, 0], -1))))
@@ -176,7 +176,10 @@ def test_a_region_too_small_on_pixels_is_told() -> None:
     [
         (job_of([square(40)], 0.2, 6.0), "T2 of 0.2 mm is not wider than two pixels"),
         (job_of([square(40)], 3.0, 6.0, 0.01), "stepover of 0.01 mm is less than a pixel"),
-        (Job(job_of([square(40)]).part, operations=(PocketOperation(Cut(1), 7.0),)), "more than the diameter"),
+        (
+            Job(job_of([square(40)]).part, operations=(PocketOperation(CutParameters(1), 7.0),)),
+            "more than the diameter",
+        ),
     ],
 )
 def test_what_pixels_cannot_do_is_refused(job: Job, words: str) -> None:

@@ -18,12 +18,12 @@ from app.model.tool import Tool
 from app.simulation.cutter import cutter_of
 from app.simulation.field.workpiece import BoxStock
 from app.simulation.sweeps.course import TrimOptions
-from app.simulation.sweeps.sweeps import Field
+from app.simulation.sweeps.sweeps import CutField
 from app.simulation.sweeps.trim import trim
 from app.usecases.cut import CutOptions, CutProgram, CutSetup
 from app.usecases.cut import cut as cut_setup
 from app.usecases.playback import Playback, PlayFrame
-from app.usecases.timeline import Moment, Timeline
+from app.usecases.timeline import Timeline, TimelinePlace
 from app.verify.course import course_of
 from tests.usecases.test_cut import cut
 
@@ -39,9 +39,9 @@ class Screen:
     def __init__(self, done: CutProgram) -> None:
         assert done.cut.owner is not None
         self.playback = Playback(done)
-        self.field = Field(done.cut.heights.copy(), done.cut.owner.copy())
+        self.field = CutField(done.cut.heights.copy(), done.cut.owner.copy())
 
-    def show(self, moment: Moment) -> PlayFrame:
+    def show(self, moment: TimelinePlace) -> PlayFrame:
         frame = self.playback.frame(moment)
         rows, cols = (
             slice(at, at + size) for at, size in zip((frame.row, frame.col), frame.heights.shape, strict=True)
@@ -50,7 +50,7 @@ class Screen:
         return frame
 
 
-def from_start(done: CutProgram, motion: int) -> Field:
+def from_start(done: CutProgram, motion: int) -> CutField:
     piece, owner, first = done.cut.before, np.full(done.cut.heights.shape, -1, np.int32), 0
     for program in done.setup.programs:
         cutters = {number: cutter_of(tool) for number, tool in done.setup.tools.items()}
@@ -61,7 +61,7 @@ def from_start(done: CutProgram, motion: int) -> Field:
             part.workpiece,
             first + len(program.motions),
         )
-    return Field(piece.heights, owner)
+    return CutField(piece.heights, owner)
 
 
 @pytest.mark.parametrize("post", ["linuxcnc", "grbl"])
@@ -69,7 +69,7 @@ def test_frames_add_up_to_what_cutting_from_the_start_leaves(post: str) -> None:
     done, screen = cut(post), Screen(cut(post))
     count = len(screen.playback.timeline)
     for motion in (count, count // 2, 3, count - 1, 0, count // 3, count):
-        screen.show(Moment(motion))
+        screen.show(TimelinePlace(motion))
         want = from_start(done, motion)
         assert np.array_equal(screen.field.heights, want.heights)
         assert np.array_equal(screen.field.owner, want.owner)
@@ -79,14 +79,14 @@ def test_frames_add_up_to_what_cutting_from_the_start_leaves(post: str) -> None:
 def test_within_a_motion_the_metal_is_between_what_it_was_and_what_it_will_be() -> None:
     screen = Screen(cut("linuxcnc"))
     long = int(np.argmax(np.where(screen.playback.timeline.volume > 0, screen.playback.timeline.length, 0)))
-    screen.show(Moment(long))
+    screen.show(TimelinePlace(long))
     states = [screen.field.heights.copy()]
     for share in (0.25, 0.5, 0.75):
-        frame = screen.show(Moment(long, share))
+        frame = screen.show(TimelinePlace(long, share))
         states.append(screen.field.heights.copy())
         assert frame.owner.max() == long
         assert frame.tip is not None
-    screen.show(Moment(long + 1))
+    screen.show(TimelinePlace(long + 1))
     states.append(screen.field.heights.copy())
     taken = [float(np.sum(states[0] - state)) for state in states]
     assert taken == sorted(taken)
@@ -97,11 +97,11 @@ def test_within_a_motion_the_metal_is_between_what_it_was_and_what_it_will_be() 
 def test_where_nothing_changes_nothing_is_told() -> None:
     screen = Screen(cut("linuxcnc"))
     assert screen.show(screen.playback.timeline.last).heights.size == 0
-    screen.show(Moment(10))
-    assert screen.show(Moment(10)).heights.size == 0
+    screen.show(TimelinePlace(10))
+    assert screen.show(TimelinePlace(10)).heights.size == 0
     rapid = int(np.flatnonzero(cut("linuxcnc").setup.programs[0].motions.kind == MotionKind.RAPID)[-1])
-    screen.show(Moment(rapid))
-    assert screen.show(Moment(rapid, 0.5)).heights.size == 0
+    screen.show(TimelinePlace(rapid))
+    assert screen.show(TimelinePlace(rapid, 0.5)).heights.size == 0
 
 
 @given(share=st.floats(0, 1))
@@ -121,10 +121,10 @@ def test_the_tool_is_where_the_motions_are() -> None:
     timeline = played("linuxcnc").timeline
     motions = timeline.programs[0]
     for row in (5, 20, len(motions) - 1):
-        assert timeline.place(Moment(row + 1)) == pytest.approx(motions.end[row])
-        assert timeline.place(Moment(row, 1e-9)) == pytest.approx(motions.start[row], abs=1e-6)
-        assert timeline.current(Moment(row + 1)) == timeline.current(Moment(row, 0.5)) == row
-    assert timeline.current(Moment(0)) == 0
+        assert timeline.place(TimelinePlace(row + 1)) == pytest.approx(motions.end[row])
+        assert timeline.place(TimelinePlace(row, 1e-9)) == pytest.approx(motions.start[row], abs=1e-6)
+        assert timeline.current(TimelinePlace(row + 1)) == timeline.current(TimelinePlace(row, 0.5)) == row
+    assert timeline.current(TimelinePlace(0)) == 0
 
 
 def test_steps_end_at_lines_and_tools() -> None:
@@ -162,8 +162,8 @@ def test_a_program_without_motions_is_a_point_in_time() -> None:
         np.zeros(0),
         np.zeros(0, bool),
     )
-    assert nothing.at(3.0) == nothing.last == Moment(0)
-    assert nothing.place(Moment(0)) is None
+    assert nothing.at(3.0) == nothing.last == TimelinePlace(0)
+    assert nothing.place(TimelinePlace(0)) is None
     assert nothing.sampled(5).removed.tolist() == [0] * 6
 
 
@@ -174,7 +174,7 @@ def test_what_is_kept_stays_within_its_budget() -> None:
 def test_where_the_tool_is_nobody_says_what_nobody_knows() -> None:
     text = "G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX5 Y5\nG53 G0 Z0\nG28\nG0 X1 Y1\nZ-1\nG1 X3\nM2\n"
     timeline = Playback(cut_text(text)).timeline
-    places = [timeline.place(Moment(k)) for k in range(1, len(timeline) + 1)]
+    places = [timeline.place(TimelinePlace(k)) for k in range(1, len(timeline) + 1)]
     known = [place is not None for place in places]
     assert known[:3] == [True] * 3
     assert not known[3]

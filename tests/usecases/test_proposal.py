@@ -20,10 +20,10 @@ from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.flat import region_shapes
-from app.usecases.machining import Machining
-from app.usecases.make import Made, make
+from app.usecases.machining import MachiningOptions
+from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
-from app.usecases.proposal.propose import Proposal, Proposing, Rule, as_in_1986, propose
+from app.usecases.proposal.propose import Proposal, ProposalOptions, ProposalRule, as_in_1986, propose
 from tests.part_shapes import circle, layered_part, square
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -36,7 +36,7 @@ def drawing(lines: str) -> Job:
     return Job(document.part)
 
 
-def proposed(lines: str, options: Proposing | None = None) -> Proposal:
+def proposed(lines: str, options: ProposalOptions | None = None) -> Proposal:
     return propose(drawing(lines), options)
 
 
@@ -47,8 +47,8 @@ def words(proposal: Proposal) -> list[str]:
     ]
 
 
-def made_of(lines: str, **options: object) -> Made:
-    asked = MakeOptions(propose=Proposing(), **options)  # type: ignore[arg-type]
+def made_of(lines: str, **options: object) -> MakeResult:
+    asked = MakeOptions(propose=ProposalOptions(), **options)  # type: ignore[arg-type]
     return make("part.draw", lines.replace("; ", "\n").encode(), asked)
 
 
@@ -61,15 +61,15 @@ def test_a_plate_with_a_rectangle_and_two_holes() -> None:
     assert isinstance(pocket, PocketOperation) and pocket.cut.depth == 2.0
     assert isinstance(outline, ContourOperation) and outline.side is Side.OUTSIDE and outline.cut.depth == 10.0
     assert outline.tabs.count == 4 and job.stock.margin == job.tool(outline.cut.tool).diameter + 2
-    assert proposal.rule is Rule.NESTING and all(each.why for each in proposal.operations)
+    assert proposal.rule is ProposalRule.NESTING and all(each.why for each in proposal.operations)
 
 
 @pytest.fixture(scope="module")
-def plate() -> Made:
+def plate() -> MakeResult:
     return made_of(PLATE)
 
 
-def test_what_is_proposed_for_a_plate_comes_out_clean(plate: Made) -> None:
+def test_what_is_proposed_for_a_plate_comes_out_clean(plate: MakeResult) -> None:
     """The areas of the operations are what is drawn, in closed form, and nothing is left, cut into, or told of."""
     assert plate.clean and plate.proposal is not None
     assert plate.report.data["left"]["reachable_mm2"] == 0.0
@@ -81,7 +81,7 @@ def test_what_is_proposed_for_a_plate_comes_out_clean(plate: Made) -> None:
     assert len(tabs) == 4 and all(x in (-3, 83) or y in (-3, 53) for x, y in np.round(tabs, 6).tolist())
 
 
-def test_a_job_file_a_project_and_the_program_itself_tell_the_same_curves(plate: Made) -> None:
+def test_a_job_file_a_project_and_the_program_itself_tell_the_same_curves(plate: MakeResult) -> None:
     text = "\n".join(job_lines(plate.job))
     again = read_job("j.toml", text.encode()).job
     assert again.operations == plate.job.operations and again.stock == plate.job.stock
@@ -94,7 +94,7 @@ def test_a_job_file_a_project_and_the_program_itself_tell_the_same_curves(plate:
     assert [each.cut.curves for each in told if each] == [each.cut.curves for each in plate.job.operations]
 
 
-def test_without_waste_below_the_stock_the_points_of_drills_are_told(plate: Made) -> None:
+def test_without_waste_below_the_stock_the_points_of_drills_are_told(plate: MakeResult) -> None:
     job = replace(plate.job, stock=replace(plate.job.stock, under=0.0))
     made = make("part.draw", PLATE.replace("; ", "\n").encode(), MakeOptions(job=job))
     assert [each.kind.value for each in made.findings if each.counts] == ["below_table"]
@@ -107,7 +107,7 @@ def test_a_gear_is_cut_out_with_its_teeth_standing(name: str) -> None:
     path = ROOT / name
     if not path.exists():
         pytest.skip("the shared drawings are not here")
-    made = make(path.name, path.read_bytes(), MakeOptions(propose=Proposing()))
+    made = make(path.name, path.read_bytes(), MakeOptions(propose=ProposalOptions()))
     assert made.clean
     outline = made.job.operations[-1]
     assert isinstance(outline, ContourOperation) and outline.side is Side.OUTSIDE
@@ -174,7 +174,7 @@ def test_an_outline_with_a_gap_is_told_and_what_lies_in_it_is_no_part() -> None:
 def test_equal_circles_take_the_drill_of_their_size_if_there_is_one() -> None:
     tools = (Tool(1, 4.0), Tool(2, 5.0, ToolKind.DRILL))
     lines = "rect 0,0 60,40; circle 10,10 2.5; circle 20,10 2.5; circle 40,20 3; circle 50,30 9"
-    proposal = proposed(lines, Proposing(tools))
+    proposal = proposed(lines, ProposalOptions(tools))
     assert words(proposal) == ["drill circles:5", "contour circles:6", "contour circles:18", "contour outer"]
     small, large = (each.operation for each in proposal.operations[1:3])
     assert isinstance(small, ContourOperation) and isinstance(large, ContourOperation)
@@ -185,7 +185,7 @@ def test_tools_reach_the_depth_and_fit_between_the_walls() -> None:
     """A slit of 2.2 mm beside a part wants 2 mm; the library's are 6 mm long, so 10 mm of stock want a longer one."""
     slit = "line 0,0 50,0; line 50,0 50,20; line 50,20 26.1,20; line 26.1,20 26.1,8; line 26.1,8 23.9,8; "
     slit += "line 23.9,8 23.9,20; line 23.9,20 0,20; line 0,20 0,0"
-    thick, thin = proposed(slit), proposed(slit, Proposing(thickness=5.0))
+    thick, thin = proposed(slit), proposed(slit, ProposalOptions(thickness=5.0))
     assert [job.tools[-1].diameter for job in (thick.job, thin.job)] == [2.0, 2.0]
     assert "a longer one than the library has" in thick.operations[-1].why and thick.job.tools[-1].number > 77
     assert "longer" not in thin.operations[-1].why and thin.job.tools[-1].number == 3
@@ -194,18 +194,18 @@ def test_tools_reach_the_depth_and_fit_between_the_walls() -> None:
 def test_the_rule_of_1986_is_a_proposal_and_what_a_job_begins_with() -> None:
     job = Job(read_drawing("fig2.dxf", (ROOT / "resources/samples/fig2.dxf").read_bytes()).part)
     proposal = as_in_1986(job)
-    assert proposal.rule is Rule.PATENT_1986 and proposal.job == job
+    assert proposal.rule is ProposalRule.PATENT_1986 and proposal.job == job
     assert [type(each.operation) for each in proposal.operations] == [PocketOperation, RestOperation, ContourOperation]
     assert "1986" in proposal.operations[0].why
 
 
 def test_what_else_is_asked_for_goes_into_what_is_proposed() -> None:
-    made = made_of(PLATE, machining=Machining.of(depth=1.0, tabs=2, copies=Copies(2, 1, 120.0)), post="grbl")
+    made = made_of(PLATE, machining=MachiningOptions.of(depth=1.0, tabs=2, copies=Copies(2, 1, 120.0)), post="grbl")
     assert [each.cut.depth for each in made.job.operations] == [10.0, 1.0, 10.0]
     assert made.job.operations[-1].tabs.count == 2 and len(made.program.tabs) == 4  # type: ignore[attr-defined]
     assert made.job.copies.columns == 2 and made.job.post == "grbl"
     with pytest.raises(InputError, match="--drill does not go with --propose"):
-        made_of(PLATE, machining=Machining.of(drills=(6.0,)))
+        made_of(PLATE, machining=MachiningOptions.of(drills=(6.0,)))
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -230,10 +230,10 @@ def test_the_areas_of_random_nested_parts(seed: int) -> None:
     for k in range(2):
         put(200.0 * k, 0.0, 60.0, 0)
     job = propose(Job(layered_part({"0": contours}))).job
-    from app.toolpath.drawn import drawn
-    from app.toolpath.sheets import Sheets
+    from app.toolpath.drawn_contours import drawn_contours
+    from app.toolpath.machining_areas import MachiningAreas
 
-    sheets = Sheets(job, drawn(job))
+    sheets = MachiningAreas(job, drawn_contours(job))
     by_kind = {"cleared": 0.0, "holes": 0.0}
     for operation, area in zip(job.operations, sheets.areas(), strict=True):
         size = float(shapely.union_all(region_shapes(area.regions, 1e-4)).area)

@@ -10,7 +10,7 @@ import pytest
 from app.core.errors import HitofudeError
 from app.model.curves import Arc, Circle, Curve, Line
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, Direction, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, Direction, PocketOperation
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.usecases.make import export
@@ -55,11 +55,14 @@ def random_job(seed: int) -> Job:
             curves += outline(chance, star(chance, chance.randint(3, 9), centre, chance.uniform(1, 7)))
     pocket = chance.uniform(2, 10)
     contour = pocket * chance.choice([1, 0.5, 0.7])
-    cut = Cut(1, 3, chance.choice([1, 2, 3]), chance.choice([0, 0, 0.2]), chance.choice(list(Direction)))
+    cut = CutParameters(1, 3, chance.choice([1, 2, 3]), chance.choice([0, 0, 0.2]), chance.choice(list(Direction)))
     return Job(
         Part().with_entities(tuple(Entity(number, curve) for number, curve in enumerate(curves, 1))),
         (Tool(1, pocket), Tool(2, contour)),
-        (PocketOperation(cut, chance.choice([None, 0.3 * pocket, 0.5 * pocket])), ContourOperation(Cut(2, 3))),
+        (
+            PocketOperation(cut, chance.choice([None, 0.3 * pocket, 0.5 * pocket])),
+            ContourOperation(CutParameters(2, 3)),
+        ),
     )
 
 

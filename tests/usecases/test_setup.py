@@ -17,29 +17,29 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.machining import Machining
+from app.usecases.machining import MachiningOptions
 from app.usecases.make import make
 from app.usecases.options import MakeOptions
-from app.usecases.setup import Ready, Wishes, setup_of
-from app.usecases.setup_tools import ToolsTold
+from app.usecases.setup import ReadySetup, SetupRequest, setup_of
+from app.usecases.setup_tools import ToolSource
 from app.verify.parts import FlatPart
 
 CUT = "G0 Z5\nX10 Y10\nG1 Z-2 F100\nX40 Y20\nG0 Z5\n"
 GIVEN = Tool(3, 7.0, ToolKind.BALL)
 
 
-NOTHING_SAID = Wishes()
+NOTHING_SAID = SetupRequest()
 
 
-def ready(*texts: str, wishes: Wishes = NOTHING_SAID) -> Ready:
+def ready(*texts: str, wishes: SetupRequest = NOTHING_SAID) -> ReadySetup:
     options = ExamineOptions(Dialect.LINUXCNC)
     return setup_of(
         tuple(examine(f"p{k}.ngc", f"G21 G90\n{text}M2\n".encode(), options) for k, text in enumerate(texts, 1)), wishes
     )
 
 
-def tools(*texts: str, told: tuple[ToolsTold, ...] = ()) -> dict[int, Tool]:
-    return dict(ready(*texts, wishes=Wishes(tools=told)).setup.tools)
+def tools(*texts: str, told: tuple[ToolSource, ...] = ()) -> dict[int, Tool]:
+    return dict(ready(*texts, wishes=SetupRequest(tools=told)).setup.tools)
 
 
 def box(text: str) -> tuple[float, ...]:
@@ -53,12 +53,12 @@ def box(text: str) -> tuple[float, ...]:
 def test_tools_are_believed_in_order() -> None:
     text = f"(T3 flat 4 mm)\nT3 M6\n{CUT}"
     option, job, table = (
-        ToolsTold(name, {3: Tool(3, diameter)})
+        ToolSource(name, {3: Tool(3, diameter)})
         for name, diameter in (("--tool", 9.0), ("the job", 8.0), ("t.tbl", 7.0))
     )
     for told, diameter in (((option, job, table), 9.0), ((job, table), 8.0), ((table,), 7.0), ((), 4.0)):
         assert tools(text, told=told)[3].diameter == diameter
-    known = ready(text, wishes=Wishes(tools=(ToolsTold("--tool"), job))).tools[3]
+    known = ready(text, wishes=SetupRequest(tools=(ToolSource("--tool"), job))).tools[3]
     assert (known.source, known.assumed) == ("the job", "")
 
 
@@ -131,7 +131,7 @@ def test_comments_that_make_no_tool(comment: str, words: str) -> None:
 def test_the_angle_of_a_drill_is_said_where_it_is_assumed() -> None:
     def told(angle: float) -> str:
         tool = Tool(3, 8.0, ToolKind.DRILL, tip_angle=angle)
-        return ready(f"T3 M6\n{CUT}", wishes=Wishes(tools=(ToolsTold("--tool", {3: tool}),))).tools[3].assumed
+        return ready(f"T3 M6\n{CUT}", wishes=SetupRequest(tools=(ToolSource("--tool", {3: tool}),))).tools[3].assumed
 
     assert told(0.0) == (
         "T3: --tool tells a drill of 8 mm but no angle; it is taken to have 118 degrees; "
@@ -141,7 +141,9 @@ def test_the_angle_of_a_drill_is_said_where_it_is_assumed() -> None:
 
 
 def test_a_table_without_shapes_is_said() -> None:
-    made = ready(f"T3 M6\n{CUT}", wishes=Wishes(tools=(ToolsTold("tool.tbl", {3: Tool(3, 8.0)}, shapeless=True),)))
+    made = ready(
+        f"T3 M6\n{CUT}", wishes=SetupRequest(tools=(ToolSource("tool.tbl", {3: Tool(3, 8.0)}, shapeless=True),))
+    )
     assert (
         made.findings[0].text == "T3: tool.tbl tells no shapes, so it is taken to be flat, 8 mm; --tool says otherwise."
     )
@@ -159,7 +161,7 @@ def test_a_table_without_shapes_is_said() -> None:
     ],
 )
 def test_the_tool_of_a_program_that_names_none(comment: str, told: dict[int, Tool], expected: dict[int, Tool]) -> None:
-    made = ready(comment + CUT, wishes=Wishes(tools=(ToolsTold("--tool", told),)))
+    made = ready(comment + CUT, wishes=SetupRequest(tools=(ToolSource("--tool", told),)))
     assert made.setup.tools == expected
     assert set(made.setup.numbers().tolist()) == set(expected)
     assert set(made.programs[0].time.by_tool) == set(expected)
@@ -167,18 +169,18 @@ def test_the_tool_of_a_program_that_names_none(comment: str, told: dict[int, Too
 
 def test_a_nameless_tool_beside_named_ones() -> None:
     text = f"{CUT}T2 M6\n{CUT}"
-    assert tools(text, told=(ToolsTold("--tool", {0: Tool(1, 5.0), 2: Tool(2, 3.0)}),)) == {
+    assert tools(text, told=(ToolSource("--tool", {0: Tool(1, 5.0), 2: Tool(2, 3.0)}),)) == {
         1: Tool(1, 5.0),
         2: Tool(2, 3.0),
     }
-    assert tools(text, told=(ToolsTold("--tool", {7: Tool(7, 5.0), 2: Tool(2, 3.0)}),)) == {
+    assert tools(text, told=(ToolSource("--tool", {7: Tool(7, 5.0), 2: Tool(2, 3.0)}),)) == {
         7: Tool(7, 5.0),
         2: Tool(2, 3.0),
     }
     with pytest.raises(
         InputError, match=r"p1\.ngc:4: a tool that the program does not name cuts from here on.*--tool 0=flat:6"
     ):
-        tools(text, told=(ToolsTold("--tool", {2: Tool(2, 3.0)}),))
+        tools(text, told=(ToolSource("--tool", {2: Tool(2, 3.0)}),))
 
 
 def test_files_that_name_no_tool() -> None:
@@ -241,7 +243,7 @@ def test_a_box_round_the_cuts_is_said_with_all_its_numbers() -> None:
 
 def test_a_box_that_is_assumed_holds_the_part(samples: Path) -> None:
     against = ("fig2.dxf", (samples / "fig2.dxf").read_bytes())
-    made = ready(f"(T1 flat 6 mm)\nT1 M6\n{CUT.replace('X40', 'X99')}", wishes=Wishes(against=against, depth=4.0))
+    made = ready(f"(T1 flat 6 mm)\nT1 M6\n{CUT.replace('X40', 'X99')}", wishes=SetupRequest(against=against, depth=4.0))
     assert isinstance(made.setup.stock, BoxStock)
     assert made.setup.stock.solid == StockBox(6, 6, -4, 102, 96, 0)
     assert "a box round the cuts and the part is assumed, X 6.000 to 102.000" in made.findings[0].text
@@ -269,11 +271,11 @@ def test_programs_that_cannot_be_cut(text: str, words: str) -> None:
 
 def test_our_own_header_tells_everything(samples: Path) -> None:
     drawing = (samples / "fig2.dxf").read_bytes()
-    machining = Machining.of(depth=3.0, stock_to_leave=0.1)
+    machining = MachiningOptions.of(depth=3.0, stock_to_leave=0.1)
     options = MakeOptions(origin_xy=OriginXY.CENTRE, origin_z=OriginZ.BOTTOM, layers=(), machining=machining)
     made = make("fig2.dxf", drawing, options)
     examined = examine("fig2.ngc", made.nc.text.encode(), ExamineOptions())
-    got = setup_of((examined,), Wishes(against=("fig2.dxf", drawing)))
+    got = setup_of((examined,), SetupRequest(against=("fig2.dxf", drawing)))
     part, stock = got.setup.part, got.setup.stock
     assert isinstance(part, FlatPart)
     assert isinstance(stock, BoxStock)
@@ -298,21 +300,21 @@ def test_what_is_asked_goes_before_the_job_and_the_job_before_the_header(samples
     )
     job = read_job("j", text)
 
-    def part(wishes: Wishes) -> tuple[FlatPart, Ready]:
+    def part(wishes: SetupRequest) -> tuple[FlatPart, ReadySetup]:
         got = setup_of((examined,), wishes)
         assert isinstance(got.setup.part, FlatPart)
         return got.setup.part, got
 
-    found, got = part(Wishes(against=("fig2.dxf", drawing), job=job))
+    found, got = part(SetupRequest(against=("fig2.dxf", drawing), job=job))
     assert [each.cut.depth for each in found.job.operations] == [5.0]
     assert (found.origin, got.stock.source) == ((1.0, 1.0, 0.0), "the job file, round the drawing")
     assert got.setup.stock.box == (0, 0, 100, 100)
     asked, _ = part(
-        Wishes(
+        SetupRequest(
             against=("fig2.dxf", drawing), job=job, depth=7.0, leave=0.2, tolerance=0.05, origin=(OriginXY.CENTRE, None)
         )
     )
     assert [(each.cut.depth, each.cut.stock_to_leave) for each in asked.job.operations] == [(7.0, 0.2)]
     assert (asked.origin, asked.tolerance, asked.wall_tolerance) == ((51.0, 51.0, 0.0), 0.05, 0.05)
     given = BoxStock(StockBox(0, 0, -4, 9, 9, 0))
-    assert part(Wishes(against=("fig2.dxf", drawing), job=job, stock=given))[1].setup.stock is given
+    assert part(SetupRequest(against=("fig2.dxf", drawing), job=job, stock=given))[1].setup.stock is given

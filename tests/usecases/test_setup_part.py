@@ -16,14 +16,14 @@ from app.model.curve_selectors import on_layers
 from app.model.entry import Lead, LeadKind
 from app.model.job import Copies, Job
 from app.model.moves import Area, DogBone, Program, Tab
-from app.model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, Side
+from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, PocketOperation, Side
 from app.model.tool import Tool, ToolKind
-from app.operations.compute import followed_lines, machined
+from app.operations.compute import followed_lines, machined_regions
 from app.toolpath.coverage.flat import region_shapes
-from app.toolpath.drawn import drawn
-from app.toolpath.sheets import Sheets
+from app.toolpath.drawn_contours import drawn_contours
+from app.toolpath.machining_areas import MachiningAreas
 from app.usecases.examine import ExamineOptions, examine
-from app.usecases.setup import Wishes, setup_of
+from app.usecases.setup import SetupRequest, setup_of
 from app.verify.parts import FlatPart
 from tests.gcode.programs import Path
 
@@ -50,24 +50,24 @@ def drawing() -> bytes:
 
 
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
-    "pocket": (PocketOperation(Cut(1, 3.0, floor_to_leave=0.5)),),
+    "pocket": (PocketOperation(CutParameters(1, 3.0, floor_to_leave=0.5)),),
     "layers": (
-        PocketOperation(Cut(1, 3.0, curves=on_layers(("Holes",)))),
-        ContourOperation(Cut(1, 5.0, curves=on_layers(("outline",))), Side.OUTSIDE),
+        PocketOperation(CutParameters(1, 3.0, curves=on_layers(("Holes",)))),
+        ContourOperation(CutParameters(1, 5.0, curves=on_layers(("outline",))), Side.OUTSIDE),
     ),
     "holes": (
-        DrillOperation(Cut(2, 4.0, curves=on_layers(("Holes",))), through=1.0),
-        ContourOperation(Cut(1, 2.0, curves=on_layers(("text",))), Side.ON),
+        DrillOperation(CutParameters(2, 4.0, curves=on_layers(("Holes",))), through=1.0),
+        ContourOperation(CutParameters(1, 2.0, curves=on_layers(("text",))), Side.ON),
     ),
     "leads": (
         ContourOperation(
-            Cut(1, 2.0, 1.0, 0.25, curves=on_layers(("outline",))),
+            CutParameters(1, 2.0, 1.0, 0.25, curves=on_layers(("outline",))),
             Side.OUTSIDE,
             Lead(LeadKind.LINE, 35.5),
             finish_width=1.5,
         ),
     ),
-    "wide holes": (DrillOperation(Cut(2, 4.0), least=4.0, most=20.0),),
+    "wide holes": (DrillOperation(CutParameters(2, 4.0), least=4.0, most=20.0),),
 }
 
 
@@ -86,11 +86,11 @@ def test_comments_lead_to_the_same_areas(name: str, post: str) -> None:
         keep_out_height=8.0,
         post=post,
     )
-    made = drawn(job)
+    made = drawn_contours(job)
     program = replace(
         _moves(job),
-        regions=machined(made).regions,
-        areas=Sheets(job, made).areas(),
+        regions=machined_regions(made).regions,
+        areas=MachiningAreas(job, made).areas(),
         lines=followed_lines(job, made),
         tabs=TABS,
         dog_bones=BONES,
@@ -99,7 +99,7 @@ def test_comments_lead_to_the_same_areas(name: str, post: str) -> None:
     examined = tuple(
         examine(f"{k}.nc", text.encode(), ExamineOptions(load_post(post).dialect)) for k, text in enumerate(texts)
     )
-    found = setup_of(examined, Wishes(against=("plate.dxf", drawing()))).setup.part
+    found = setup_of(examined, SetupRequest(against=("plate.dxf", drawing()))).setup.part
     assert isinstance(found, FlatPart)
     assert len(found.areas) == len(program.areas)
     for mine, theirs in zip(program.areas, found.areas, strict=True):

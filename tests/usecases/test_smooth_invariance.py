@@ -20,9 +20,9 @@ from app.fitting.fitted import FittedPath
 from app.fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from app.fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from app.fitting.point_curves.space_curve import curve_of_motions
-from app.fitting.point_curves.tube import Answer, Tube, judge
+from app.fitting.point_curves.tube import ToleranceTube, TubeAnswer, judge
 from app.gcode.posts.posts import load_post
-from app.usecases.smooth import Form, SmoothOptions, smooth
+from app.usecases.smooth import OutputForm, SmoothOptions, smooth
 from tests.examples import examples
 from tests.usecases.test_smooth_oracle import WAYS, closed, eight, helix, noisy, paired, program, quantised, twisted
 from tests.usecases.written_curves import Floats, along, moves_of, off
@@ -33,8 +33,8 @@ CHORDS = 1e-4
 """mm at a scale of 1; how far a chord from one of so many places to the next may be from its curve."""
 
 FITS: dict[str, Callable[[Floats, float], FittedPath]] = {
-    "cubic": lambda points, tolerance: fit_splines(points, SplineOptions(Tube(tolerance))),
-    "quintic": lambda points, tolerance: fit_splines(points, SplineOptions(Tube(tolerance), 5)),
+    "cubic": lambda points, tolerance: fit_splines(points, SplineOptions(ToleranceTube(tolerance))),
+    "quintic": lambda points, tolerance: fit_splines(points, SplineOptions(ToleranceTube(tolerance), 5)),
     "arcs": lambda points, tolerance: fit_arcs(points, ArcOptions(tolerance)),
     "lines": lambda points, tolerance: fit_arcs(points, ArcOptions(tolerance, arcs=False)),
 }
@@ -118,8 +118,8 @@ def fitted(points: Floats, change: Change, name: str) -> tuple[FittedPath, Float
     there, tolerance = np.ascontiguousarray(change.there(points)), TOLERANCE * change.scale
     path = FITS[name](there, tolerance)
     edge = 1e-6 * tolerance
-    judgement = judge(curve_of_motions(path.motions), there, Tube(tolerance + edge))
-    assert judgement.answer is Answer.INSIDE and judgement.bound <= tolerance + edge
+    judgement = judge(curve_of_motions(path.motions), there, ToleranceTube(tolerance + edge))
+    assert judgement.answer is TubeAnswer.INSIDE and judgement.bound <= tolerance + edge
     return path, change.back(places(path))
 
 
@@ -217,7 +217,7 @@ def test_a_program_of_another_place_size_or_sense_is_smoothed_alike(way: str, ch
     points, other = np.round(eight(), 3), IN_THE_TEXT[change]
     count, before = written(points, TOLERANCE, way)
     changed, after = written(other.there(points), TOLERANCE * other.scale, way)
-    few = about(count, changed, 1.4 if WAYS[way][0] is Form.NURBS else 1.15)
+    few = about(count, changed, 1.4 if WAYS[way][0] is OutputForm.NURBS else 1.15)
     assert few, (count, changed)
     assert apart(before, other.back(after)) <= 2 * TOLERANCE + CHORDS
     if way == "lines" and change in EXACT:

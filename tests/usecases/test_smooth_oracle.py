@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from app.gcode.posts.posts import load_post
-from app.usecases.smooth import Form, Smoothed, SmoothOptions, smooth
+from app.usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
 from app.usecases.smooth_report import report
 from tests.usecases.written_curves import Floats, along, in_order, long, moves_of, off, spread
 
@@ -27,10 +27,10 @@ EXACT, CHORDS = 1e-9, 1e-6
 """mm; what float64 may add, and how far a chord from one place of the curve to the next may be from it."""
 
 WAYS = {
-    "lines": (Form.LINES, "linuxcnc"),
-    "arcs": (Form.ARCS, "linuxcnc"),
-    "knots": (Form.NURBS, "fanuc"),
-    "biarcs": (Form.NURBS, "linuxcnc"),
+    "lines": (OutputForm.LINES, "linuxcnc"),
+    "arcs": (OutputForm.ARCS, "linuxcnc"),
+    "knots": (OutputForm.NURBS, "fanuc"),
+    "biarcs": (OutputForm.NURBS, "linuxcnc"),
 }
 
 
@@ -143,7 +143,7 @@ ADVERSARIES: dict[str, tuple[Callable[[], Floats], float]] = {
 }
 
 
-def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -> Smoothed:
+def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -> SmoothedProgram:
     """Smooth, and hold the written text against the given one."""
     form, post = WAYS[way]
     control = load_post(post)
@@ -180,7 +180,7 @@ def held(data: bytes, tolerance: float, way: str, middle: float | None = None) -
     return done
 
 
-def paired(old: list[str], new: list[str], done: Smoothed) -> dict[int, tuple[int, int]]:
+def paired(old: list[str], new: list[str], done: SmoothedProgram) -> dict[int, tuple[int, int]]:
     """Return the first and last line of each stretch that was written anew, and hold all other lines against the old
     ones.
     """
@@ -204,7 +204,7 @@ def paired(old: list[str], new: list[str], done: Smoothed) -> dict[int, tuple[in
 MAY_STAY = {("zigzag", "lines"), ("crumbs", "knots")}
 
 
-def assert_anew(done: Smoothed, name: str, way: str) -> None:
+def assert_anew(done: SmoothedProgram, name: str, way: str) -> None:
     """What stays as it was proves nothing."""
     anew = any(piece.judgement for piece in done.pieces)
     assert anew or (name, way) in MAY_STAY

@@ -16,11 +16,11 @@ from app.gcode.posts.posts import load_post, post_names
 from app.model.finding import FindingKind
 from app.model.job import OriginXY, OriginZ
 from app.model.part import Units
-from app.model.scene import Boundary, Centre, Passes, Scene, Surface
+from app.model.scene import Boundary, CentreLimit, Passes, Scene, Surface
 from app.model.tool import Tool, ToolKind
 from app.surfaces.sections.compound import NO_SURFACE
 from app.usecases import surface_nc
-from app.usecases.surface import Computed, compute
+from app.usecases.surface import ComputedScene, compute
 from app.usecases.surface_nc import write_scene_nc
 from tests.surfaces.scenes import ball, plane
 from tests.surfaces.surface_places import no_data
@@ -34,7 +34,7 @@ SCENE = Scene(
 )
 
 
-def computed(**changes: object) -> Computed:
+def computed(**changes: object) -> ComputedScene:
     return compute(replace(SCENE, **changes), SOURCES)  # type: ignore[arg-type]
 
 
@@ -110,7 +110,7 @@ def test_the_order_of_surfaces_changes_nothing_but_their_numbers() -> None:
 
 
 def test_a_floor_and_a_boundary_hold() -> None:
-    inside = (Boundary(rectangle=(5, 3, 25, 17), centre=Centre.INSIDE),)
+    inside = (Boundary(rectangle=(5, 3, 25, 17), centre=CentreLimit.INSIDE),)
     made = computed(passes=(Passes(1, pitch=2.0, floor=2.0, boundary=inside),))
     cut = made.moves.moves.end[made.moves.surface != NO_SURFACE]
     assert cut[:, 2].min() == pytest.approx(2.0, abs=1e-4)

@@ -10,8 +10,15 @@ from functools import cache
 import numpy as np
 
 from app.formats.scene.toml import read_scene, sources_of
-from app.surfaces.sections.compound import NO_SURFACE, Boundaries, BoundaryKind, Compound, Planes, Run
-from app.usecases.surface import Computed, compute
+from app.surfaces.sections.compound import (
+    NO_SURFACE,
+    BoundaryKind,
+    BoundaryPoints,
+    CompoundSurface,
+    CuttingPlanes,
+    SectionRun,
+)
+from app.usecases.surface import ComputedScene, compute
 from app.usecases.surface_points import COLUMNS, points_csv, scene_points_csv
 from tests.conftest import ROOT
 
@@ -19,7 +26,7 @@ SAMPLES = ROOT / "resources" / "samples"
 
 
 @cache
-def the_compound() -> Computed:
+def the_compound() -> ComputedScene:
     scene = read_scene("compound.toml", (SAMPLES / "compound.toml").read_bytes())
     return compute(scene, sources_of(lambda name: (SAMPLES / name).read_bytes()))
 
@@ -81,7 +88,7 @@ def test_hostile_names_ends_and_meshes() -> None:
     names = ('a "quoted", name', "two\nlines", "floor")
     nan, tenth = np.full((2, 2), math.nan), 0.1 + 0.2
     points = np.array([[0.0, -0.0, tenth], [1e-300, 1e22, 1 / 3], [math.pi, 2, 3]])
-    marks = Boundaries(
+    marks = BoundaryPoints(
         np.array([0, 0]),
         np.array([0, 1]),
         np.array([1, NO_SURFACE]),
@@ -91,8 +98,10 @@ def test_hostile_names_ends_and_meshes() -> None:
         nan,
         np.array([BoundaryKind.JUMP, BoundaryKind.EDGE], np.uint8),
     )
-    compound = Compound(
-        Planes((0.0, 0.0), 0.0, (0.0,)), (Run(0, points, np.array([0, 1])), Run(0, points[:2], np.array([1]))), marks
+    compound = CompoundSurface(
+        CuttingPlanes((0.0, 0.0), 0.0, (0.0,)),
+        (SectionRun(0, points, np.array([0, 1])), SectionRun(0, points[:2], np.array([1]))),
+        marks,
     )
     rows = rows_of(points_csv(compound, names))
     assert [(row["kind"], row["run"], row["point"], row["name"]) for row in rows[:5]] == [
@@ -113,8 +122,10 @@ def test_hostile_names_ends_and_meshes() -> None:
 
 def test_a_hundred_thousand_points() -> None:
     points = np.random.default_rng(4).normal(size=(100_000, 3))
-    compound = Compound(
-        Planes((0.0, 0.0), 0.0, (0.0,)), (Run(0, points, np.zeros(99_999, np.int64)),), Boundaries.none()
+    compound = CompoundSurface(
+        CuttingPlanes((0.0, 0.0), 0.0, (0.0,)),
+        (SectionRun(0, points, np.zeros(99_999, np.int64)),),
+        BoundaryPoints.none(),
     )
     data = points_csv(compound, ("one",))
     assert data.count(b"\r\n") == 100_001

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from app.formats.scene.toml import read_scene, sources_of
 from app.model.tool import Tool, ToolKind
 from app.surfaces.patches.patch import patches_of
-from app.usecases.surface import Computed, compute
+from app.usecases.surface import ComputedScene, compute
 from app.usecases.surface_nc import write_scene_nc
 from tests.surfaces.surface_places import no_data
 from tests.surfaces.test_drop_cutter import rise
@@ -52,7 +52,7 @@ shape = { kind = "torus", centre = [15, 14, -2], major = 9, minor = 2.4 }
 }
 
 
-def samples(computed: Computed) -> np.ndarray:
+def samples(computed: ComputedScene) -> np.ndarray:
     """Return places (n, 3) all over what is left of the surfaces."""
     found = []
     for number, built in enumerate(computed.built):

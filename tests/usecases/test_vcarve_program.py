@@ -11,7 +11,7 @@ from app.core.resources import resource
 from app.formats.job.toml import read_job
 from app.model.finding import FindingKind
 from app.operations.compute import compute
-from app.usecases.make import Made, finish, make
+from app.usecases.make import MakeResult, finish, make
 from app.usecases.options import MakeOptions
 from tests.gcode.rs274_oracle import assert_same_motion
 
@@ -31,16 +31,16 @@ stepdown = 3.0
 """
 
 
-def made_of(drawing: str, job: str = JOB) -> Made:
+def made_of(drawing: str, job: str = JOB) -> MakeResult:
     return make("part.draw", drawing.encode(), MakeOptions(job=read_job("job", job.encode()).job))
 
 
 @pytest.fixture(scope="module")
-def roof() -> Made:
+def roof() -> MakeResult:
     return made_of("rectangle 0,0 20,10\n")
 
 
-def test_a_roof_has_its_volume_and_its_proofs(roof: Made) -> None:
+def test_a_roof_has_its_volume_and_its_proofs(roof: MakeResult) -> None:
     report = json.loads(roof.report.text())
     assert roof.clean and not roof.findings
     assert report["cut"]["removed_mm3"] == pytest.approx(10 * 25 + 10 * 10 * 5 / 3, rel=1e-4)
@@ -50,14 +50,14 @@ def test_a_roof_has_its_volume_and_its_proofs(roof: Made) -> None:
     assert carving["left_mm"] < 1e-6 and carving["places_left"] == 0 and carving["between_places_mm"] < 0.1
 
 
-def test_linuxcnc_reads_the_same_motion(roof: Made) -> None:
+def test_linuxcnc_reads_the_same_motion(roof: MakeResult) -> None:
     assert_same_motion(roof.program.moves, roof.nc, roof.job)
 
 
 @pytest.mark.parametrize(
     ("off", "kind"), [(-0.01, FindingKind.GOUGE), (0.01, FindingKind.LEFT_REACHABLE)], ids=["deeper", "higher"]
 )
-def test_a_path_that_is_off_by_a_hundredth_is_found(roof: Made, off: float, kind: FindingKind) -> None:
+def test_a_path_that_is_off_by_a_hundredth_is_found(roof: MakeResult, off: float, kind: FindingKind) -> None:
     """The path is broken on purpose: the verdict must see it."""
     program = compute(roof.job)
     end = program.moves.end.copy()

@@ -13,7 +13,7 @@ import pytest
 from app.core.errors import HitofudeError
 from app.core.settings import config_folder
 from app.formats.machine_toml import load_machine
-from app.gcode.checks.check import Meant, check
+from app.gcode.checks.check import CheckReference, check
 from app.gcode.posts.post import Decimals, WordDecimals
 from app.gcode.posts.posts import load_post, post_names
 from app.gcode.writer import write
@@ -21,7 +21,7 @@ from app.model.finding import FindingKind
 from app.model.machine import Machine
 from app.model.moves import MoveKind
 from app.model.part import Units
-from app.usecases.make import Made, finish, make
+from app.usecases.make import MakeResult, finish, make
 from app.usecases.options import MakeOptions
 from app.usecases.written import write_and_check
 
@@ -29,7 +29,7 @@ FIG2 = Path(__file__).resolve().parents[2] / "resources/samples/fig2.dxf"
 
 
 @pytest.fixture(scope="module")
-def made() -> Made:
+def made() -> MakeResult:
     return make("fig2.dxf", FIG2.read_bytes(), MakeOptions())
 
 
@@ -42,7 +42,7 @@ def fast(acceleration: float, **changes: object) -> Machine:
 
 @pytest.mark.parametrize("name", post_names())
 @pytest.mark.parametrize("units", [Units.MM, Units.INCH], ids=["mm", "inch"])
-def test_every_post_writes_the_job_and_says_how_near(made: Made, name: str, units: Units) -> None:
+def test_every_post_writes_the_job_and_says_how_near(made: MakeResult, name: str, units: Units) -> None:
     this = finish(made.program, replace(made.job, post=name, out_units=units))
     check = this.report.data["check"]
     assert check["differences"] == 0
@@ -51,7 +51,7 @@ def test_every_post_writes_the_job_and_says_how_near(made: Made, name: str, unit
     assert sum(file.nc.text.count("M30") + file.nc.text.count("M2\n") for file in this.files) == len(this.files)
 
 
-def test_files_of_one_tool_each_hold_every_move_once(made: Made) -> None:
+def test_files_of_one_tool_each_hold_every_move_once(made: MakeResult) -> None:
     this = finish(made.program, replace(made.job, post="grbl"))
     assert [file.first for file in this.files] == [0, int(np.argmax(made.program.moves.tool == 2))]
     assert sum(len(file.nc.lines) for file in this.files) == len(made.program.moves)
@@ -63,7 +63,7 @@ def test_files_of_one_tool_each_hold_every_move_once(made: Made) -> None:
     assert this.report.data["time_s"] == pytest.approx(one["time_s"], abs=3)
 
 
-def test_without_acceleration_the_time_is_length_over_feed(made: Made) -> None:
+def test_without_acceleration_the_time_is_length_over_feed(made: MakeResult) -> None:
     moves = made.program.moves
     cuts = moves.kind != MoveKind.RAPID
     this = finish(made.program, made.job, machine=fast(1e9)).report.data
@@ -84,7 +84,7 @@ def test_without_acceleration_the_time_is_length_over_feed(made: Made) -> None:
     )
 
 
-def test_a_machine_that_is_too_small_or_too_slow_is_a_finding(made: Made) -> None:
+def test_a_machine_that_is_too_small_or_too_slow_is_a_finding(made: MakeResult) -> None:
     machine = fast(500.0, largest_feed=500.0)
     machine = replace(machine, x=replace(machine.x, low=0.0, high=50.0), spindle=replace(machine.spindle, high=15000.0))
     this = finish(made.program, made.job, machine=machine)
@@ -95,7 +95,7 @@ def test_a_machine_that_is_too_small_or_too_slow_is_a_finding(made: Made) -> Non
     assert made.clean  # timed on a usual machine, and held against none
 
 
-def test_a_writer_that_errs_is_refused(made: Made, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_writer_that_errs_is_refused(made: MakeResult, monkeypatch: pytest.MonkeyPatch) -> None:
     """The writer is broken on purpose, as a mistake in it would break it: one coordinate of the path moves by 10 um."""
     right = write.work_moves
 
@@ -122,7 +122,7 @@ def test_a_writer_that_errs_is_refused(made: Made, monkeypatch: pytest.MonkeyPat
     ],
 )
 def test_decimals_that_are_too_few_are_a_finding_that_counts(
-    made: Made, decimals: int, units: Units, far: float
+    made: MakeResult, decimals: int, units: Units, far: float
 ) -> None:
     post = load_post("linuxcnc")
     few = WordDecimals(decimals, decimals, decimals, decimals, decimals, 1)
@@ -140,7 +140,7 @@ def test_decimals_that_are_too_few_are_a_finding_that_counts(
     )
 
 
-def test_the_report_of_a_coarse_post_says_of_which_path_its_gouges_are(made: Made) -> None:
+def test_the_report_of_a_coarse_post_says_of_which_path_its_gouges_are(made: MakeResult) -> None:
     folder = config_folder() / "posts"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "coarse.toml").write_text('extends = "linuxcnc"\n[decimals.mm]\nX = 1\nY = 1\nZ = 1\nI = 1\nJ = 1\n')
@@ -153,7 +153,7 @@ def test_the_report_of_a_coarse_post_says_of_which_path_its_gouges_are(made: Mad
     assert not any(finding.kind is FindingKind.TOLERANCE for finding in made.findings)
 
 
-def test_who_is_to_mend_what_is_refused(made: Made) -> None:
+def test_who_is_to_mend_what_is_refused(made: MakeResult) -> None:
     """A post of the program is ours to mend, one of the user's is the user's."""
     post = load_post("linuxcnc")
     wrong = replace(post, title="Mine", program=replace(post.program, leave=()))
@@ -161,7 +161,9 @@ def test_who_is_to_mend_what_is_refused(made: Made) -> None:
         write_and_check(made.program, made.job, wrong, None)
     right = write_and_check(made.program, made.job, post, None)
     broken = check(
-        right.files[0].nc.text.replace("M5", "M4").encode(), right.files[0], Meant(made.program, made.job, post)
+        right.files[0].nc.text.replace("M5", "M4").encode(),
+        right.files[0],
+        CheckReference(made.program, made.job, post),
     )
     with pytest.raises(HitofudeError, match=r"it is not kept; please report this with the drawing and the post"):
         broken.require("part.ngc")

@@ -7,13 +7,13 @@ import shapely
 
 from app.model.moves import MoveKind
 from app.toolpath.coverage.flat import lines, move_rows, region_shapes
-from app.usecases.make import Made
+from app.usecases.make import MakeResult
 
 DOUBT = 0.01
 """mm; points nearer than this to the edge of a cut or of a piece that is left decide nothing."""
 
 
-def assert_left_is_true(made: Made, count: int = 400) -> int:
+def assert_left_is_true(made: MakeResult, count: int = 400) -> int:
     """Assert that points lie in a piece that is left exactly when no move at the floor covers them; return how many
     decided.
     """

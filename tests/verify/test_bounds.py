@@ -13,18 +13,18 @@ from app.model.curves import Circle, Line
 from app.model.finding import FindingKind
 from app.model.job import Job, Stock
 from app.model.moves import Area, DogBone, Program, Tab
-from app.model.operation import ContourOperation, Cut, DrillOperation, PocketOperation, RestOperation, Side
+from app.model.operation import ContourOperation, CutParameters, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.part import Contour, Entity, Part, Region
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.coverage import measure
-from app.toolpath.coverage.wanted import wanted_of
+from app.toolpath.coverage.floor_target import floor_targets
 from app.usecases.make import export
 from app.verify.bounds import bounds_of
 from app.verify.verdict import clamps_met, deepest_of, gouge, gouge_depths
 from tests.gcode.programs import Path, square
 
 LEFT, RIGHT = square(0, 0, 20, 20), replace(square(30, 0, 50, 20), number=2)
-POCKET = PocketOperation(Cut(1, 2.0))
+POCKET = PocketOperation(CutParameters(1, 2.0))
 
 
 def job(*operations: object, tools: tuple[Tool, ...] = (Tool(1, 6.0), Tool(2, 3.0))) -> Job:
@@ -38,7 +38,7 @@ def across(x: float, z: float, tool: int = 1, operation: int = 0) -> Path:
 
 
 def test_an_operation_may_not_cut_in_the_area_of_another_one() -> None:
-    task = job(POCKET, replace(POCKET, cut=Cut(1, 5.0)))
+    task = job(POCKET, replace(POCKET, cut=CutParameters(1, 5.0)))
     areas = (Area((LEFT,), whole=True), Area((RIGHT,), whole=True))
     at_home = replace(across(0, -2).program(LEFT, RIGHT), areas=areas)
     assert gouge(at_home, task).max_mm <= 0
@@ -51,14 +51,14 @@ def test_an_operation_may_not_cut_in_the_area_of_another_one() -> None:
 
 
 def test_the_floor_is_that_of_the_operation_less_what_is_left_on_it() -> None:
-    task = job(replace(POCKET, cut=Cut(1, 2.0, floor_to_leave=0.5)))
+    task = job(replace(POCKET, cut=CutParameters(1, 2.0, floor_to_leave=0.5)))
     assert gouge(across(0, -1.5).program(LEFT), task).max_mm <= 0
     assert gouge(across(0, -2.0).program(LEFT), task).max_mm == pytest.approx(0.5)
 
 
 def test_a_path_on_the_line_stays_on_it() -> None:
     line = Contour((Line((5.0, 10.0), (15.0, 10.0)),), closed=False)
-    task = job(ContourOperation(Cut(1), Side.ON))
+    task = job(ContourOperation(CutParameters(1), Side.ON))
     frame = Region(1, polygon_contour([(-50, -50), (70, -50), (70, 70), (-50, 70)]))
     areas = (Area((frame,), (line,), bare=(frame.boundary,)),)
     program = replace(across(0, -2).program(), areas=areas, lines=(line,))
@@ -67,12 +67,12 @@ def test_a_path_on_the_line_stays_on_it() -> None:
     assert gouge(replace(off.program(), areas=areas, lines=(line,)), task).max_mm == pytest.approx(0.2)
     beyond = Path().into_work(8, 10, -2).line(16, 10, -2).out_of_work()
     assert gouge(replace(beyond.program(), areas=areas, lines=(line,)), task).max_mm == pytest.approx(1.0)
-    (wanted,) = wanted_of(program, task)
-    assert wanted.wanted.area == pytest.approx(10 * 6 + 9 * 3.14159, rel=1e-3)
+    (wanted,) = floor_targets(program, task)
+    assert wanted.target.area == pytest.approx(10 * 6 + 9 * 3.14159, rel=1e-3)
 
 
 def test_a_dog_bone_excuses_its_own_way_and_no_other() -> None:
-    task = job(ContourOperation(Cut(1), dog_bones=True))
+    task = job(ContourOperation(CutParameters(1), dog_bones=True))
     path = Path().into_work(3, 3, -2).line(2, 2, -2).line(3, 3, -2).out_of_work()
     assert gouge(path.program(LEFT), task).max_mm == pytest.approx(1.0)
     bone = DogBone(3.0, 3.0, 2.0, 2.0, 6.0)
@@ -84,7 +84,7 @@ def test_a_dog_bone_excuses_its_own_way_and_no_other() -> None:
 
 
 def test_a_tab_is_no_metal_left_but_a_gap_in_the_path_is() -> None:
-    task = job(ContourOperation(Cut(1)))
+    task = job(ContourOperation(CutParameters(1)))
     path = Path().into_work(3, 3, -2).line(17, 3, -2).line(17, 17, -2).line(3, 17, -2).line(3, 13, -2)
     path = path.line(3, 13, -1).line(3, 7, -1).line(3, 7, -2).line(3, 3, -2).out_of_work()
     program = path.program(LEFT)
@@ -94,20 +94,20 @@ def test_a_tab_is_no_metal_left_but_a_gap_in_the_path_is() -> None:
 
 
 def test_floors_at_two_depths_are_each_asked() -> None:
-    task = job(POCKET, PocketOperation(Cut(1, 5.0)))
+    task = job(POCKET, PocketOperation(CutParameters(1, 5.0)))
     areas = (Area((LEFT,), whole=True), Area((RIGHT,), whole=True))
     program = replace(across(0, -2).program(LEFT, RIGHT), areas=areas)
-    shallow, deep = wanted_of(program, task)
+    shallow, deep = floor_targets(program, task)
     assert (shallow.depth, deep.depth) == (2.0, 5.0)
     corners = (4 - 3.14159) * 9
-    assert shallow.wanted.area == pytest.approx(400 - corners, rel=1e-3)
-    assert deep.wanted.bounds == pytest.approx((30, 0, 50, 20), abs=0.01)
+    assert shallow.target.area == pytest.approx(400 - corners, rel=1e-3)
+    assert deep.target.bounds == pytest.approx((30, 0, 50, 20), abs=0.01)
     assert measure(program, task).floor_mm == 5.0
 
 
 def test_holes_that_cross_are_holes_each_and_a_drill_stays_in_its_own() -> None:
     holes = tuple(Region(k, Contour((Circle((x, 10.0), 3.0),))) for k, x in enumerate((10.0, 14.0), 1))
-    task, area = job(DrillOperation(Cut(1, 2.0))), (Area(holes),)
+    task, area = job(DrillOperation(CutParameters(1, 2.0))), (Area(holes),)
 
     def drilled(x: float) -> float:
         program = Path().into_work(x, 10, -2.0).out_of_work().program()
@@ -119,7 +119,7 @@ def test_holes_that_cross_are_holes_each_and_a_drill_stays_in_its_own() -> None:
 
 def test_a_drill_goes_on_by_its_tip_and_what_is_asked_for() -> None:
     drill = Tool(3, 5.0, ToolKind.DRILL, tip_angle=2.0943951)
-    task = job(DrillOperation(Cut(3, 4.0), through=0.5), tools=(drill,))
+    task = job(DrillOperation(CutParameters(3, 4.0), through=0.5), tools=(drill,))
     (bound,) = bounds_of(Program(across(0, -1, 3).moves(), (LEFT,)), task)
     assert bound.floor == pytest.approx(4.5 + 2.5 / 1.7320508)
 
@@ -136,15 +136,16 @@ def test_a_rapid_over_a_clamp_keeps_above_it(height: float, z: float, met: bool)
 
 
 def test_rest_machining_alone_is_judged_as_a_pocket_is() -> None:
-    task = job(RestOperation(Cut(1)))
+    task = job(RestOperation(CutParameters(1)))
     program = replace(across(0, -2).program(LEFT), areas=(Area((LEFT,), whole=True),))
-    (wanted,) = wanted_of(program, task)
-    assert wanted.wanted.area == pytest.approx(400 - (4 - 3.14159) * 9, rel=1e-3)
+    (wanted,) = floor_targets(program, task)
+    assert wanted.target.area == pytest.approx(400 - (4 - 3.14159) * 9, rel=1e-3)
     assert measure(program, task).unreachable_mm2 == pytest.approx((4 - 3.14159) * 9, rel=1e-2)
 
 
 @pytest.mark.parametrize(
-    ("operation", "told"), [(ContourOperation(Cut(1), Side.ON), False), (ContourOperation(Cut(1)), True)]
+    ("operation", "told"),
+    [(ContourOperation(CutParameters(1), Side.ON), False), (ContourOperation(CutParameters(1)), True)],
 )
 def test_a_cutter_with_a_point_may_engrave_but_not_cut_walls(operation: ContourOperation, told: bool) -> None:
     lines = polygon_contour([(0, 0), (40, 0), (40, 30), (0, 30)]).primitives

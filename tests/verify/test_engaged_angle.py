@@ -13,7 +13,7 @@ import pytest
 from app.geometry.region import polygon_contour
 from app.model.job import Job
 from app.model.moves import MoveKind, Moves
-from app.model.operation import AdaptiveOperation, Cut, PocketOperation
+from app.model.operation import AdaptiveOperation, CutParameters, PocketOperation
 from app.model.part import Entity, Part
 from app.model.tool import Tool
 from app.operations.compute import compute
@@ -37,7 +37,7 @@ def by_hand(*motions: tuple[float, ...], radius: float = R) -> CutterPath:
 def pocket(depth: float = 2.0) -> Job:
     walls = polygon_contour([(0, 0), (22, 0), (22, 14), (0, 14)])
     part = Part().with_entities(tuple(Entity(k, c, "0") for k, c in enumerate(walls.primitives, 1)))
-    cut = Cut(1, depth=depth, stepdown=2.0)
+    cut = CutParameters(1, depth=depth, stepdown=2.0)
     return Job(part, tools=(Tool(1, 2 * R),), operations=(AdaptiveOperation(cut, ANGLE),))
 
 
@@ -135,6 +135,6 @@ def test_hardly_an_arc_can_be_moved(kept: CutterPath) -> None:
 
 
 def test_rings_are_far_above() -> None:
-    job = replace(pocket(), operations=(PocketOperation(Cut(1), 1.2),))
+    job = replace(pocket(), operations=(PocketOperation(CutParameters(1), 1.2),))
     proof = prove_engagement(path_of(compute(job).moves), ANGLE)
     assert proof.above and proof.greatest.angle > math.radians(150)

@@ -15,13 +15,13 @@ from app.core.progress import Progress
 from app.model.motion import Floats, MotionKind, Motions, Plane
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
-from app.simulation.bodies.holder import Part, bodies_of
+from app.simulation.bodies.holder import HolderPart, bodies_of
 from app.simulation.cutter import Cutter, cutter_of
 from app.simulation.field.workpiece import BoxStock, Grid, Workpiece
 from app.simulation.sweeps.course import Course
 from app.verify import holder_contacts as module
-from app.verify.asked_bodies import STEP, TOUCH, chords_of
-from app.verify.holder_contacts import HolderLook, holder_contacts
+from app.verify.body_contacts import STEP, TOUCH, chords_of
+from app.verify.holder_contacts import HolderReport, holder_contacts
 from tests.simulation.courses import arc, joined, motions_of, polyline
 
 NUT = ((0.0, 10.0), (20.0, 10.0))
@@ -39,17 +39,19 @@ def block(depth: float = 40.0, cells: int = 160, size: float = 80.0, high: float
     return Workpiece(piece.grid, heights, piece.floor)
 
 
-def look(motions: Motions, tool: Tool = TOOL, piece: Workpiece | None = None, tools: Sequence[int] = ()) -> HolderLook:
+def look(
+    motions: Motions, tool: Tool = TOOL, piece: Workpiece | None = None, tools: Sequence[int] = ()
+) -> HolderReport:
     course = Course(motions, np.array(tools or np.ones(len(motions)), np.int32))
     return holder_contacts(course, piece if piece is not None else block(), {1: cutter_of(tool)}, {1: tool})
 
 
-def holders(found: HolderLook) -> list[float]:
-    return [contact.depth for contact in found.contacts if contact.part is Part.HOLDER]
+def holders(found: HolderReport) -> list[float]:
+    return [contact.depth for contact in found.contacts if contact.part is HolderPart.HOLDER]
 
 
 def test_nothing_is_asked_of_tools_that_nobody_knows() -> None:
-    assert look(polyline([(0, 0, 5), (0, 0, -30)]), Tool(1, 6.0)) == HolderLook()
+    assert look(polyline([(0, 0, 5), (0, 0, -30)]), Tool(1, 6.0)) == HolderReport()
 
 
 @pytest.mark.parametrize(("stick_out", "touches"), [(20.0, True), (20.48, True), (20.51, False), (25.0, False)])
@@ -73,7 +75,7 @@ def test_a_contact_has_a_place_and_its_motions() -> None:
         polyline([(-30, 0, 5), (-30, 0, -20.25), (-10, 0, -20.25), (-10, 0, -22.5), (-30, 0, -22.5), (-30, 0, 5)])
     )
     (contact,) = found.contacts
-    assert (contact.tool, contact.part, contact.first, contact.count) == (1, Part.HOLDER, 0, 5)
+    assert (contact.tool, contact.part, contact.first, contact.count) == (1, HolderPart.HOLDER, 0, 5)
     assert contact.motion == 2
     assert (contact.z, contact.depth) == (pytest.approx(-2.5, abs=1e-5), pytest.approx(2.5, abs=1e-5))
     assert np.hypot(contact.x + 10, contact.y) <= 10.0
@@ -93,7 +95,7 @@ def test_metal_counts_as_it_is_when_the_motion_is_done(far_first: bool) -> None:
     assert found.least == {1: 15.0 if far_first else 23.0}
 
 
-def beside_a_rib(far_first: bool) -> HolderLook:
+def beside_a_rib(far_first: bool) -> HolderReport:
     """A slot, in three motions, beside a rib 23 mm over it that another tool cuts away: after that, and unless
     `far_first` before it.
     """
@@ -132,7 +134,7 @@ def test_a_shank_follows_a_drill_into_its_hole() -> None:
 
 def test_metal_higher_than_the_flutes_meets_the_shank() -> None:
     (contact,) = look(polyline([(-50, 0, -13.5), (50, 0, -13.5)]), SHANK).contacts
-    assert (contact.part, contact.depth) == (Part.SHANK, pytest.approx(3.5, abs=1e-5))
+    assert (contact.part, contact.depth) == (HolderPart.SHANK, pytest.approx(3.5, abs=1e-5))
 
 
 def test_a_thicker_shank_meets_the_rim_of_a_hole() -> None:
@@ -180,7 +182,7 @@ def samples(motions: Motions, row: int) -> Floats:
     return np.concatenate(parts)
 
 
-def stepped(motions: Motions, tool: Tool, piece: Workpiece, wider: float) -> dict[tuple[int, Part], float]:
+def stepped(motions: Motions, tool: Tool, piece: Workpiece, wider: float) -> dict[tuple[int, HolderPart], float]:
     """How deep bodies, so much wider, mm, go into metal by motion and part: looked at before each small step is cut."""
     x, y = np.meshgrid(piece.grid.xs(), piece.grid.ys())
     metal, cutter, found = piece.heights.astype(np.float64), cutter_of(tool), {}
@@ -237,11 +239,11 @@ TOOLS = {
 def test_random_deep_programs_touch_as_stepping_through_them_shows(tool: Tool, seed: int) -> None:
     piece, motions = block(15.0, 48, 20.0), random_program(seed)
     less, more = (stepped(motions, tool, piece, wider) for wider in (-TOUCH - 0.03, 0.03))
-    asking = module._Look(
+    asking = module._HolderCheck(
         Course(motions, np.ones(len(motions), np.int32)), piece, {1: cutter_of(tool)}, {1: tool}, {1: bodies_of(tool)}
     )
     asking.done(module.NO_PROGRESS)
-    found: dict[tuple[int, Part], float] = {}
+    found: dict[tuple[int, HolderPart], float] = {}
     for (row, body), touch in asking._touched.items():
         key = row, bodies_of(tool)[body].part
         found[key] = max(found.get(key, 0.0), touch.depth)

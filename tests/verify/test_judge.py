@@ -16,7 +16,7 @@ from app.model.tool import Tool, ToolKind
 from app.simulation.field.solid import SolidStock
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
-from app.usecases.make import Made, make
+from app.usecases.make import MakeResult, make
 from app.usecases.options import MakeOptions
 from app.verify.judgement import SpotKind
 from app.verify.parts import SolidPart
@@ -28,7 +28,7 @@ ISLAND = "X24.0000\nG2 X22.6584 Y20.6708"
 
 
 @cache
-def made() -> Made:
+def made() -> MakeResult:
     return make("fig2.dxf", resource("samples", "fig2.dxf").read_bytes(), MakeOptions())
 
 

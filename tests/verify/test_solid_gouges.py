@@ -20,7 +20,7 @@ from app.simulation.field.triangle_tree import TriangleTree
 from app.simulation.field.workpiece import BoxStock
 from app.usecases.cut import CutOptions, CutProgram, CutSetup, cut
 from app.verify.parts import SolidPart
-from app.verify.solid_depth import Columns, DepthInSolid
+from app.verify.solid_depth import CutColumns, DepthInSolid
 from app.verify.solid_gouges import APART, apart
 from tests.surfaces.solids import FLOOR, WALL, pocketed_block, stl
 from tests.verify.test_judge import program
@@ -162,7 +162,7 @@ def test_distances_are_those_of_every_triangle_asked_in_turn() -> None:
 def test_columns_through_edges_and_corners_and_hollows_are_in_metal_where_it_is() -> None:
     depth_in = DepthInSolid(SolidStock(BLOCK))
     places = np.array([[20.0, 15.0], [5.0, 15.0], [10.0, 7.0], [0.0, 0.0], [-1.0, 5.0], [34.0, 15.0]])
-    columns = Columns(places, np.array([-20.0, -7.0, -20.0, -20.0, -20.0, -1.5]), np.full(6, 5.0))
+    columns = CutColumns(places, np.array([-20.0, -7.0, -20.0, -20.0, -20.0, -1.5]), np.full(6, 5.0))
     assert depth_in.of(columns).tolist() == pytest.approx([3.0, 5.0, 3.0, 0.0, 0.0, 1.5], abs=1e-4)
 
 
@@ -170,7 +170,7 @@ def test_faces_within_an_overlapping_body_are_no_surface(tmp_path: Path) -> None
     from tests.simulation.test_target import box
 
     both = read_solid("a.stl", stl(np.concatenate([box((0, 0, 0), (20, 20, 20)), box((5, 5, 5), (35, 15, 15))])))
-    inner = Columns(np.array([[18.0, 10.0]]), np.array([10.0]), np.array([10.5]))
+    inner = CutColumns(np.array([[18.0, 10.0]]), np.array([10.0]), np.array([10.5]))
     assert both.shells == 2
     assert DepthInSolid(both).of(inner)[0] == pytest.approx(5.0, abs=0.6)
 

@@ -11,14 +11,14 @@ from ...core.errors import InputError
 from ...core.progress import Progress
 from ...gcode.interpreter.dialect import Dialect
 from ...gcode.interpreter.options import ToolOffset
-from ...gcode.interpreter.program import Problem, Severity
-from ...gcode.rework.compare import Differences
+from ...gcode.interpreter.program import ProgramProblem, Severity
+from ...gcode.rework.compare import ProgramDifferences
 from ...model.part import Units
-from ...usecases.examine import CONTROLS, Examined, ExamineOptions, compared, examine
+from ...usecases.examine import CONTROLS, ExaminedProgram, ExamineOptions, compared, examine
 from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..output import tell
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..values import MACHINE_HELP, machine_named, typed
 
 TOLD = 20
@@ -31,7 +31,7 @@ taken off.
 """
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with problems or differences."""
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
@@ -107,7 +107,9 @@ def _tools(path: Path | None, units: str) -> Mapping[int, ToolOffset]:
     return tool_offsets(read_rows(path.name, read_input(path), Units.INCH if units == "in" else Units.MM))
 
 
-def _differences(arguments: argparse.Namespace, examined: Examined, progress: Progress) -> Differences | None:
+def _differences(
+    arguments: argparse.Namespace, examined: ExaminedProgram, progress: Progress
+) -> ProgramDifferences | None:
     if arguments.compare is None:
         return None
     return compared(examined, arguments.compare.name, read_input(arguments.compare), progress)
@@ -116,8 +118,8 @@ def _differences(arguments: argparse.Namespace, examined: Examined, progress: Pr
 def _texts(
     arguments: argparse.Namespace,
     outputs: dict[str, Path],
-    examined: Examined,
-    found: tuple[bytes, Differences | None],
+    examined: ExaminedProgram,
+    found: tuple[bytes, ProgramDifferences | None],
 ) -> dict[str, bytes]:
     """Return what to write, by option."""
     data, differences = found
@@ -133,7 +135,7 @@ def _texts(
     return texts
 
 
-def _lines(examined: Examined) -> list[str]:
+def _lines(examined: ExaminedProgram) -> list[str]:
     """Return the problems, and what was measured, for people."""
     lines = [f"  ! {_problem_words(problem, examined.name)}" for problem in examined.problems[:TOLD]]
     if len(examined.problems) > TOLD:
@@ -162,8 +164,8 @@ def _lines(examined: Examined) -> list[str]:
     return lines
 
 
-def _problem_words(problem: Problem, file: str) -> str:
-    return f"{problem.told(file)}{' (a warning)' if problem.severity is Severity.WARNING else ''}"
+def _problem_words(problem: ProgramProblem, file: str) -> str:
+    return f"{problem.message(file)}{' (a warning)' if problem.severity is Severity.WARNING else ''}"
 
 
 def _tool_words(tool: dict[str, object]) -> str:
@@ -178,7 +180,7 @@ def _clock(seconds: float) -> str:
     return f"{minutes}:{rest:02d}"
 
 
-def _difference_lines(path: Path | None, differences: Differences | None) -> list[str]:
+def _difference_lines(path: Path | None, differences: ProgramDifferences | None) -> list[str]:
     if path is None or differences is None:
         return []
     lines = [

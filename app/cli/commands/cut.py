@@ -21,24 +21,24 @@ from ...model.tool_table import TableRow, ToolTable
 from ...usecases.cut import CutOptions, CutProgram, Engine, cut
 from ...usecases.cut_files import heights_of, picture_of
 from ...usecases.cut_report import CutReport, cut_report
-from ...usecases.examine import Examined, ExamineOptions, examine
-from ...usecases.setup import Ready, Wishes, setup_of
+from ...usecases.examine import ExaminedProgram, ExamineOptions, examine
+from ...usecases.setup import ReadySetup, SetupRequest, setup_of
 from ...usecases.setup_stock import box_stock, read_stock
-from ...usecases.setup_tools import ToolsTold
+from ...usecases.setup_tools import ToolSource
 from ..command import CliCommand
 from ..cut_options import EPILOG, Corners, add_cut_options, check_cut_arguments
 from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, tell
 from ..reading_options import reading
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with findings."""
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
-    wishes = _wishes(arguments)
-    ready = setup_of(_programs(arguments, progress.part(0.0, 0.2)), wishes, progress.part(0.2, 0.25))
+    request = _wishes(arguments)
+    ready = setup_of(_programs(arguments, progress.part(0.0, 0.2)), request, progress.part(0.2, 0.25))
     _ensure_window(arguments.window, ready)
     done = cut(
         ready.setup,
@@ -77,7 +77,7 @@ def _inputs(arguments: argparse.Namespace) -> Iterator[Path]:
             yield arguments.stock.with_suffix(".json")
 
 
-def _programs(arguments: argparse.Namespace, progress: Progress) -> tuple[Examined, ...]:
+def _programs(arguments: argparse.Namespace, progress: Progress) -> tuple[ExaminedProgram, ...]:
     """Return every program as its control reads it."""
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     options = ExamineOptions(dialect, tool_offsets(_rows(arguments)), block_delete=arguments.block_delete == "on")
@@ -88,19 +88,19 @@ def _programs(arguments: argparse.Namespace, progress: Progress) -> tuple[Examin
     )
 
 
-def _wishes(arguments: argparse.Namespace) -> Wishes:
+def _wishes(arguments: argparse.Namespace) -> SetupRequest:
     """Return what was asked for, its files read."""
     job = read_job(arguments.job.name, read_input(arguments.job)) if arguments.job else None
-    told = [ToolsTold("--tool", dict(arguments.tool))]
+    reported = [ToolSource("--tool", dict(arguments.tool))]
     if job is not None and "tool" in job.tables:
-        told.append(ToolsTold("the job file", {tool.number: tool for tool in job.job.tools}))
+        reported.append(ToolSource("the job file", {tool.number: tool for tool in job.job.tools}))
     if arguments.tools is not None:
-        told.append(_tools(arguments))
+        reported.append(_tools(arguments))
     against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
     beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
     return _with_stock(
-        Wishes(
-            tuple(told),
+        SetupRequest(
+            tuple(reported),
             job,
             None,
             against,
@@ -128,27 +128,27 @@ def _rows(arguments: argparse.Namespace) -> tuple[TableRow, ...]:
     )
 
 
-def _tools(arguments: argparse.Namespace) -> ToolsTold:
+def _tools(arguments: argparse.Namespace) -> ToolSource:
     """Return the cutters that --tools tells of; a control's table knows diameters, and not of all, but no shapes."""
     name = arguments.tools.name
     if arguments.tools.suffix.lower() == ".tbl":
         tools, _ = ToolTable(_rows(arguments)).tools(name)
-        return ToolsTold(name, {tool.number: tool for tool in tools}, shapeless=True)
+        return ToolSource(name, {tool.number: tool for tool in tools}, shapeless=True)
     library, _ = read_tools(name, read_input(arguments.tools))
-    return ToolsTold(name, {tool.number: tool for tool in library.tools})
+    return ToolSource(name, {tool.number: tool for tool in library.tools})
 
 
-def _with_stock(wishes: Wishes, given: Corners | Path | None) -> Wishes:
+def _with_stock(request: SetupRequest, given: Corners | Path | None) -> SetupRequest:
     """Return the wishes with the metal that --stock names."""
     if given is None:
-        return wishes
+        return request
     if not isinstance(given, Path):
-        return replace(wishes, stock=box_stock(given))
+        return replace(request, stock=box_stock(given))
     beside = read_input(given.with_suffix(".json")) if given.suffix.lower() == ".npy" else b""
-    return replace(wishes, stock=read_stock(given.name, read_input(given), beside))
+    return replace(request, stock=read_stock(given.name, read_input(given), beside))
 
 
-def _ensure_window(window: tuple[float, float, float, float] | None, ready: Ready) -> None:
+def _ensure_window(window: tuple[float, float, float, float] | None, ready: ReadySetup) -> None:
     x0, y0, x1, y1 = box = ready.setup.stock.box
     if window is not None and not (window[0] < x1 and window[2] > x0 and window[1] < y1 and window[3] > y0):
         raise InputError(
@@ -164,7 +164,9 @@ def _warning_lines(warnings: tuple[str, ...]) -> Iterator[str]:
         yield f"  - {len(warnings) - REMARKS} more warnings; --report R.json lists them all"
 
 
-def _texts(outputs: dict[str, Path], ready: Ready, done: CutProgram, report: CutReport) -> Iterator[tuple[str, bytes]]:
+def _texts(
+    outputs: dict[str, Path], ready: ReadySetup, done: CutProgram, report: CutReport
+) -> Iterator[tuple[str, bytes]]:
     """Yield what to write, by option."""
     if "report" in outputs:
         yield "report", report.text().encode()

@@ -15,7 +15,7 @@ from ...exhibits.figure_eleven import FigureOptions, figure_eleven
 from ..command import CliCommand, OptionParser
 from ..files import check_outputs, shown_progress
 from ..output import tell
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..values import typed
 
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
@@ -28,7 +28,7 @@ cannot be used; 130: cancelled.
 """
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status, 0."""
     if arguments.report is not None:
         check_outputs({"report": arguments.report}, [])

@@ -8,19 +8,19 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError
-from ...usecases.make import Made, make
+from ...usecases.make import MakeResult, make
 from ...usecases.options import MakeOptions
 from ..command import CliCommand
 from ..files import check_outputs, identity, read_input, shown_progress
 from ..make_options import EPILOG, add_make_options, make_options
 from ..output import finding_lines, tell
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..timings import StageTimes
 
 _JOB_HEAD = "# A job file of Hitofude for {}: `hitofude make DRAWING -o OUT.ngc --job` this file."
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with findings."""
     outputs = _check_outputs(arguments)
     options = _with_tools(_with_job(make_options(arguments), arguments.job), arguments.tools)
@@ -75,7 +75,7 @@ def _check_outputs(arguments: argparse.Namespace) -> dict[str, Path]:
     return outputs
 
 
-def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
+def _write(made: MakeResult, outputs: dict[str, Path], names: list[Path]) -> None:
     """Make every picture and text first, then write all files together."""
     texts = {"report": made.report.text().encode()}
     if "write_job" in outputs:
@@ -101,7 +101,7 @@ def _write(made: Made, outputs: dict[str, Path], names: list[Path]) -> None:
         )
 
 
-def _summary(made: Made, names: list[Path]) -> None:
+def _summary(made: MakeResult, names: list[Path]) -> None:
     """Say in a few lines what was made and what there is to know about it, the first few of each kind."""
     proposed = made.proposal.lines() if made.proposal is not None else []
     tell("\n".join([made.report.summary(", ".join(map(str, names))), *proposed, *finding_lines(made.findings)]))

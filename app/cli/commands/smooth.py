@@ -8,16 +8,16 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...fitting.line_arcs.arc_fit import BEND
-from ...gcode.interpreter.dialect import HABITS, Dialect
+from ...gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...gcode.posts.post import Post
 from ...gcode.posts.posts import load_post
-from ...usecases.smooth import Form, Smoothed, SmoothOptions, smooth
+from ...usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smooth
 from ...usecases.smooth_report import certificate, findings, report_text
 from ..command import CliCommand, OptionParser
 from ..effective_options import add_effective_options, effective_method
 from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, tell
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..values import number, typed
 
 EPILOG = """\
@@ -27,7 +27,7 @@ stayed as it was; 2: bad input.
 """
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 done, 1 with findings."""
     outputs = {name: path for name in ("output", "report") if (path := getattr(arguments, name)) is not None}
     check_outputs(outputs, [arguments.program])
@@ -57,8 +57,8 @@ def _add_options(parser: OptionParser) -> None:
     parser.add_argument(
         "--as",
         dest="form",
-        choices=[form.value for form in Form],
-        default=Form.ARCS.value,
+        choices=[form.value for form in OutputForm],
+        default=OutputForm.ARCS.value,
         help="what is written (default arcs)",
     )
     parser.add_argument(
@@ -130,7 +130,7 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     effective = effective_method(arguments)
     return SmoothOptions(
         arguments.tolerance,
-        Form(arguments.form),
+        OutputForm(arguments.form),
         arguments.region,
         arguments.degree,
         arguments.corner,
@@ -141,7 +141,7 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     )
 
 
-def _lines(done: Smoothed) -> list[str]:
+def _lines(done: SmoothedProgram) -> list[str]:
     """Return what was done, for people."""
     head, *rest = certificate(done)
     kept = [
@@ -151,11 +151,11 @@ def _lines(done: Smoothed) -> list[str]:
     return [f"{done.name}: {head.partition(': ')[2]}", *(f"  {line}" for line in rest), *kept, *found]
 
 
-def _warnings(done: Smoothed) -> list[str]:
+def _warnings(done: SmoothedProgram) -> list[str]:
     """Return as what control the program was read, and what that control's reader warns of."""
-    told = [f"  - {problem.told(done.name)} (a warning)" for problem in done.source.problems]
-    more = [f"  - {len(told) - REMARKS} more warnings; check tells them all"] if len(told) > REMARKS else []
-    return [f"  read as {HABITS[done.dialects[0]].title} does", *told[:REMARKS], *more]
+    reported = [f"  - {problem.message(done.name)} (a warning)" for problem in done.source.problems]
+    more = [f"  - {len(reported) - REMARKS} more warnings; check tells them all"] if len(reported) > REMARKS else []
+    return [f"  read as {DIALECT_RULES[done.dialects[0]].title} does", *reported[:REMARKS], *more]
 
 
 COMMAND = CliCommand(

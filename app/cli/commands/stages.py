@@ -15,7 +15,7 @@ from ...exhibits.stage_files import MOST_TURNS_PX, TURNS, StagesRun, run_stages,
 from ...exhibits.stages import Variant
 from ...formats.job.toml import read_job, read_units
 from ...formats.readers import offered_suffixes
-from ...usecases.machining import Machining
+from ...usecases.machining import MachiningOptions
 from ...usecases.options import MakeOptions
 from ..bitmap_options import add_bitmap_options, bitmap_options
 from ..command import CliCommand, OptionParser
@@ -23,7 +23,7 @@ from ..files import check_outputs, read_input, shown_progress
 from ..make_options import stepover
 from ..output import finding_lines, tell
 from ..reading_options import add_reading_options, reading
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..values import join_tolerance, number, typed
 
 _OWN = re.compile(rf"(?:{TURNS}/)?\d\d_\d{{3}}(?:_r\d+_t\d+)?\.(?:png|npy|txt)", re.IGNORECASE)
@@ -39,7 +39,7 @@ in, 8 circle, 9 long line, 10 vertex, 11 short line, 12 arc, 13 free curve.
 """
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with findings."""
     folder = _check_outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
@@ -141,7 +141,7 @@ def _make_options(arguments: argparse.Namespace) -> MakeOptions:
         pocket_diameter=arguments.pocket_tool,
         stepover=arguments.stepover,
         overlap=arguments.overlap,
-        machining=Machining(left),
+        machining=MachiningOptions(left),
         units=arguments.units,
         layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance,

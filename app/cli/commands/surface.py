@@ -12,16 +12,16 @@ from ...core.atomic import write_together
 from ...core.errors import InputError
 from ...formats.plot.surface_plot import VIEWS, PlotColouring
 from ...formats.scene.toml import read_scene, sources_of
-from ...usecases.surface import Computed, compute
+from ...usecases.surface import ComputedScene, compute
 from ...usecases.surface_loop import closed_loop
 from ...usecases.surface_nc import WrittenScene, write_scene_nc
-from ...usecases.surface_plot import FORMATS, Drawn, PlotScene, plot_surface
+from ...usecases.surface_plot import FORMATS, PlotScene, PlottedPart, plot_surface
 from ...usecases.surface_points import scene_points_csv
 from ...usecases.surface_report import surface_report
 from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..output import finding_lines, tell
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..values import number
 
 EPILOG = """\
@@ -34,7 +34,7 @@ input; 130: cancelled.
 """
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 done and proven, 1 with findings."""
     outputs = _outputs(arguments)
     progress = shown_progress(arguments.quiet, stopped)
@@ -81,8 +81,8 @@ def _add_options(parser: OptionParser) -> None:
     )
     parser.add_argument(
         "--draw",
-        choices=[drawn.value for drawn in Drawn],
-        default=Drawn.PATHS.value,
+        choices=[drawn.value for drawn in PlottedPart],
+        default=PlottedPart.PATHS.value,
         help="what is plotted: the cutters' paths (default), the compound surface, or both",
     )
     parser.add_argument(
@@ -120,7 +120,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
 def _texts(
     arguments: argparse.Namespace,
     outputs: dict[str, Path],
-    computed: Computed,
+    computed: ComputedScene,
     written: WrittenScene | None,
 ) -> Iterator[tuple[Path, bytes]]:
     """Yield what to write, by file."""
@@ -128,7 +128,7 @@ def _texts(
         yield outputs["points"], scene_points_csv(computed)
     if "plot" in outputs:
         path = outputs["plot"]
-        what = PlotScene(VIEWS[arguments.view], PlotColouring(arguments.look), Drawn(arguments.draw))
+        what = PlotScene(VIEWS[arguments.view], PlotColouring(arguments.look), PlottedPart(arguments.draw))
         sheets = plot_surface(computed, path.suffix, what)
         for number, sheet in enumerate(sheets, 1):
             yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), sheet

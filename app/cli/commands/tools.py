@@ -15,13 +15,13 @@ from ...formats.readers import offered_suffixes
 from ...formats.tools.files import read_tools
 from ...model.operation import LEAST_LENGTH
 from ...toolpath.advice.advise import RegionAdvice
-from ...toolpath.advice.time import Plan
-from ...usecases.advice import AdviceOptions, Advised, advice_for
+from ...toolpath.advice.time import CuttingPlan
+from ...usecases.advice import AdviceOptions, ToolAdvice, advice_for
 from ..command import CliCommand, OptionParser
 from ..files import check_outputs, read_input, shown_progress
 from ..output import finding_lines, tell
 from ..reading_options import add_reading_options, reading
-from ..signals import Stopping, undisturbed
+from ..signals import StopFlag, undisturbed
 from ..values import join_tolerance, number, typed
 
 TOLD = 12
@@ -34,7 +34,7 @@ estimates with each tool's feeds. Exit status 0: done; 1: with findings about th
 """
 
 
-def _run(arguments: argparse.Namespace, stopped: Stopping) -> int:
+def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with findings."""
     if arguments.report is not None:
         check_outputs(
@@ -88,13 +88,13 @@ def _add_options(parser: OptionParser) -> None:
 
 def _options(arguments: argparse.Namespace) -> AdviceOptions:
     tools = () if arguments.tools is None else read_tools(arguments.tools.name, read_input(arguments.tools))[0].tools
-    plan = Plan(depth=arguments.depth, stepdown=min(arguments.stepdown, arguments.depth))
+    plan = CuttingPlan(depth=arguments.depth, stepdown=min(arguments.stepdown, arguments.depth))
     return AdviceOptions(
         tuple(tools), plan, arguments.units, tuple(arguments.layer), arguments.join_tolerance, reading(arguments)
     )
 
 
-def _lines(name: str, advised: Advised) -> list[str]:
+def _lines(name: str, advised: ToolAdvice) -> list[str]:
     """Return what was found, for people."""
     advice = advised.advice
     regions = [f"  {_region_words(region)}" for region in advice.regions[:TOLD]]

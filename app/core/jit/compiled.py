@@ -9,7 +9,7 @@ from types import FunctionType
 from typing import Any, ClassVar
 
 from ..errors import HitofudeError
-from . import numba_door
+from . import numba_loader
 from .fingerprint import digest, named_globals
 from .store import Store, store
 
@@ -89,13 +89,13 @@ class Kernel:
         """
         with _COMPILING:
             if self._for_callers is None:
-                self._for_callers = self._loaded(numba_door.load_for_callers) or self._compiled()
+                self._for_callers = self._loaded(numba_loader.load_for_callers) or self._compiled()
             return self._for_callers
 
     def _ready(self) -> Any:
         """Return numba's object for it, loaded or compiled here, that Python can call."""
         with _COMPILING:
-            return self._for_callers or self._loaded(numba_door.load) or self.for_callers()
+            return self._for_callers or self._loaded(numba_loader.load) or self.for_callers()
 
     def _loaded(self, load: Callable[[Any, bytes], None]) -> Any:
         """Return it as it is in the store; None where it is not there, or not whole."""
@@ -115,7 +115,7 @@ class Kernel:
         with _COMPILING:
             made = self._dispatcher()
             try:
-                code = numba_door.compile_to(made, self.signature)
+                code = numba_loader.compile_to(made, self.signature)
             except Exception as error:
                 cause = " ".join(str(error).split())[:200]
                 raise HitofudeError(
@@ -126,7 +126,7 @@ class Kernel:
             return made
 
     def _dispatcher(self) -> Any:
-        return numba_door.dispatcher(self.function, self.counts, called_from_python=not self.inner)
+        return numba_loader.dispatcher(self.function, self.counts, called_from_python=not self.inner)
 
     def _first_call(self, *arguments: Any) -> Any:
         if self.inner:
@@ -140,7 +140,7 @@ class Kernel:
 
 
 def _store() -> Store:
-    return store(numba_door.version())
+    return store(numba_loader.version())
 
 
 def kernel(signature: str, counts: bool = True) -> Callable[[Compiled], Compiled]:

@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from ..progress import waited_for
-from . import numba_door
+from ..progress import report_wait
+from . import numba_loader
 from .compiled import REGISTERED, Kernel
 from .compiler_process import DONE
 from .store import FOLDER_VARIABLE, Store, store
@@ -35,13 +35,13 @@ class _Plan:
     """What is compiled in which order.
 
     Attributes:
-        wanted: entries to compile, by name in the order of their turn: a kernel behind all that it calls.
+        requested: entries to compile, by name in the order of their turn: a kernel behind all that it calls.
         done: entries that are in the store, or that cannot be; given: that a process has.
         failed: why, by entry.
         rooms: modules of which something was waited for: more of these is likely to be wanted next.
     """
 
-    wanted: dict[str, Kernel] = field(default_factory=dict)
+    requested: dict[str, Kernel] = field(default_factory=dict)
     done: set[str] = field(default_factory=set)
     given: set[str] = field(default_factory=set)
     failed: dict[str, str] = field(default_factory=dict)
@@ -49,23 +49,25 @@ class _Plan:
 
     def ask(self, kernels: Iterable[Kernel], kept: Store, first: bool) -> None:
         """Add kernels and what they call, before all others or behind them."""
-        asked: dict[str, Kernel] = {}
+        requested: dict[str, Kernel] = {}
         for kernel in kernels:
             if first:
                 self.rooms.add(kernel.__module__)
             for each in _with_callees(kernel, set()):
-                if each.entry not in self.done and (first or each.entry not in self.wanted):
+                if each.entry not in self.done and (first or each.entry not in self.requested):
                     if kept.has(each.entry):
                         self.done.add(each.entry)
                     else:
-                        asked[each.entry] = each
-        self.wanted = asked | self.wanted if first else self.wanted | asked
+                        requested[each.entry] = each
+        self.requested = requested | self.requested if first else self.requested | requested
 
     def next(self) -> Kernel | None:
         """Take one whose callees are there, the likeliest to be wanted soon; None where all wait for others, or nothing
         is left.
         """
-        left = (kernel for entry, kernel in self.wanted.items() if entry not in self.done and entry not in self.given)
+        left = (
+            kernel for entry, kernel in self.requested.items() if entry not in self.done and entry not in self.given
+        )
         ready = [kernel for kernel in left if all(each.entry in self.done for each in kernel.callees)]
         if not ready:
             return None
@@ -76,7 +78,7 @@ class _Plan:
     @property
     def over(self) -> bool:
         """Whether everything that was wanted is done."""
-        return self.done.issuperset(self.wanted)
+        return self.done.issuperset(self.requested)
 
 
 def _with_callees(kernel: Kernel, seen: set[str]) -> Iterator[Kernel]:
@@ -104,7 +106,7 @@ class Compilers:
         compiles.
 
         Raises:
-            Cancelled: what waits was told to stop, see `app.core.progress.told_waits`.
+            Cancelled: what waits was told to stop, see `app.core.progress.waits_reported_to`.
         """
         if self._kept.folder is None:
             return
@@ -132,19 +134,19 @@ class Compilers:
     @property
     def share(self) -> float:
         """How much of what is wanted is done, in [0, 1]."""
-        return 1.0 - len(self._plan.wanted.keys() - self._plan.done) / max(1, len(self._plan.wanted))
+        return 1.0 - len(self._plan.requested.keys() - self._plan.done) / max(1, len(self._plan.requested))
 
     def _tell(self) -> None:
-        wanted = self._plan.wanted
-        done = len(wanted.keys() & self._plan.done)
+        missing = self._plan.requested
+        done = len(missing.keys() & self._plan.done)
         self._changed.release()
         try:
-            waited_for(f"Compiling inner loops, this first time only: {done} of {len(wanted)}")
+            report_wait(f"Compiling inner loops, this first time only: {done} of {len(missing)}")
         finally:
             self._changed.acquire()
 
     def _start(self) -> None:
-        missing = sum(entry not in self._plan.done for entry in self._plan.wanted)
+        missing = sum(entry not in self._plan.done for entry in self._plan.requested)
         while not self._ended and len(self._processes) < min(os.cpu_count() or 1, missing):
             try:
                 process = self._process()
@@ -212,4 +214,4 @@ def _asked(process: subprocess.Popen[str], name: str) -> str | None:
 @cache
 def compilers() -> Compilers:
     """Return the one that works for this process."""
-    return Compilers(store(numba_door.version()))
+    return Compilers(store(numba_loader.version()))

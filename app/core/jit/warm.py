@@ -6,7 +6,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-from ..progress import NO_PROGRESS, Progress, told_waits
+from ..progress import NO_PROGRESS, Progress, waits_reported_to
 from ..resources import PACKAGE
 
 
@@ -32,7 +32,7 @@ def warm(progress: Progress = NO_PROGRESS) -> tuple[str, ...]:
     for name in kernel_modules():
         progress.step(0.0)
         import_module(name)
-    with told_waits(lambda text: progress.step(compilers().share, text)):
+    with waits_reported_to(lambda text: progress.step(compilers().share, text)):
         compilers().demand(*REGISTERED)
     progress.step(1.0)
     return tuple(why for kernel in REGISTERED if (why := compilers().why(kernel)))

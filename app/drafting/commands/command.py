@@ -10,12 +10,12 @@ from ...core.errors import InputError
 from ...geometry.transform import Similarity, transformed, transformed_note
 from ...model.curves import Curve, Point
 from ...model.part import Entity, Layer, Part
-from ..expressions.syntax import Define
+from ..expressions.syntax import CommandDefinition
 from ..expressions.values import Scope, Value
 
 
 @dataclass(frozen=True, slots=True)
-class Session:
+class DraftingSession:
     """What a line of the language may refer to without saying it, and what it leaves for the next one.
 
     Attributes:
@@ -32,7 +32,7 @@ class Session:
     layer: str = "0"
     selection: frozenset[int] = frozenset()
     names: Mapping[str, Value] = field(default_factory=dict)
-    commands: Mapping[str, Define] = field(default_factory=dict)
+    commands: Mapping[str, CommandDefinition] = field(default_factory=dict)
     renamed: tuple[tuple[str, str], ...] = ()
     plain: float = 1.0
 
@@ -41,7 +41,7 @@ class Session:
         """What its expressions may refer to."""
         return Scope(self.names, self.last, self.part, plain=self.plain)
 
-    def with_part(self, part: Part) -> Session:
+    def with_part(self, part: Part) -> DraftingSession:
         """Return the session with another drawing; what has gone is no longer selected."""
         kept = self.selection & part.ids() if self.selection else self.selection
         return replace(self, part=part, selection=kept)
@@ -67,7 +67,7 @@ class Draw:
         """A short sentence for the log."""
         return f"{self.name}, {self.figures}."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the curves added, on fresh ids."""
         return replace(session, part=session.part.with_curves(self.curves, session.layer), last=self.last)
 
@@ -84,7 +84,7 @@ class Delete:
         """A short sentence for the log."""
         return f"{len(self.ids)} deleted."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session without these entities.
 
         Raises:
@@ -117,7 +117,7 @@ class Transform:
         curves = counted(len(self.ids), "curve")
         return f"{curves}, {counted(len(self.maps), 'copy', 'copies')}." if self.keep else f"{curves}."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the curves at their places.
 
         Raises:
@@ -151,7 +151,7 @@ class Transform:
 
 
 @dataclass(frozen=True, slots=True)
-class Rework:
+class ReplaceCurves:
     """Put other curves in the place of some.
 
     Attributes:
@@ -164,7 +164,7 @@ class Rework:
     reply: str
     added: tuple[tuple[int, Curve], ...] = ()
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the pieces, on fresh ids but for the first of each."""
         part, entities, fresh = session.part, list[Entity](), session.part.next_id()
         layers = {e.id: e.layer for e in part.entities}
@@ -192,7 +192,7 @@ class SetLayer:
         """A short sentence for the log."""
         return f"{len(self.ids)} put on layer {self.layer}." if self.ids else f"Layer {self.layer} is current."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session that has the layer.
 
         Raises:
@@ -215,7 +215,7 @@ class SetLayer:
 
 
 @dataclass(frozen=True, slots=True)
-class SetLook:
+class SetLayerStyle:
     """Show or hide a layer, lock or unlock it, or give it a colour.
 
     Attributes:
@@ -227,7 +227,7 @@ class SetLook:
     reply: str
     name: str = "Layer"
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the layer changed.
 
         Raises:
@@ -249,9 +249,9 @@ class Clear:
     name: str = "Clear"
     reply: str = "The drawing is empty."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session of an empty drawing of the same name and units."""
-        return Session(Part(units=session.part.units, name=session.part.name), plain=session.plain)
+        return DraftingSession(Part(units=session.part.units, name=session.part.name), plain=session.plain)
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,7 +264,7 @@ class Redo:
     """Do again what was taken back."""
 
 
-Edit = Clear | Draw | Delete | Transform | Rework | SetLayer | SetLook
+Edit = Clear | Draw | Delete | Transform | ReplaceCurves | SetLayer | SetLayerStyle
 """Commands that change the drawing; each has a name, a reply and `carried_out(session) -> session`."""
 
 

@@ -12,7 +12,7 @@ import math
 from ...core.errors import InputError
 from ...core.tolerances import WELD
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from ..curves.meet import foot, has, meets
+from ..curves.intersections import intersection_points, lies_on, nearest_point
 from .drafting import beside, between, touch_of, way_ahead
 from .split import split
 
@@ -58,7 +58,9 @@ def sharp(a: Line | Arc, b: Line | Arc, near: tuple[Point, Point]) -> tuple[Line
     Raises:
         InputError: they do not meet, however far they go on.
     """
-    for corner in sorted(meets(a, b, extended=True), key=lambda p: math.dist(p, near[0]) + math.dist(p, near[1])):
+    for corner in sorted(
+        intersection_points(a, b, extended=True), key=lambda p: math.dist(p, near[0]) + math.dist(p, near[1])
+    ):
         first, second = _shortened(a, corner, near[0]), _shortened(b, corner, near[1])
         if first is not None and second is not None:
             return first, second
@@ -82,7 +84,7 @@ def chamfer(a: Line, b: Line, sizes: tuple[float, float], near: tuple[Point, Poi
     Raises:
         InputError: the lines are parallel, or shorter than what is cut off.
     """
-    corner = meets(a, b, extended=True)
+    corner = intersection_points(a, b, extended=True)
     if not corner:
         raise InputError("Parallel lines have no corner to chamfer; choose lines that meet.")
     ends = [_cut_back(line, corner[0], size, at) for line, size, at in zip((a, b), sizes, near, strict=True)]
@@ -106,7 +108,7 @@ def _beyond_corner(a: Side, b: Side, near: tuple[Point, Point]) -> tuple[Point, 
     """Return the ends, away from the corner of two curves, of the sides that were pointed at; the places themselves
     without a corner.
     """
-    corners = meets(a, b, extended=True)
+    corners = intersection_points(a, b, extended=True)
     if not corners:
         return near
     corner = min(corners, key=lambda p: math.dist(p, near[0]) + math.dist(p, near[1]))
@@ -119,7 +121,7 @@ def _far_end(curve: Side, corner: Point, near: Point) -> Point:
         return near
     side: Curve = curve
     if between(curve, corner):
-        side = min(split(curve, [corner]), key=lambda piece: math.dist(foot(piece, near), near))
+        side = min(split(curve, [corner]), key=lambda piece: math.dist(nearest_point(piece, near), near))
     return max((side.start, side.end), key=lambda p: math.dist(p, corner))
 
 
@@ -140,7 +142,10 @@ def _fillets(a: Side, b: Side, radius: float, near: tuple[Point, Point]) -> list
 def _centres(a: Side, b: Side, radius: float) -> list[Point]:
     """Return the centres of circles that touch both curves extended: where their parallels at the radius meet."""
     return [
-        p for one in _parallels(a, radius) for other in _parallels(b, radius) for p in meets(one, other, extended=True)
+        p
+        for one in _parallels(a, radius)
+        for other in _parallels(b, radius)
+        for p in intersection_points(one, other, extended=True)
     ]
 
 
@@ -169,9 +174,9 @@ def _shortened(curve: Line | Arc, at: Point, near: Point) -> Line | Arc | None:
         if (left > 0) is not onward or math.dist(far, at) < WELD:
             return None
         return Line(at, far) if onward else Line(far, at)
-    keeps_end = way_ahead(curve, at, False) if not has(curve, at) else 0.0
-    if has(curve, at):
-        kept = min(split(curve, [at]), key=lambda p: math.dist(foot(p, near), near), default=None)
+    keeps_end = way_ahead(curve, at, False) if not lies_on(curve, at) else 0.0
+    if lies_on(curve, at):
+        kept = min(split(curve, [at]), key=lambda p: math.dist(nearest_point(p, near), near), default=None)
         return kept if isinstance(kept, Arc) else None
     to_end = way_ahead(curve, at, True)
     start, end = (at, curve.end) if keeps_end < to_end else (curve.start, at)

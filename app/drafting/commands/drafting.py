@@ -9,7 +9,7 @@ from ...core.errors import InputError
 from ...core.tolerances import WELD
 from ...geometry.sample import Box, bounds
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point
-from ..curves.meet import foot, has, meets
+from ..curves.intersections import intersection_points, lies_on, nearest_point
 from ..curves.shapes import shown
 from .split import split
 
@@ -26,15 +26,15 @@ def trimmed(curve: Curve, at: Point, edges: Iterable[Curve]) -> tuple[Curve, ...
         InputError: no edge meets the curve.
     """
     box = _grown(bounds(curve))
-    cuts = [p for edge in edges if _may_reach(edge, box) for p in meets(curve, edge)]
+    cuts = [p for edge in edges if _may_reach(edge, box) for p in intersection_points(curve, edge)]
     pieces = split(curve, cuts)
     if len(pieces) == 1 and not _closed(curve):
         raise InputError(f"Nothing crosses the curve near {shown(at)}; draw an edge across it, or delete it.")
     if len(pieces) == 1:
         raise InputError("A closed curve must be crossed twice to be trimmed; draw another edge across it.")
-    gone = min(pieces, key=lambda piece: math.dist(foot(piece, at), at))
+    gone = min(pieces, key=lambda piece: math.dist(nearest_point(piece, at), at))
     pieces = split(curve, [gone.start, gone.end])  # not at the edges beyond these two
-    nearest = min(pieces, key=lambda piece: math.dist(foot(piece, at), at))
+    nearest = min(pieces, key=lambda piece: math.dist(nearest_point(piece, at), at))
     return tuple(piece for piece in pieces if piece is not nearest)
 
 
@@ -88,7 +88,7 @@ def broken(curve: Curve, first: Point, second: Point | None) -> tuple[Curve, ...
     Raises:
         InputError: the point lies at an end, or a closed curve is broken at one point.
     """
-    a = foot(curve, first)
+    a = nearest_point(curve, first)
     if second is None:
         if _closed(curve):
             raise InputError("A closed curve is broken at two points; give another one.")
@@ -96,7 +96,7 @@ def broken(curve: Curve, first: Point, second: Point | None) -> tuple[Curve, ...
         if len(pieces) < 2:
             raise InputError(f"{shown(a)} is an end of the curve; give a point between its ends.")
         return pieces
-    b = foot(curve, second)
+    b = nearest_point(curve, second)
     if math.dist(a, b) < WELD:
         raise InputError("Both points are the same place of the curve; give two, or one alone.")
     pieces = split(curve, [a, b])
@@ -137,8 +137,8 @@ def _closed(curve: Curve) -> bool:
 def _met_ahead(curve: Line | Arc, edge: Curve) -> list[Point]:
     """Return where a line or arc without ends meets an edge."""
     if isinstance(edge, Line | Arc | Circle):
-        return [p for p in meets(curve, edge, extended=True) if has(edge, p)]
-    return meets(_whole(curve), edge)
+        return [p for p in intersection_points(curve, edge, extended=True) if lies_on(edge, p)]
+    return intersection_points(_whole(curve), edge)
 
 
 def _whole(curve: Line | Arc) -> Curve:
@@ -152,7 +152,7 @@ def _whole(curve: Line | Arc) -> Curve:
 
 def between(curve: Curve, point: Point) -> bool:
     """Return whether a point of the endless line or whole circle lies within a curve, not at its ends."""
-    return has(curve, point) and min(math.dist(point, curve.start), math.dist(point, curve.end)) > WELD
+    return lies_on(curve, point) and min(math.dist(point, curve.start), math.dist(point, curve.end)) > WELD
 
 
 def way_ahead(curve: Line | Arc, point: Point, forward: bool) -> float:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from ...core.errors import GeometryError, InputError
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Primitive, Spline
 from ..expressions.arguments import Arguments
-from .chosen import chosen_curves
-from .command import Rework, Session
+from .command import DraftingSession, ReplaceCurves
+from .command_curves import chosen_curves
 
 
 def simple(curve: Curve) -> tuple[Primitive, ...]:
@@ -39,7 +39,7 @@ def _halves(circle: Circle) -> tuple[Arc, Arc]:
     return Arc(right, left, circle.centre, circle.ccw), Arc(left, right, circle.centre, circle.ccw)
 
 
-def explode(words: Arguments, session: Session) -> Rework:
+def explode(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Turn circles, ellipses and splines into lines and arcs."""
     curves = chosen_curves(words, session, "explode")
     pieces = {
@@ -50,4 +50,4 @@ def explode(words: Arguments, session: Session) -> Rework:
     if not pieces:
         raise InputError("Lines and arcs are as simple as curves can be; choose circles, ellipses or splines.")
     count = sum(map(len, pieces.values()))
-    return Rework(pieces, "Explode", f"{len(pieces)} exploded into {count} lines and arcs.")
+    return ReplaceCurves(pieces, "Explode", f"{len(pieces)} exploded into {count} lines and arcs.")

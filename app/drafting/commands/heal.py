@@ -13,20 +13,30 @@ from ...core.errors import InputError
 from ...core.tolerances import WELD
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ..expressions.arguments import Arguments
-from .command import Session, check_ids
-from .faults import Fault, FaultKind, apart, common_turn, duplicates, meetings, overlaps, point_of, tiny
+from .command import DraftingSession, check_ids
+from .defects import (
+    Defect,
+    DefectKind,
+    common_turn,
+    curve_distance,
+    duplicates,
+    meetings,
+    overlaps,
+    point_of,
+    tiny_curves,
+)
 from .join import brought_to
-from .merging import merged
+from .merge_curves import merged
 from .properties import properties_of, with_property
 from .select import reachable
 
 _LARGEST = 10.0
 _ROUNDS = 4
 _WORDS = {
-    FaultKind.TINY: ("tiny curve removed", "tiny curves removed"),
-    FaultKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
-    FaultKind.OVERLAP: ("overlap removed", "overlaps removed"),
-    FaultKind.GAP: ("gap closed", "gaps closed"),
+    DefectKind.TINY: ("tiny curve removed", "tiny curves removed"),
+    DefectKind.DUPLICATE: ("duplicate removed", "duplicates removed"),
+    DefectKind.OVERLAP: ("overlap removed", "overlaps removed"),
+    DefectKind.GAP: ("gap closed", "gaps closed"),
 }
 _SHARE = 2.0
 """To look for faults, time and again, costs so many times what it costs to take the curves apart."""
@@ -42,21 +52,21 @@ class Heal:
     """
 
     curves: dict[int, Curve | None]
-    counts: dict[FaultKind, int]
+    counts: dict[DefectKind, int]
     name: str = "Heal"
 
     @property
     def reply(self) -> str:
         """A short sentence for the log."""
         counts = self.counts
-        told = [
+        reported = [
             f"{counts[kind]} {one if counts[kind] == 1 else many}"
             for kind, (one, many) in _WORDS.items()
             if kind in counts
         ]
-        return f"{', '.join(told)}." if told else "Nothing to mend."
+        return f"{', '.join(reported)}." if reported else "Nothing to mend."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the curves put right."""
         if not self.curves:
             return session
@@ -70,38 +80,38 @@ class Heal:
 
 
 @dataclass
-class _Work:
+class _HealJob:
     curves: dict[int, Curve]
     drawn: dict[int, Curve]
     layers: dict[int, str]
     tolerance: float
-    counts: Counter[FaultKind] = field(default_factory=Counter)
+    counts: Counter[DefectKind] = field(default_factory=Counter)
     ends: dict[int, list[Point]] = field(default_factory=dict)
 
     def once(self) -> None:
         """Put right what is wrong now; closing a gap may bring up another fault."""
-        for kind, look in ((FaultKind.TINY, tiny), (FaultKind.DUPLICATE, duplicates)):
+        for kind, look in ((DefectKind.TINY, tiny_curves), (DefectKind.DUPLICATE, duplicates)):
             for fault in look(self.curves, self.tolerance):
                 del self.curves[fault.ids[-1]]
                 self.counts[kind] += 1
         self._part(overlaps(self.curves, self.tolerance))
         for meeting in meetings(self.curves, self.tolerance):
-            self.counts[FaultKind.GAP] += self._close(meeting)
+            self.counts[DefectKind.GAP] += self._close(meeting)
 
-    def _part(self, faults: list[Fault]) -> None:
+    def _part(self, faults: list[Defect]) -> None:
         """Make one of two that overlap, or cut one of them where that cannot be."""
-        into, taken = dict[int, int](), _Ends(self.curves, self.tolerance) if faults else None
+        into, taken = dict[int, int](), _CurveEnds(self.curves, self.tolerance) if faults else None
         for fault in faults:
             long, short = (_followed(into, number) for number in fault.ids)
             if long == short or taken is None or long not in self.curves or short not in self.curves:
                 continue
             if self._merge(long, short, taken):
                 into[short] = long
-                self.counts[FaultKind.OVERLAP] += 1
+                self.counts[DefectKind.OVERLAP] += 1
             elif (long, short) == fault.ids:
-                self.counts[FaultKind.OVERLAP] += self._cut(long, short)
+                self.counts[DefectKind.OVERLAP] += self._cut(long, short)
 
-    def _merge(self, long: int, short: int, taken: _Ends) -> bool:
+    def _merge(self, long: int, short: int, taken: _CurveEnds) -> bool:
         """Put one curve in the place of two of a layer, unless another curve ends where an end of theirs would be no
         more.
         """
@@ -171,10 +181,10 @@ class _Work:
             made: Curve = with_property(curve, "end" if last else "start", to)
         except InputError:
             return None
-        return made if apart(self.drawn[number], made) <= self.tolerance else None
+        return made if curve_distance(self.drawn[number], made) <= self.tolerance else None
 
 
-class _Ends:
+class _CurveEnds:
     """Where curves end."""
 
     def __init__(self, curves: dict[int, Curve], tolerance: float) -> None:
@@ -238,7 +248,7 @@ def _arc_left(stays: Arc | Circle, goes: Arc | Circle, tolerance: float) -> Curv
     return Arc(made.end, made.start, made.centre, not made.ccw) if from_end else made
 
 
-def heal(words: Arguments, session: Session) -> Heal:
+def heal(words: Arguments, session: DraftingSession) -> Heal:
     """Put right what is wrong within a tolerance, with some curves or with all that are seen and not locked."""
     tolerance = words.length("the tolerance")
     if not WELD < tolerance <= _LARGEST:
@@ -247,7 +257,7 @@ def heal(words: Arguments, session: Session) -> Heal:
     check_ids(session.part, ids)
     before = {e.id: e.curve for e in reachable(session.part) if not ids or e.id in ids}
     words.takes(before.values(), _SHARE)
-    work = _Work(dict(before), dict(before), {e.id: e.layer for e in session.part.entities}, tolerance)
+    work = _HealJob(dict(before), dict(before), {e.id: e.layer for e in session.part.entities}, tolerance)
     for _ in range(_ROUNDS):
         was = dict(work.curves)
         work.once()

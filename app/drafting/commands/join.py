@@ -11,19 +11,19 @@ from dataclasses import replace
 from ...core.errors import InputError
 from ...core.tolerances import CURVE, JOIN, WELD
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point
-from ..curves.chains import Chain, chained
-from ..curves.meet import meets
+from ..curves.chains import CurveChain, chained
+from ..curves.intersections import intersection_points
 from ..expressions.arguments import Arguments
-from .chosen import chosen_curves
-from .command import Rework, Session, counted
-from .faults import End, meetings, point_of
+from .command import DraftingSession, ReplaceCurves, counted
+from .command_curves import chosen_curves
+from .defects import End, meetings, point_of
 from .properties import properties_of, with_property
 
 _LARGEST = 10.0
 _WHOLE = math.tau - 1e-9
 
 
-def join(words: Arguments, session: Session) -> Rework:
+def join(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Close the gaps among some curves, and make one of pieces that go on in one another; layers are not mixed."""
     within = words.length("how far apart ends may be") if words.accept("within") else JOIN
     if not WELD < within <= _LARGEST:
@@ -45,7 +45,7 @@ def join(words: Arguments, session: Session) -> Rework:
     left, loops = len(drawn) - merged, sum(chain.closed for chain in chains)
     became = f"{counted(len(drawn), 'curve')} became {left}" if merged else f"{counted(left, 'curve')} as before"
     shapes = f"{counted(loops, 'closed contour')}, {len(chains) - loops} open"
-    return Rework(pieces, "Join", f"{counted(gaps, 'gap')} closed, {became}; {shapes}.")
+    return ReplaceCurves(pieces, "Join", f"{counted(gaps, 'gap')} closed, {became}; {shapes}.")
 
 
 def gaps_closed(drawn: Mapping[int, Curve], within: float) -> tuple[dict[int, Curve], int]:
@@ -84,7 +84,9 @@ def _meeting_point(curves: list[Curve], points: list[Point], within: float) -> P
         return next(iter(fixed), points[0])
     if len(curves) == 2 and isinstance(curves[0], Line | Arc) and isinstance(curves[1], Line | Arc):
         crossing = [
-            p for p in meets(curves[0], curves[1], extended=True) if max(math.dist(p, end) for end in points) <= within
+            p
+            for p in intersection_points(curves[0], curves[1], extended=True)
+            if max(math.dist(p, end) for end in points) <= within
         ]
         if crossing:
             return min(crossing, key=lambda p: math.dist(p, points[0]) + math.dist(p, points[1]))
@@ -105,7 +107,7 @@ def _with_end(curve: Curve, last: bool, to: Point) -> Curve | None:
         return None
 
 
-def _runs(chain: Chain, layers: Mapping[int, str]) -> list[tuple[list[int], Curve]]:
+def _runs(chain: CurveChain, layers: Mapping[int, str]) -> list[tuple[list[int], Curve]]:
     """Return which neighbours of a chain are one curve, and that curve."""
     runs = list[tuple[list[int], list[Point], Curve]]()
     for number, curve in zip(chain.numbers, chain.curves, strict=True):

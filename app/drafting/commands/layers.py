@@ -9,7 +9,7 @@ from ...model.curve_selectors import OnLayer
 from ...model.job import Job
 from ...model.part import Layer, Part
 from ..expressions.arguments import Arguments
-from .command import Session, counted
+from .command import DraftingSession, counted
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class RenameLayer:
         """A short sentence for the log."""
         return f"Layer {self.layer} is {self.to} now."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session in which everything that named the layer names it anew.
 
         Raises:
@@ -57,7 +57,7 @@ class RemoveLayer:
     reply: str
     name: str = "Remove layer"
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session without the layer; where it was the current one, the first that is left is.
 
         Raises:
@@ -89,7 +89,7 @@ class OrderLayer:
         """A short sentence for the log."""
         return f"Layer {self.layer} comes {'after' if self.behind else 'before'} {self.beside} now."
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the layers in another order; what is on them stays as it is.
 
         Raises:
@@ -119,7 +119,7 @@ def check_layer(part: Part, name: str) -> Layer:
     raise InputError(f"There is no layer {name}; the drawing has {', '.join(layer.name for layer in part.layers)}.")
 
 
-def rename(words: Arguments, session: Session) -> RenameLayer:
+def rename(words: Arguments, session: DraftingSession) -> RenameLayer:
     """Give a layer another name."""
     if not words.accept("layer"):
         raise words.wrong("Write rename layer NAME to NAME.")
@@ -132,7 +132,7 @@ def rename(words: Arguments, session: Session) -> RenameLayer:
     return RenameLayer(old, new)
 
 
-def order(words: Arguments, session: Session) -> OrderLayer:
+def order(words: Arguments, session: DraftingSession) -> OrderLayer:
     """Put a layer before or after another."""
     usage = "Write order layer NAME before NAME, or after NAME."
     if not words.accept("layer"):
@@ -144,7 +144,7 @@ def order(words: Arguments, session: Session) -> OrderLayer:
     return OrderLayer(layer, words.name("the name of another layer"), way == "after")
 
 
-def remove(words: Arguments, session: Session) -> RemoveLayer:
+def remove(words: Arguments, session: DraftingSession) -> RemoveLayer:
     """Take a layer away, with all that is on it."""
     if not words.accept("layer"):
         raise words.wrong("Write remove layer NAME; curves are taken away with delete.")

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from ...core.tolerances import RIDGE, WELD
 from ...geometry.sample import bounds
 from ...model.curves import Arc, Circle, Curve, Line, Point, reversed_curve
-from ..curves.chains import Chain, chained
-from ..curves.meet import foot, meets
+from ..curves.chains import CurveChain, chained
+from ..curves.intersections import intersection_points, nearest_point
 from ..curves.shapes import curve_length, middle_of
 from .explode import simple
-from .moved import Moved, direction
+from .offset_piece import OffsetPiece, direction
 from .sharp_corners import sharpened
 from .split import split
 
@@ -41,7 +41,9 @@ long.
 """
 
 
-def chain_parallel(contour: Chain, away: float, side: Point, rounded: bool = False) -> list[tuple[int, Line | Arc]]:
+def chain_parallel(
+    contour: CurveChain, away: float, side: Point, rounded: bool = False
+) -> list[tuple[int, Line | Arc]]:
     """Return the parallel of a chain at a distance, on the side of a point; empty where nothing is that far from it.
 
     Args:
@@ -72,17 +74,17 @@ def chain_parallel(contour: Chain, away: float, side: Point, rounded: bool = Fal
     return [(m.source, m.curve) for m in (made if left else _turned(made))]
 
 
-def _pieces(contour: Chain) -> list[Moved]:
+def _pieces(contour: CurveChain) -> list[OffsetPiece]:
     """Return a chain as lines and arcs that meet exactly."""
-    found = list[Moved]()
+    found = list[OffsetPiece]()
     for number, curve in zip(contour.numbers, contour.curves, strict=True):
         for piece in simple(curve):
             if not isinstance(piece, Circle) and (
                 made := _between(piece, found[-1].curve.end if found else piece.start, piece.end)
             ):
-                found.append(Moved(made, number))
+                found.append(OffsetPiece(made, number))
     if contour.closed and found and (made := _between(found[-1].curve, found[-1].curve.start, found[0].curve.start)):
-        found[-1] = Moved(made, found[-1].source)
+        found[-1] = OffsetPiece(made, found[-1].source)
     return found
 
 
@@ -98,14 +100,14 @@ def _between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc | None:
     return made if isinstance(made, Line | Arc) else None
 
 
-def _turned(pieces: Sequence[Moved]) -> list[Moved]:
+def _turned(pieces: Sequence[OffsetPiece]) -> list[OffsetPiece]:
     back = [(reversed_curve(m.curve), m) for m in reversed(pieces)]
-    return [Moved(curve, m.source, m.corner) for curve, m in back if isinstance(curve, Line | Arc)]
+    return [OffsetPiece(curve, m.source, m.corner) for curve, m in back if isinstance(curve, Line | Arc)]
 
 
-def _is_left(pieces: Sequence[Moved], closed: bool, side: Point) -> bool:
+def _is_left(pieces: Sequence[OffsetPiece], closed: bool, side: Point) -> bool:
     """Return whether a point lies left of a chain, as seen from the place nearest to it."""
-    feet = [foot(m.curve, side) for m in pieces]
+    feet = [nearest_point(m.curve, side) for m in pieces]
     best = min(range(len(feet)), key=lambda k: math.dist(feet[k], side))
     at, curve = feet[best], pieces[best].curve
     way = direction(curve, at)
@@ -115,7 +117,7 @@ def _is_left(pieces: Sequence[Moved], closed: bool, side: Point) -> bool:
     return (way.conjugate() * complex(side[0] - at[0], side[1] - at[1])).imag >= 0
 
 
-def _kept(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
+def _kept(pieces: Sequence[OffsetPiece], closed: bool, away: float) -> list[OffsetPiece]:
     """Return what of the parallels to the left keeps the distance from all of a chain."""
     raw = _raw(pieces, closed, away)
     edges: list[Curve] = [m.curve for m in (*raw, *_raw(_turned(pieces), closed, away))]
@@ -127,7 +129,7 @@ def _kept(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
         if i != j:
             pair = (i, j) if i < j else (j, i)
             if pair not in known:
-                known[pair] = meets(edges[pair[0]], edges[pair[1]])
+                known[pair] = intersection_points(edges[pair[0]], edges[pair[1]])
             cuts.setdefault(i, []).extend(known[pair] or _ends_on(raw[i].curve, edges[j]))
     parts = [(m, piece) for k, m in enumerate(raw) for piece in split(m.curve, cuts.get(k, ()))]
     middles = np.array([middle_of(piece) for _, piece in parts]).reshape(-1, 2)
@@ -135,19 +137,19 @@ def _kept(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
     gone = set[int]()
     for k, source in _near(around, _boxes(m.curve for m in pieces)):
         middle = (float(middles[k, 0]), float(middles[k, 1]))
-        if k not in gone and math.dist(foot(pieces[source].curve, middle), middle) < away - _NEAR:
+        if k not in gone and math.dist(nearest_point(pieces[source].curve, middle), middle) < away - _NEAR:
             gone.add(k)
     return [
-        Moved(piece, m.source, m.corner if piece == m.curve else None)
+        OffsetPiece(piece, m.source, m.corner if piece == m.curve else None)
         for k, (m, piece) in enumerate(parts)
         if k not in gone and isinstance(piece, Line | Arc)
     ]
 
 
-def _raw(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
+def _raw(pieces: Sequence[OffsetPiece], closed: bool, away: float) -> list[OffsetPiece]:
     """Return the parallels to the left of lines and arcs, and arcs about the corners that open there."""
     moved = [_aside(m.curve, away) for m in pieces]
-    corners = list[Moved]()
+    corners = list[OffsetPiece]()
     for k, (a, b) in enumerate(pairwise([*pieces, pieces[0]] if closed else pieces)):
         following = (k + 1) % len(pieces)
         one, other = moved[k], moved[following]
@@ -155,13 +157,16 @@ def _raw(pieces: Sequence[Moved], closed: bool, away: float) -> list[Moved]:
         turn = math.atan2((before.conjugate() * after).imag, (before.conjugate() * after).real)
         start, end = _beside(a.curve.end, before, away), _beside(b.curve.start, after, away)
         if (turn < 0 or abs(turn) > math.pi - _BACK) and math.dist(start, end) > WELD:
-            corners.append(Moved(Arc(start, end, a.curve.end, ccw=False), a.source, a.curve.end))
+            corners.append(OffsetPiece(Arc(start, end, a.curve.end, ccw=False), a.source, a.curve.end))
             continue
         if one is None or other is None or k == following or turn > _SLIGHT:
             continue
-        to = min([*meets(one, other, extended=True), end], key=lambda p: math.dist(p, end))
+        to = min([*intersection_points(one, other, extended=True), end], key=lambda p: math.dist(p, end))
         moved[k], moved[following] = _between(one, one.start, to), _between(other, to, other.end)
-    return [*(Moved(curve, m.source) for curve, m in zip(moved, pieces, strict=True) if curve is not None), *corners]
+    return [
+        *(OffsetPiece(curve, m.source) for curve, m in zip(moved, pieces, strict=True) if curve is not None),
+        *corners,
+    ]
 
 
 def _aside(curve: Line | Arc, away: float) -> Line | Arc | None:
@@ -182,7 +187,11 @@ def _beside(point: Point, way: complex, away: float) -> Point:
 
 def _ends_on(curve: Curve, edge: Curve) -> list[Point]:
     """Return the ends of an edge that lie on a curve: of two that run along one another these are where to cut."""
-    return [p for p in (edge.start, edge.end) if not isinstance(edge, Circle) and math.dist(foot(curve, p), p) < WELD]
+    return [
+        p
+        for p in (edge.start, edge.end)
+        if not isinstance(edge, Circle) and math.dist(nearest_point(curve, p), p) < WELD
+    ]
 
 
 def _boxes(curves: Iterable[Curve]) -> NDArray[np.float64]:
@@ -198,7 +207,7 @@ def _near(boxes: NDArray[np.float64], others: NDArray[np.float64]) -> list[tuple
     return [(int(i), int(j)) for i, j in pairs.T]
 
 
-def _thin(each: Chain) -> bool:
+def _thin(each: CurveChain) -> bool:
     """Return whether a chain is a loop without width: walls as far apart as twice the distance leave such."""
     from ...geometry.primitives import contour_rows, signed_area
     from ...model.part import Contour

@@ -17,7 +17,7 @@ from ..curves.shapes import arc_about, circle, ellipse, lines_through
 Value = float | Point
 
 
-class Kind(Enum):
+class PropertyKind(Enum):
     """What a property is: a point or a length in mm, an angle in degrees."""
 
     POINT = "point"
@@ -34,7 +34,7 @@ class Property:
         about: what stays the same when it is set.
     """
 
-    kind: Kind
+    kind: PropertyKind
     read: Callable[[Any], Value]
     written: Callable[[Any, Any], Any]
     about: str
@@ -158,7 +158,7 @@ def _direction(guide: Guide, angle: float) -> Guide:
     return replace(guide, angle=math.radians(angle % 180))
 
 
-_P, _L, _A = Kind.POINT, Kind.LENGTH, Kind.ANGLE
+_P, _L, _A = PropertyKind.POINT, PropertyKind.LENGTH, PropertyKind.ANGLE
 _PROPERTIES: Mapping[type, Mapping[str, Property]] = {
     Line: {
         "start": Property(_P, lambda c: c.start, lambda c, p: _line(p, c.end), "The end stays."),
@@ -227,5 +227,5 @@ _PROPERTIES: Mapping[type, Mapping[str, Property]] = {
     Dimension: {"place": Property(_P, lambda n: n.place, lambda n, p: replace(n, place=p), "What it measures stays.")},
 }
 
-WORDS: Mapping[str, Kind] = {word: each.kind for known in _PROPERTIES.values() for word, each in known.items()}
+WORDS: Mapping[str, PropertyKind] = {word: each.kind for known in _PROPERTIES.values() for word, each in known.items()}
 """Every property that some shape has, and what it is."""

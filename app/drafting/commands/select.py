@@ -16,10 +16,10 @@ from ...geometry.sample import Box, bounds, sample
 from ...model.curves import Curve, Point
 from ...model.notes import Guide, Mark, Note, Shape
 from ...model.part import Entity, Part
-from .command import Session, check_ids
+from .command import DraftingSession, check_ids
 
 
-class How(Enum):
+class SelectMode(Enum):
     """What becomes of the selection that was there."""
 
     REPLACE = ""
@@ -27,7 +27,7 @@ class How(Enum):
     REMOVE = "remove"
 
 
-class By(Enum):
+class SelectCriterion(Enum):
     """What the entities are chosen by."""
 
     IDS = "ids"
@@ -40,7 +40,7 @@ class By(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Select:
+class SelectEntities:
     """Choose entities; hidden and locked layers are passed over, except by number.
 
     Attributes:
@@ -49,26 +49,26 @@ class Select:
             reaches in.
     """
 
-    by: By
-    how: How = How.REPLACE
+    by: SelectCriterion
+    how: SelectMode = SelectMode.REPLACE
     ids: frozenset[int] = frozenset()
     box: Box = (0.0, 0.0, 0.0, 0.0)
     layer: str = ""
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the new selection.
 
         Raises:
             InputError: an id that the part does not have.
         """
         check_ids(session.part, self.ids)
-        if self.by is By.CHAIN:
+        if self.by is SelectCriterion.CHAIN:
             found = joined(reachable(session.part), self.ids)
         else:
-            found = self.ids if self.by is By.IDS else self._found(session.part)
-        if self.how is How.ADD:
+            found = self.ids if self.by is SelectCriterion.IDS else self._found(session.part)
+        if self.how is SelectMode.ADD:
             found = session.selection | found
-        elif self.how is How.REMOVE:
+        elif self.how is SelectMode.REMOVE:
             found = session.selection - found
         return replace(session, selection=found)
 
@@ -79,22 +79,22 @@ class Select:
         )
 
     def _takes_note(self, note: Note) -> bool:
-        if self.by is By.LAYER:
+        if self.by is SelectCriterion.LAYER:
             return note.layer == self.layer
-        if self.by is By.WINDOW:
+        if self.by is SelectCriterion.WINDOW:
             return note_inside(note.shape, self.box)
-        if self.by is By.CROSSING:
+        if self.by is SelectCriterion.CROSSING:
             return note_crosses(note.shape, self.box)
-        return self.by is By.ALL
+        return self.by is SelectCriterion.ALL
 
     def _takes(self, entity: Entity) -> bool:
-        if self.by is By.LAYER:
+        if self.by is SelectCriterion.LAYER:
             return entity.layer == self.layer
-        if self.by is By.WINDOW:
+        if self.by is SelectCriterion.WINDOW:
             return inside(bounds(entity.curve), self.box)
-        if self.by is By.CROSSING:
+        if self.by is SelectCriterion.CROSSING:
             return crosses(entity.curve, self.box)
-        return self.by is By.ALL
+        return self.by is SelectCriterion.ALL
 
 
 def joined(entities: Sequence[Entity], ids: frozenset[int]) -> frozenset[int]:

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from ...core.tolerances import WELD
 from ...model.curves import Arc, Curve, Line, Point
-from ..curves.meet import meets
+from ..curves.intersections import intersection_points
 from ..curves.shapes import middle_of
-from .moved import Moved, direction
+from .offset_piece import OffsetPiece, direction
 
 _FARTHEST = 5.0
 """How many distances the tip of a corner may lie from the corner that it goes round."""
@@ -39,7 +39,7 @@ class _Tip:
     ways: tuple[Line | Arc, Line | Arc]
 
 
-def sharpened(groups: Sequence[Sequence[Moved]], away: float, near: Near) -> list[Moved]:
+def sharpened(groups: Sequence[Sequence[OffsetPiece]], away: float, near: Near) -> list[OffsetPiece]:
     """Return the pieces of a parallel with sharp corners in place of arcs that go round corners, where there is room
     for them.
 
@@ -48,7 +48,7 @@ def sharpened(groups: Sequence[Sequence[Moved]], away: float, near: Near) -> lis
         away: the distance of the parallel, mm.
         near: gives the pairs of curves, one of each list, whose boxes meet.
     """
-    pieces, tips, first = list[Moved](), list[_Tip](), 0
+    pieces, tips, first = list[OffsetPiece](), list[_Tip](), 0
     for group in groups:
         pieces += group
         closed = math.dist(group[0].curve.start, group[-1].curve.end) <= WELD
@@ -66,13 +66,13 @@ def sharpened(groups: Sequence[Sequence[Moved]], away: float, near: Near) -> lis
     return [m for k, m in enumerate(pieces) if k not in gone]
 
 
-def _tip(pieces: Sequence[Moved], places: tuple[int, int, int], away: float) -> list[_Tip]:
+def _tip(pieces: Sequence[OffsetPiece], places: tuple[int, int, int], away: float) -> list[_Tip]:
     """Return the tip in place of an arc, if there is one."""
     (a, arc, b) = (pieces[place] for place in places)
     if a.corner is not None or b.corner is not None or arc.corner is None:
         return []
     middle = middle_of(arc.curve)
-    for at in sorted(meets(a.curve, b.curve, extended=True), key=lambda p: math.dist(p, middle)):
+    for at in sorted(intersection_points(a.curve, b.curve, extended=True), key=lambda p: math.dist(p, middle)):
         if (
             math.dist(at, arc.corner) > _FARTHEST * away
             or min(math.dist(at, a.curve.end), math.dist(at, b.curve.start)) <= WELD
@@ -106,9 +106,13 @@ def _free(tips: Sequence[_Tip], curves: Sequence[Curve], near: Near) -> list[_Ti
         return []
     for i, j in near(ways, curves):
         tip = tips[i // 2]
-        if not blocked[i // 2] and j not in (tip.before, tip.arc, tip.after) and meets(ways[i], curves[j]):
+        if (
+            not blocked[i // 2]
+            and j not in (tip.before, tip.arc, tip.after)
+            and intersection_points(ways[i], curves[j])
+        ):
             blocked[i // 2] = True
     for i, j in near(ways, ways):
-        if i // 2 < j // 2 and not (blocked[i // 2] and blocked[j // 2]) and meets(ways[i], ways[j]):
+        if i // 2 < j // 2 and not (blocked[i // 2] and blocked[j // 2]) and intersection_points(ways[i], ways[j]):
             blocked[[i // 2, j // 2]] = True
     return [tip for tip, shut in zip(tips, blocked, strict=True) if not shut]

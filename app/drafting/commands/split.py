@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.tolerances import WELD
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
-from ..curves.meet import nearest_parameter
+from ..curves.intersections import nearest_parameter
 
 
 def split(curve: Curve, points: Sequence[Point]) -> tuple[Curve, ...]:

@@ -13,7 +13,7 @@ _CELL = 10 * WELD
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class CurveChain:
     """Curves of which each begins where the one before ends.
 
     Attributes:
@@ -27,20 +27,20 @@ class Chain:
     closed: bool
 
 
-def chained(curves: Mapping[int, Curve]) -> list[Chain]:
+def chained(curves: Mapping[int, Curve]) -> list[CurveChain]:
     """Return the chains of some curves by their lowest numbers; where three or more ends meet all chains end."""
     nodes = _nodes(curves)
     at: dict[int, list[int]] = {}
     for number, both in nodes.items():
         for node in both if both[0] != both[1] else ():
             at.setdefault(node, []).append(number)
-    done, found = set[int](), list[Chain]()
+    done, found = set[int](), list[CurveChain]()
     for number in sorted(curves):
         if number in done:
             continue
         first, last = nodes[number]
         if first == last:
-            found.append(Chain((number,), (curves[number],), closed=True))
+            found.append(CurveChain((number,), (curves[number],), closed=True))
             continue
         done.add(number)
         ahead = _walk(last, at, nodes, done)
@@ -52,7 +52,7 @@ def chained(curves: Mapping[int, Curve]) -> list[Chain]:
             *((n, forward) for n, forward, _ in ahead),
         ]
         turned = tuple(curves[n] if forward else reversed_curve(curves[n]) for n, forward in way)
-        found.append(Chain(tuple(n for n, _ in way), turned, closed))
+        found.append(CurveChain(tuple(n for n, _ in way), turned, closed))
     return found
 
 

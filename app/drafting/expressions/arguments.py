@@ -42,12 +42,12 @@ class Arguments:
         return self._at < len(self._command.arguments)
 
     @property
-    def place(self) -> s.Place:
+    def place(self) -> s.TextSpan:
         """Where the next argument stands, or the end of the command."""
         if self.more:
             return self._command.arguments[self._at].place
         whole, size = self._command.place, len(self._command.text)
-        return s.Place(whole.line, whole.column + size, whole.end, whole.end)
+        return s.TextSpan(whole.line, whole.column + size, whole.end, whole.end)
 
     def wrong(self, reason: str) -> CommandError:
         """Return the error that the next argument is wrong."""
@@ -102,7 +102,10 @@ class Arguments:
     def shift(self, expected: str) -> Point:
         """Read a shift @dx,dy or @r<angle, mm."""
         word = self._next(expected)
-        if not isinstance(word, s.Coordinates) or word.frame not in (s.Frame.FROM_LAST, s.Frame.POLAR_FROM_LAST):
+        if not isinstance(word, s.Coordinates) or word.frame not in (
+            s.CoordinateMode.FROM_LAST,
+            s.CoordinateMode.POLAR_FROM_LAST,
+        ):
             raise wrong(f"'{self._text_of(word)}' is no shift; write @dx,dy or @r<angle.", word.place)
         return point_of(word, replace(self._scope, last=(0.0, 0.0)))
 
@@ -136,7 +139,7 @@ class Arguments:
     def name(self, expected: str) -> str:
         """Read a name; one with blanks or signs stands in double quotes."""
         word = self._next(expected)
-        return word.text if isinstance(word, s.Text) else self._text_of(word)
+        return word.text if isinstance(word, s.QuotedText) else self._text_of(word)
 
     def curve(self, expected: str) -> tuple[int, Curve]:
         """Read one entity by number or by name; return its number and its curve."""

@@ -41,7 +41,7 @@ class Effort:
         """Leave it."""
         self._inside -= 1
 
-    def turn(self, place: s.Place) -> None:
+    def turn(self, place: s.TextSpan) -> None:
         """Count a turn of a block.
 
         Raises:
@@ -49,17 +49,17 @@ class Effort:
         """
         self._count(_BLOCK, place)
 
-    def value(self, place: s.Place) -> None:
+    def value(self, place: s.TextSpan) -> None:
         """Count an expression that stands alone: one that gets a name, is compared, or says how often."""
         self._count(_VALUE + _LETTER * (place.end - place.start), place)
 
-    def command(self, place: s.Place, word: str) -> None:
+    def command(self, place: s.TextSpan, word: str) -> None:
         """Count what a command costs before it touches curves."""
         self._count(
             _COMMAND + _LETTER * (place.end - place.start) + (_SPLINE if word in ("spline", "sp") else 0.0), place
         )
 
-    def added(self, curves: Iterable[Curve], kept: int, place: s.Place) -> None:
+    def added(self, curves: Iterable[Curve], kept: int, place: s.TextSpan) -> None:
         """Count curves that were added to others."""
         if self._inside:
             steep = sum(
@@ -67,18 +67,18 @@ class Effort:
             )
             self._count(_MADE + steep + _KEPT * kept, place)
 
-    def changed(self, count: int, passed: int, place: s.Place) -> None:
+    def changed(self, count: int, passed: int, place: s.TextSpan) -> None:
         """Count curves that were changed among those that were looked over."""
         self._count(_CHANGED * count + _PASSED * passed, place)
 
-    def taken(self, curves: Iterable[Curve], share: float, place: s.Place) -> None:
+    def taken(self, curves: Iterable[Curve], share: float, place: s.TextSpan) -> None:
         """Count curves that a command takes apart, to measure, join, offset, explode or heal them; or a share of
         that.
         """
         if self._inside:
             self._count(share * sum(map(_taken_apart, curves)), place)
 
-    def _count(self, work: float, place: s.Place) -> None:
+    def _count(self, work: float, place: s.TextSpan) -> None:
         if not self._inside:
             return
         self._done += work

@@ -60,34 +60,34 @@ def value_of(expression: s.Expression, scope: Scope) -> Value:
             value: Value = _with_unit(expression.value, expression.unit, expression.place, scope)
         case s.Name():
             value = _named(expression, scope)
-        case s.Signed():
+        case s.Negation():
             value = _signed(value_of(expression.operand, scope), expression.place)
-        case s.Chain():
+        case s.OperatorChain():
             value = _chained(expression, scope)
-        case s.Group():
+        case s.Bracketed():
             value = _grouped(expression, scope)
         case s.Coordinates():
             value = _point(expression, scope)
         case s.Call():
             value = call(expression, [value_of(a, scope) for a in expression.arguments], scope)
-        case s.Text():
+        case s.QuotedText():
             raise wrong(f'"{expression.text}" is a text; a number or a point is wanted.', expression.place)
     return _checked(value, expression.place)
 
 
-def _checked(value: Value, place: s.Place) -> Value:
+def _checked(value: Value, place: s.TextSpan) -> Value:
     numbers: Sequence[float] = () if isinstance(value, Curves) else (value,) if isinstance(value, float) else value
     if not all(abs(number) <= _LARGEST for number in numbers):
         raise wrong("The value is too large; numbers go up to 10 000 000.", place)
     return value
 
 
-def _with_unit(value: float, unit: str, place: s.Place, scope: Scope) -> float:
+def _with_unit(value: float, unit: str, place: s.TextSpan, scope: Scope) -> float:
     value *= _unit(unit, place, scope)
     return Length(value) if unit in LENGTH_UNITS else value
 
 
-def _unit(unit: str, place: s.Place, scope: Scope) -> float:
+def _unit(unit: str, place: s.TextSpan, scope: Scope) -> float:
     units = ALL_UNITS if scope.units is None else scope.units
     if unit and unit not in units:
         raise wrong(f"'{unit}' does not fit here; use one of {', '.join(units)}.", place)
@@ -106,7 +106,7 @@ def _named(name: s.Name, scope: Scope) -> Value:
     )
 
 
-def _signed(value: Value, place: s.Place) -> Value:
+def _signed(value: Value, place: s.TextSpan) -> Value:
     if isinstance(value, Curves):
         raise wrong("A curve has no negative; a number or a point is wanted.", place)
     return (-value[0], -value[1]) if isinstance(value, tuple) else _like(value, -value)
@@ -117,7 +117,7 @@ def _like(value: float, result: float) -> float:
     return Length(result) if isinstance(value, Length) else result
 
 
-def _grouped(group: s.Group, scope: Scope) -> Value:
+def _grouped(group: s.Bracketed, scope: Scope) -> Value:
     if len(group.items) == 1:
         value = value_of(group.items[0], scope)
         if not group.unit:
@@ -132,18 +132,18 @@ def _grouped(group: s.Group, scope: Scope) -> Value:
 
 def _point(written: s.Coordinates, scope: Scope) -> Point:
     first = float(length_of(written.first, scope))
-    polar = written.frame in (s.Frame.POLAR, s.Frame.POLAR_FROM_LAST)
+    polar = written.frame in (s.CoordinateMode.POLAR, s.CoordinateMode.POLAR_FROM_LAST)
     units = ANGLE_UNITS if polar and scope.units is not None else scope.units
     second = float((number_of if polar else length_of)(written.second, replace(scope, units=units)))
     if polar:
         turn = math.radians(second)
         first, second = first * math.cos(turn), first * math.sin(turn)
-    if written.frame in (s.Frame.FROM_LAST, s.Frame.POLAR_FROM_LAST):
+    if written.frame in (s.CoordinateMode.FROM_LAST, s.CoordinateMode.POLAR_FROM_LAST):
         return (scope.last[0] + first, scope.last[1] + second)
     return (first, second)
 
 
-def _chained(chain: s.Chain, scope: Scope) -> Value:
+def _chained(chain: s.OperatorChain, scope: Scope) -> Value:
     value = value_of(chain.operands[0], scope)
     before = chain.operands[0]
     for operator, operand in zip(chain.operators, chain.operands[1:], strict=True):
@@ -165,12 +165,12 @@ def _chained(chain: s.Chain, scope: Scope) -> Value:
 
 
 def _is_plain(operand: s.Expression) -> bool:
-    if isinstance(operand, s.Signed):
+    if isinstance(operand, s.Negation):
         return _is_plain(operand.operand)
     return isinstance(operand, s.Quantity) and not operand.unit
 
 
-def _quotient(value: float, divisor: float, place: s.Place) -> float:
+def _quotient(value: float, divisor: float, place: s.TextSpan) -> float:
     if divisor == 0:
         raise wrong("Division by zero; write another divisor.", place)
     return value / divisor
@@ -204,7 +204,7 @@ def _joined(operator: str, a: Value, operand: s.Expression, scope: Scope) -> Val
     raise wrong(f"'{operator}' does not go between {kind_of(a)} and {kind_of(b)}.", operand.place)
 
 
-def _calculated(operator: str, a: float, b: float, place: s.Place) -> float:
+def _calculated(operator: str, a: float, b: float, place: s.TextSpan) -> float:
     if operator != "^":
         return a * b if operator == "*" else a + b if operator == "+" else a - b
     try:

@@ -10,7 +10,7 @@ from ...core.errors import InputError
 from ...core.toml_tables import known_words
 from ...geometry.transform import mirroring, turn
 from ...model.curves import Curve, Point
-from ..curves.meet import foot, meets, tangent_points
+from ..curves.intersections import intersection_points, nearest_point, tangent_points
 from ..curves.shapes import centre_of, curve_length, middle_of, radius_of
 from . import syntax as s
 from .values import Curves, Length, Scope, Value, kind_of, wrong
@@ -85,11 +85,11 @@ FUNCTIONS: Mapping[str, Function] = {
     "centre": Function("c", "centre(curve)", centre_of),
     "radius": Function("c", "radius(curve)", radius_of, gives_length=True),
     "length": Function("c", "length(curve)", curve_length, gives_length=True),
-    "foot": Function("pe", "foot(point, curve)", lambda p, c: foot(c, p)),
+    "foot": Function("pe", "foot(point, curve)", lambda p, c: nearest_point(c, p)),
     "meet": Function(
         "eep",
         "meet(curve, curve, near)",
-        lambda a, b, near: _nearest(meets(a, b), near, "place where both curves meet"),
+        lambda a, b, near: _nearest(intersection_points(a, b), near, "place where both curves meet"),
     ),
     "tangent": Function(
         "pcp",
@@ -150,18 +150,18 @@ def _taken(function: Function, written: s.Call, values: list[Value], scope: Scop
     places = [argument.place for argument in written.arguments]
     takes, given = function.takes.rstrip("+"), list[Given]()
     while values and (len(given) < len(takes) or function.takes.endswith("+")):
-        wanted = takes[min(len(given), len(takes) - 1)]
+        requested = takes[min(len(given), len(takes) - 1)]
         place, value = places[-len(values)], values.pop(0)
         following = values[0] if values else None
-        if wanted == "p" and isinstance(value, float) and isinstance(following, float):
+        if requested == "p" and isinstance(value, float) and isinstance(following, float):
             value = (float(scope.length(value)), float(scope.length(following)))
             del values[0]
-        if wanted == "l" and isinstance(value, float):
+        if requested == "l" and isinstance(value, float):
             given.append(scope.length(value))
-        elif (wanted == "n" and isinstance(value, float)) or (wanted == "p" and isinstance(value, tuple)):
+        elif (requested == "n" and isinstance(value, float)) or (requested == "p" and isinstance(value, tuple)):
             given.append(value)
-        elif wanted in "ce" and (named := _named_curve(value)) is not None:
-            given.append(scope.curve(named, place) if wanted == "c" else scope.edge(named, place))
+        elif requested in "ce" and (named := _named_curve(value)) is not None:
+            given.append(scope.curve(named, place) if requested == "c" else scope.edge(named, place))
         else:
             raise wrong(f"{function.shown}: this is {kind_of(value)}.", place)
     if values or len(given) < len(takes):

@@ -147,7 +147,7 @@ def read_value(text: str) -> s.Expression:
             f"'{text[stray]}' is no part of a number; write a number such as 12.5 or 1in+8mm.", stray + 1
         )
     (statement,) = _read(_VALUE_BEFORE + text, len(_VALUE_BEFORE))
-    assert isinstance(statement, s.Let)
+    assert isinstance(statement, s.Assignment)
     return statement.value
 
 
@@ -189,9 +189,9 @@ class _Builder(Transformer[Token, Any]):
         super().__init__()
         self._source, self._before = source, before
 
-    def _place(self, at: Any) -> s.Place:
+    def _place(self, at: Any) -> s.TextSpan:
         """Return where a token or a rule stands."""
-        return s.Place(at.line, at.column - (self._before if at.line == 1 else 0), at.start_pos, at.end_pos)
+        return s.TextSpan(at.line, at.column - (self._before if at.line == 1 else 0), at.start_pos, at.end_pos)
 
     def _named(self, token: Token) -> s.Name:
         return s.Name(str(token), self._place(token))
@@ -202,35 +202,37 @@ class _Builder(Transformer[Token, Any]):
     def block(self, meta: Any, parts: list[Any]) -> tuple[s.Statement, ...]:
         return tuple(parts)
 
-    def let(self, meta: Any, parts: list[Any]) -> s.Let:
-        return s.Let(self._named(parts[1]), parts[2], self._place(meta))
+    def let(self, meta: Any, parts: list[Any]) -> s.Assignment:
+        return s.Assignment(self._named(parts[1]), parts[2], self._place(meta))
 
     def repeat(self, meta: Any, parts: list[Any]) -> s.Repeat:
         index = self._named(parts[2]) if len(parts) == 4 else None
         return s.Repeat(parts[1], index, parts[-1], self._place(meta))
 
-    def choose(self, meta: Any, parts: list[Any]) -> s.Choose:
+    def choose(self, meta: Any, parts: list[Any]) -> s.Conditional:
         *others, last = parts[5:] if len(parts) > 5 and isinstance(parts[-1], tuple) else (*parts[5:], ())
         for other in reversed(others):
             last = (replace(other, other=last),)
-        return s.Choose(parts[1], parts[2], parts[3], parts[4], last, self._place(meta))
+        return s.Conditional(parts[1], parts[2], parts[3], parts[4], last, self._place(meta))
 
-    def otherwise(self, meta: Any, parts: list[Any]) -> s.Choose:
-        return s.Choose(parts[1], parts[2], parts[3], parts[4], (), self._place(meta))
+    def otherwise(self, meta: Any, parts: list[Any]) -> s.Conditional:
+        return s.Conditional(parts[1], parts[2], parts[3], parts[4], (), self._place(meta))
 
-    def units(self, meta: Any, parts: list[Any]) -> s.Units:
+    def units(self, meta: Any, parts: list[Any]) -> s.UnitsBlock:
         unit = self._named(parts[1])
         if unit.text not in LENGTH_UNITS:
             raise _error(f"'{unit.text}' is no unit of length; use one of {', '.join(LENGTH_UNITS)}.", parts[1])
-        return s.Units(unit, parts[2], self._place(meta))
+        return s.UnitsBlock(unit, parts[2], self._place(meta))
 
     def comparison(self, meta: Any, parts: list[Any]) -> str:
         return str(parts[0])
 
-    def define(self, meta: Any, parts: list[Any]) -> s.Define:
+    def define(self, meta: Any, parts: list[Any]) -> s.CommandDefinition:
         place = self._place(meta)
         source = self._source[place.start : place.end]
-        return s.Define(self._named(parts[1]), tuple(map(self._named, parts[2:-1])), parts[-1], place, source)
+        return s.CommandDefinition(
+            self._named(parts[1]), tuple(map(self._named, parts[2:-1])), parts[-1], place, source
+        )
 
     def command(self, meta: Any, parts: list[Any]) -> s.Command:
         named = len(parts) > 2 and isinstance(parts[-1], _Label)
@@ -242,26 +244,26 @@ class _Builder(Transformer[Token, Any]):
     def label(self, meta: Any, parts: list[Any]) -> _Label:
         return _Label(self._named(parts[0]))
 
-    def text(self, meta: Any, parts: list[Any]) -> s.Text:
-        return s.Text(str(parts[0])[1:-1], self._place(meta))
+    def text(self, meta: Any, parts: list[Any]) -> s.QuotedText:
+        return s.QuotedText(str(parts[0])[1:-1], self._place(meta))
 
     def xy(self, meta: Any, parts: list[Any]) -> s.Coordinates:
-        return s.Coordinates(s.Frame.XY, parts[0], parts[1], self._place(meta))
+        return s.Coordinates(s.CoordinateMode.XY, parts[0], parts[1], self._place(meta))
 
     def polar(self, meta: Any, parts: list[Any]) -> s.Coordinates:
-        return s.Coordinates(s.Frame.POLAR, parts[0], parts[1], self._place(meta))
+        return s.Coordinates(s.CoordinateMode.POLAR, parts[0], parts[1], self._place(meta))
 
     def from_last(self, meta: Any, parts: list[Any]) -> s.Coordinates:
-        return s.Coordinates(s.Frame.FROM_LAST, parts[0], parts[1], self._place(meta))
+        return s.Coordinates(s.CoordinateMode.FROM_LAST, parts[0], parts[1], self._place(meta))
 
     def polar_from_last(self, meta: Any, parts: list[Any]) -> s.Coordinates:
-        return s.Coordinates(s.Frame.POLAR_FROM_LAST, parts[0], parts[1], self._place(meta))
+        return s.Coordinates(s.CoordinateMode.POLAR_FROM_LAST, parts[0], parts[1], self._place(meta))
 
-    def chain(self, meta: Any, parts: list[Any]) -> s.Chain:
-        return s.Chain(tuple(map(str, parts[1::2])), tuple(parts[::2]), self._place(meta))
+    def chain(self, meta: Any, parts: list[Any]) -> s.OperatorChain:
+        return s.OperatorChain(tuple(map(str, parts[1::2])), tuple(parts[::2]), self._place(meta))
 
-    def negative(self, meta: Any, parts: list[Any]) -> s.Signed:
-        return s.Signed(parts[1], self._place(meta))
+    def negative(self, meta: Any, parts: list[Any]) -> s.Negation:
+        return s.Negation(parts[1], self._place(meta))
 
     def positive(self, meta: Any, parts: list[Any]) -> Any:
         return parts[1]
@@ -275,9 +277,9 @@ class _Builder(Transformer[Token, Any]):
     def call(self, meta: Any, parts: list[Any]) -> s.Call:
         return s.Call(self._named(parts[0]), tuple(parts[1:]), self._place(meta))
 
-    def group(self, meta: Any, parts: list[Any]) -> s.Group:
+    def group(self, meta: Any, parts: list[Any]) -> s.Bracketed:
         unit = str(parts[-1]) if isinstance(parts[-1], Token) else ""
-        return s.Group(tuple(p for p in parts if not isinstance(p, Token)), unit, self._place(meta))
+        return s.Bracketed(tuple(p for p in parts if not isinstance(p, Token)), unit, self._place(meta))
 
 
 _EXPECTED = (
@@ -312,16 +314,16 @@ def _explained(wrong: UnexpectedInput, source: str) -> CommandError:
     before = source.split("\n")[line - 1][: column - 1]
     if before.count("(") <= before.count(")"):
         expected.discard("RPAR")  # the parser's tables look no farther than one word
-    wanted = next((words for name, words in _EXPECTED if name in expected), "the end of the line")
+    requested = next((words for name, words in _EXPECTED if name in expected), "the end of the line")
     if ends and "RPAR" in expected:
         return CommandError("A closing bracket is missing; add ')'.", column, line)
     if ends:
-        missing = wanted if any(name in expected for name, _ in _EXPECTED) else "a name"
+        missing = requested if any(name in expected for name, _ in _EXPECTED) else "a name"
         return CommandError(f"The line ends too early; {missing} is expected.", column, line)
     if "UNIT" in expected and found[0].isalpha():
         word = _word_at(source, wrong.pos_in_stream or 0)
         return CommandError(f"'{word}' is no unit; use one of {', '.join(ALL_UNITS)}.", column, line)
-    return CommandError(f"'{found}' is not expected here; {wanted} is.", column, line)
+    return CommandError(f"'{found}' is not expected here; {requested} is.", column, line)
 
 
 def _word_at(source: str, at: int) -> str:

@@ -7,7 +7,7 @@ from enum import Enum
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class TextSpan:
     """Where something stands in a text; line and column count from 1, `start` and `end` from 0 over the whole text."""
 
     line: int
@@ -22,7 +22,7 @@ class Quantity:
 
     value: float
     unit: str
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,15 +30,15 @@ class Name:
     """A word: a variable, or a word of a command such as close."""
 
     text: str
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
+class QuotedText:
     """What stands between double quotes."""
 
     text: str
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,36 +47,36 @@ class Call:
 
     function: Name
     arguments: tuple[Expression, ...]
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Signed:
+class Negation:
     """A value with a minus before it."""
 
     operand: Expression
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class OperatorChain:
     """Operands with an operator between each two, of one rank: + -, or * /, or ^ (which binds from the right)."""
 
     operators: tuple[str, ...]
     operands: tuple[Expression, ...]
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class Bracketed:
     """What stands in brackets: one value, or two that are a point; with a unit behind the bracket or ""."""
 
     items: tuple[Expression, ...]
     unit: str
-    place: Place
+    place: TextSpan
 
 
-class Frame(Enum):
+class CoordinateMode(Enum):
     """What the two numbers of a point mean."""
 
     XY = "x,y"
@@ -89,13 +89,13 @@ class Frame(Enum):
 class Coordinates:
     """A point written as two numbers."""
 
-    frame: Frame
+    frame: CoordinateMode
     first: Expression
     second: Expression
-    place: Place
+    place: TextSpan
 
 
-Expression = Quantity | Name | Text | Call | Signed | Chain | Group | Coordinates
+Expression = Quantity | Name | QuotedText | Call | Negation | OperatorChain | Bracketed | Coordinates
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,16 +111,16 @@ class Command:
     arguments: tuple[Expression, ...]
     label: Name | None
     text: str
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Let:
+class Assignment:
     """A name for a value."""
 
     name: Name
     value: Expression
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,11 +130,11 @@ class Repeat:
     times: Expression
     index: Name | None
     body: tuple[Statement, ...]
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Choose:
+class Conditional:
     """Statements of which one list is carried out."""
 
     left: Expression
@@ -142,20 +142,20 @@ class Choose:
     right: Expression
     body: tuple[Statement, ...]
     other: tuple[Statement, ...]
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Units:
+class UnitsBlock:
     """Statements in which a length without a unit counts in this one."""
 
     unit: Name
     body: tuple[Statement, ...]
-    place: Place
+    place: TextSpan
 
 
 @dataclass(frozen=True, slots=True)
-class Define:
+class CommandDefinition:
     """A command of the user's own.
 
     Attributes:
@@ -165,8 +165,8 @@ class Define:
     name: Name
     parameters: tuple[Name, ...]
     body: tuple[Statement, ...] = field(repr=False)
-    place: Place
+    place: TextSpan
     source: str = field(repr=False)
 
 
-Statement = Command | Let | Repeat | Choose | Units | Define
+Statement = Command | Assignment | Repeat | Conditional | UnitsBlock | CommandDefinition

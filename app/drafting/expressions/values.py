@@ -51,7 +51,7 @@ class Scope:
         """Return a value as a length, mm."""
         return value if isinstance(value, Length) else Length(value * self.plain)
 
-    def curve(self, value: Curves, place: s.Place) -> Curve:
+    def curve(self, value: Curves, place: s.TextSpan) -> Curve:
         """Return the one curve that a value stands for.
 
         Raises:
@@ -62,7 +62,7 @@ class Scope:
             raise wrong(f"{value.ids[0]} is a construction line, which has no ends; a curve is wanted.", place)
         return found
 
-    def edge(self, value: Curves, place: s.Place) -> Curve:
+    def edge(self, value: Curves, place: s.TextSpan) -> Curve:
         """Return the one curve that a value stands for, or a construction line as a long line.
 
         Raises:
@@ -84,7 +84,7 @@ class Scope:
         raise wrong(f"Curve {number} is no longer in the drawing; draw it again or leave this out.", place)
 
 
-def wrong(reason: str, place: s.Place) -> CommandError:
+def wrong(reason: str, place: s.TextSpan) -> CommandError:
     """Return the error that something at a place is wrong."""
     return CommandError(reason, place.column, place.line)
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
-from ..commands.command import Draw, Redo, Session, Undo, counted
-from ..commands.select import Select
+from ..commands.command import DraftingSession, Draw, Redo, Undo, counted
+from ..commands.select import SelectEntities
 from ..expressions import syntax as s
 from ..expressions.effort import Effort
 from ..expressions.errors import CommandError
@@ -46,7 +46,7 @@ class Outcome:
         reply: a short sentence for the log.
     """
 
-    session: Session
+    session: DraftingSession
     name: str
     reply: str
 
@@ -65,7 +65,7 @@ class Interpreter:
         self._depth, self._effort = 0, Effort()
         self.done, self.fraction = 0, 0.0
 
-    def carry_out(self, statement: s.Statement, session: Session) -> Outcome:
+    def carry_out(self, statement: s.Statement, session: DraftingSession) -> Outcome:
         """Return what a statement makes of a session.
 
         Raises:
@@ -79,34 +79,34 @@ class Interpreter:
         except InputError as error:
             raise wrong(str(error), statement.place) from error
 
-    def _count(self, place: s.Place) -> None:
+    def _count(self, place: s.TextSpan) -> None:
         self.done += 1
         if self.done > MOST_STATEMENTS:
             raise wrong(f"More than {MOST_STATEMENTS} statements are carried out; repeat fewer times.", place)
         self._progress.step(self.fraction, "Drawing")
 
-    def _one(self, statement: s.Statement, session: Session) -> Outcome:
+    def _one(self, statement: s.Statement, session: DraftingSession) -> Outcome:
         match statement:
             case s.Command():
                 return self._command(statement, session)
-            case s.Let():
+            case s.Assignment():
                 self._effort.value(statement.place)
                 value = value_of(statement.value, session.scope)
                 named = _with_name(session, statement.name, value)
                 return Outcome(named, f"Let {statement.name.text}", f"{statement.name.text} = {value_text(value)}.")
             case s.Repeat():
                 return self._repeat(statement, session)
-            case s.Choose():
+            case s.Conditional():
                 return self._choose(statement, session)
-            case s.Units():
+            case s.UnitsBlock():
                 return self._in_units(statement, session)
-            case s.Define():
+            case s.CommandDefinition():
                 _check_name(statement.name)
                 commands = {**session.commands, statement.name.text.lower(): statement}
                 defined = replace(session, commands=commands)
                 return Outcome(defined, f"Define {statement.name.text}", f"{statement.name.text} is a command now.")
 
-    def _command(self, written: s.Command, session: Session) -> Outcome:
+    def _command(self, written: s.Command, session: DraftingSession) -> Outcome:
         own = session.commands.get(written.word.text.lower())
         if own is not None:
             return self._call(own, written, session)
@@ -116,23 +116,23 @@ class Interpreter:
             raise wrong("Undo and redo stand in lines of their own, outside blocks.", written.place)
         after = command.carried_out(session)
         self._worked(written, session, after, isinstance(command, Draw | DrawNote))
-        if isinstance(command, Select):
+        if isinstance(command, SelectEntities):
             return Outcome(after, "Select", f"{len(after.selection)} selected.")
         if (drawn := len(after.part.entities) + len(after.part.notes)) > MOST_CURVES:
             raise wrong(f"The drawing would have {drawn} curves; a text draws at most {MOST_CURVES}.", written.place)
         return Outcome(_labelled(written, session, after), command.name, command.reply)
 
-    def _choose(self, statement: s.Choose, session: Session) -> Outcome:
+    def _choose(self, statement: s.Conditional, session: DraftingSession) -> Outcome:
         while not (holds := self._holds(statement, session)) and len(statement.other) == 1:
             (further,) = statement.other
-            if not isinstance(further, s.Choose):
+            if not isinstance(further, s.Conditional):
                 break
             statement = further
         return Outcome(
             self._all(statement.body if holds else statement.other, session), "If", "Yes." if holds else "No."
         )
 
-    def _holds(self, statement: s.Choose, session: Session) -> bool:
+    def _holds(self, statement: s.Conditional, session: DraftingSession) -> bool:
         self._effort.value(statement.left.place)
         self._effort.value(statement.right.place)
         left, right = number_of(statement.left, session.scope), number_of(statement.right, session.scope)
@@ -140,7 +140,7 @@ class Interpreter:
             left, right = session.scope.length(left), session.scope.length(right)
         return _COMPARISONS[statement.comparison](left, right)
 
-    def _worked(self, written: s.Command, before: Session, after: Session, draws: bool) -> None:
+    def _worked(self, written: s.Command, before: DraftingSession, after: DraftingSession, draws: bool) -> None:
         """Count the curves that a command has added, changed or passed."""
         old, new = before.part.entities, after.part.entities
         if draws or len(new) > len(old):
@@ -150,7 +150,7 @@ class Interpreter:
                 0 if new is old else sum(a is not b for a, b in zip(old, new, strict=False)), len(old), written.place
             )
 
-    def _call(self, own: s.Define, written: s.Command, session: Session) -> Outcome:
+    def _call(self, own: s.CommandDefinition, written: s.Command, session: DraftingSession) -> Outcome:
         if len(written.arguments) != len(own.parameters):
             shown = " ".join(word.text for word in (own.name, *own.parameters))
             raise wrong(
@@ -169,7 +169,7 @@ class Interpreter:
         drawn = len(after.part.entities) - len(session.part.entities)
         return Outcome(_labelled(written, session, after), own.name.text.capitalize(), f"{counted(drawn, 'curve')}.")
 
-    def _repeat(self, written: s.Repeat, session: Session) -> Outcome:
+    def _repeat(self, written: s.Repeat, session: DraftingSession) -> Outcome:
         self._effort.value(written.times.place)
         times = number_of(written.times, session.scope)
         if times != int(times) or not 0 <= times <= MOST_STATEMENTS:
@@ -191,7 +191,7 @@ class Interpreter:
             session = replace(session, names=names if outside is None else {**names, written.index.text: outside})
         return Outcome(session, "Repeat", f"{counted(int(times), 'time')}.")
 
-    def _in_units(self, written: s.Units, session: Session) -> Outcome:
+    def _in_units(self, written: s.UnitsBlock, session: DraftingSession) -> Outcome:
         inside = replace(session, plain=LENGTH_UNITS[written.unit.text])
         outcome = Outcome(inside, "Units", "Nothing to do.")
         for number, statement in enumerate(written.body):
@@ -200,7 +200,7 @@ class Interpreter:
                 outcome = replace(outcome, name=f"{number + 1} statements", reply=f"{number + 1} statements.")
         return replace(outcome, session=replace(outcome.session, plain=session.plain))
 
-    def _all(self, statements: Sequence[s.Statement], session: Session) -> Session:
+    def _all(self, statements: Sequence[s.Statement], session: DraftingSession) -> DraftingSession:
         for statement in statements:
             session = self.carry_out(statement, session).session
         return session
@@ -213,13 +213,13 @@ def value_text(value: Value) -> str:
     return point_text(value) if isinstance(value, tuple) else number_text(value)
 
 
-def _labelled(written: s.Command, before: Session, after: Session) -> Session:
+def _labelled(written: s.Command, before: DraftingSession, after: DraftingSession) -> DraftingSession:
     if written.label is None:
         return after
     return _with_name(after, written.label, Curves(tuple(sorted(after.part.ids() - before.part.ids()))))
 
 
-def _with_name(session: Session, name: s.Name, value: Value) -> Session:
+def _with_name(session: DraftingSession, name: s.Name, value: Value) -> DraftingSession:
     _check_name(name)
     return replace(session, names={**session.names, name.text: value})
 

@@ -40,13 +40,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..commands import layers
-from ..commands.command import Clear, Edit, Redo, Session, Undo
+from ..commands.command import Clear, DraftingSession, Edit, Redo, Undo
 from ..commands.explode import explode
+from ..commands.grips import MoveGrip, pull
 from ..commands.heal import Heal, heal
 from ..commands.join import join
-from ..commands.measuring import Measure, measure
-from ..commands.pull import Pull, pull
-from ..commands.select import Select
+from ..commands.measure import MeasureCommand, measure
+from ..commands.select import SelectEntities
 from ..expressions import syntax
 from ..expressions.arguments import Arguments
 from ..expressions.effort import Effort
@@ -60,7 +60,18 @@ from . import read_rework as rework
 from .read_set import SetProperty, set_property
 from .read_text import text
 
-Command = Pull | Edit | notes.DrawNote | SetProperty | Heal | Measure | layers.LayerCommand | Select | Undo | Redo
+Command = (
+    MoveGrip
+    | Edit
+    | notes.DrawNote
+    | SetProperty
+    | Heal
+    | MeasureCommand
+    | layers.LayerCommand
+    | SelectEntities
+    | Undo
+    | Redo
+)
 
 ALIASES = {
     "li": "line",
@@ -103,7 +114,7 @@ def command_word(text: str) -> str | None:
     return word if word in _READERS else None
 
 
-def read(written: syntax.Command, session: Session, effort: Effort | None = None) -> Command:
+def read(written: syntax.Command, session: DraftingSession, effort: Effort | None = None) -> Command:
     """Return what a command asks for; what it works on is counted as an effort.
 
     Raises:
@@ -120,7 +131,7 @@ def read(written: syntax.Command, session: Session, effort: Effort | None = None
     return command
 
 
-_READERS: dict[str, Callable[[Arguments, Session], Command]] = {
+_READERS: dict[str, Callable[[Arguments, DraftingSession], Command]] = {
     "line": draw.line,
     "polyline": draw.polyline,
     "arc": draw.arc,

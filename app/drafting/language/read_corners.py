@@ -7,10 +7,10 @@ from itertools import pairwise
 
 from ...core.errors import InputError
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from ..commands.command import Rework, Session, check_ids, counted
+from ..commands.command import DraftingSession, ReplaceCurves, check_ids, counted
 from ..commands.corners import Side, chamfer, fillet, is_smooth, sharp
 from ..curves.chains import chained
-from ..curves.meet import foot
+from ..curves.intersections import nearest_point
 from ..curves.shapes import middle_of
 from ..expressions.arguments import Arguments
 
@@ -19,7 +19,7 @@ Corner = tuple[Curve, Curve | None, Curve]
 """The first curve, what lies between, the second."""
 
 
-def fillet_of(words: Arguments, session: Session) -> Rework:
+def fillet_of(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Round the corner of two curves, or every corner among several; a radius of 0 makes it sharp."""
     radius = words.length("the radius")
     if radius < 0:
@@ -36,7 +36,7 @@ def fillet_of(words: Arguments, session: Session) -> Rework:
     return _worked(words, session, "Fillet", work)
 
 
-def chamfer_of(words: Arguments, session: Session) -> Rework:
+def chamfer_of(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Cut the corner of two lines, or every corner among several."""
     first_size = words.length("how far the corner is cut back")
     sizes = first_size, words.length("how far on the second line") if words.accept("and") else first_size
@@ -63,7 +63,9 @@ def _open(curve: Curve) -> Line | Arc:
     return side
 
 
-def _worked(words: Arguments, session: Session, name: str, work: Callable[[Curve, Curve, Near], Corner]) -> Rework:
+def _worked(
+    words: Arguments, session: DraftingSession, name: str, work: Callable[[Curve, Curve, Near], Corner]
+) -> ReplaceCurves:
     """Return the command that works on one corner after the other, each as the one before left it."""
     curves, places = _read(words, session)
     pairs = [_pointed(curves, places)] if len(curves) == 2 else list(_joints(curves))
@@ -81,10 +83,12 @@ def _worked(words: Arguments, session: Session, name: str, work: Callable[[Curve
     if len(refused) == len(pairs):
         raise refused[0]
     reply = counted(len(pairs) - len(refused), "corner") + (f", {len(refused)} left as before" if refused else "") + "."
-    return Rework({k: (curve,) for k, curve in curves.items() if curve is not drawn[k]}, name, reply, tuple(added))
+    return ReplaceCurves(
+        {k: (curve,) for k, curve in curves.items() if curve is not drawn[k]}, name, reply, tuple(added)
+    )
 
 
-def _read(words: Arguments, session: Session) -> tuple[dict[int, Curve], dict[int, Point]]:
+def _read(words: Arguments, session: DraftingSession) -> tuple[dict[int, Curve], dict[int, Point]]:
     """Return the curves by number in the order in which they were named, and where some were pointed at."""
     places, ids = dict[int, Point](), list[int]()
     while words.more:
@@ -104,7 +108,7 @@ def _read(words: Arguments, session: Session) -> tuple[dict[int, Curve], dict[in
 def _pointed(curves: dict[int, Curve], places: dict[int, Point]) -> tuple[int, int, None]:
     """Return a pair of curves; where nobody pointed at one its middle stands for it."""
     for number, curve in curves.items():
-        places[number] = foot(curve, places.get(number) or middle_of(curve))
+        places[number] = nearest_point(curve, places.get(number) or middle_of(curve))
     a, b = curves
     return a, b, None
 
@@ -121,6 +125,8 @@ def _joints(curves: dict[int, Curve]) -> Iterator[tuple[int, int, Point]]:
 def _beside_joint(a: Curve, b: Curve, joint: Point) -> Near:
     """Return a place on each of two curves between their joint and their middle."""
     first, second = (
-        foot(curve, ((joint[0] + x) / 2, (joint[1] + y) / 2)) for curve in (a, b) for x, y in [middle_of(curve)]
+        nearest_point(curve, ((joint[0] + x) / 2, (joint[1] + y) / 2))
+        for curve in (a, b)
+        for x, y in [middle_of(curve)]
     )
     return first, second

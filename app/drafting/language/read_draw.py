@@ -7,7 +7,7 @@ import math
 
 from ...core.errors import InputError
 from ...model.curves import Arc, Curve, Line, Point, Spline, reversed_curve
-from ..commands.command import Draw, Session, counted
+from ..commands.command import DraftingSession, Draw, counted
 from ..curves.shapes import (
     arc_about,
     arc_along,
@@ -29,7 +29,7 @@ from ..expressions.arguments import Arguments
 MOST_CORNERS = 1000
 
 
-def line(words: Arguments, session: Session) -> Draw:
+def line(words: Arguments, session: DraftingSession) -> Draw:
     """Lines from point to point."""
     points = [words.point(), words.point(), *words.points()]
     close = bool(words.accept("close"))
@@ -39,7 +39,7 @@ def line(words: Arguments, session: Session) -> Draw:
     return Draw("Line", curves, figures, curves[-1].end)
 
 
-def polyline(words: Arguments, session: Session) -> Draw:
+def polyline(words: Arguments, session: DraftingSession) -> Draw:
     """Lines, and arcs by way of a point."""
     first = at = words.point()
     curves: list[Line | Arc] = []
@@ -58,7 +58,7 @@ def polyline(words: Arguments, session: Session) -> Draw:
     return Draw("Polyline", tuple(curves), f"{counted(len(curves), 'segment')}, {total:.3f} mm", curves[-1].end)
 
 
-def arc(words: Arguments, session: Session) -> Draw:
+def arc(words: Arguments, session: DraftingSession) -> Draw:
     """An arc: about a centre, with a radius, through a point, or onward from the curve drawn last."""
     curve = _arc_onward(words, session) if words.accept("on") else _arc_between(words)
     figures = f"radius {curve.radius:.3f} mm, {abs(math.degrees(curve.sweep)):.2f}\u00b0"
@@ -79,7 +79,7 @@ def _arc_between(words: Arguments) -> Arc:
     return arc_through(start, second, words.point("the end of the arc, or centre x,y,"))
 
 
-def _arc_onward(words: Arguments, session: Session) -> Arc:
+def _arc_onward(words: Arguments, session: DraftingSession) -> Arc:
     before = next((e.curve for e in reversed(session.part.entities) if e.curve.end == session.last), None)
     if before is None:
         raise words.wrong(
@@ -101,7 +101,7 @@ def _heading(curve: Curve) -> float:
     raise InputError("The curve drawn last has no end that an arc could go on from; give a centre.")
 
 
-def circle_of(words: Arguments, session: Session) -> Draw:
+def circle_of(words: Arguments, session: DraftingSession) -> Draw:
     """A circle: by centre and radius, centre and point, two ends of a diameter, or three points."""
     if words.accept("through"):
         made = circle_through(words.point(), words.point("the second point"), words.point("the third point"))
@@ -118,7 +118,7 @@ def circle_of(words: Arguments, session: Session) -> Draw:
     return Draw("Circle", (curve,), f"radius {made.radius:.3f} mm", made.centre)
 
 
-def rect(words: Arguments, session: Session) -> Draw:
+def rect(words: Arguments, session: DraftingSession) -> Draw:
     """A rectangle by opposite corners; with round corners where a radius is given."""
     a, b = words.point("a corner x,y"), words.point("the opposite corner x,y")
     curves: tuple[Curve, ...] = (
@@ -127,7 +127,7 @@ def rect(words: Arguments, session: Session) -> Draw:
     return Draw("Rectangle", curves, f"{abs(b[0] - a[0]):.3f} by {abs(b[1] - a[1]):.3f} mm", b)
 
 
-def polygon_of(words: Arguments, session: Session) -> Draw:
+def polygon_of(words: Arguments, session: DraftingSession) -> Draw:
     """A regular polygon by number of corners, centre and a corner, or the middle of a side."""
     corners = words.count("the number of corners", 3, MOST_CORNERS)
     centre = words.point("the centre x,y")
@@ -141,14 +141,14 @@ def polygon_of(words: Arguments, session: Session) -> Draw:
     return Draw("Polygon", curves, f"{corners} sides of {curve_length(curves[0]):.3f} mm", centre)
 
 
-def slot_of(words: Arguments, session: Session) -> Draw:
+def slot_of(words: Arguments, session: DraftingSession) -> Draw:
     """A slot by the centres of its ends and its width."""
     a, b = words.point("the centre of one end"), words.point("the centre of the other end")
     width = words.length("the width")
     return Draw("Slot", slot(a, b, width), f"{math.dist(a, b) + width:.3f} by {width:.3f} mm", b)
 
 
-def ellipse_of(words: Arguments, session: Session) -> Draw:
+def ellipse_of(words: Arguments, session: DraftingSession) -> Draw:
     """An ellipse by centre, end of one half axis, and length of the other; a part of it from one angle to another."""
     centre, end = words.point("the centre x,y"), words.point("the end of a half axis")
     half = words.length("the length of the other half axis")
@@ -162,7 +162,7 @@ def ellipse_of(words: Arguments, session: Session) -> Draw:
     return Draw("Ellipse", (made,), f"half axes {math.dist(centre, end):.3f} and {half:.3f} mm", centre)
 
 
-def spline_of(words: Arguments, session: Session) -> Draw:
+def spline_of(words: Arguments, session: DraftingSession) -> Draw:
     """A spline through points, or by control points, knots and weights."""
     if words.accept("degree"):
         made = _nurbs(words)

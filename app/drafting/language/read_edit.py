@@ -7,9 +7,9 @@ import re
 from ...core.errors import InputError
 from ...geometry.transform import Similarity, mirroring, scaling, shift, turn
 from ...model.curves import reversed_curve
-from ..commands.chosen import chosen_curves
-from ..commands.command import Delete, Rework, Session, SetLayer, SetLook, Transform
-from ..commands.select import By, How, Select
+from ..commands.command import Delete, DraftingSession, ReplaceCurves, SetLayer, SetLayerStyle, Transform
+from ..commands.command_curves import chosen_curves
+from ..commands.select import SelectCriterion, SelectEntities, SelectMode
 from ..curves.chains import chained
 from ..expressions.arguments import Arguments
 from ..expressions.values import wrong
@@ -21,25 +21,25 @@ _LOOKS = {"window": 0.04, "crossing": 0.04, "chain": 0.3}
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
-def _chosen(words: Arguments, session: Session, verb: str) -> frozenset[int]:
+def _chosen(words: Arguments, session: DraftingSession, verb: str) -> frozenset[int]:
     ids = frozenset(words.ids()) or session.selection
     if not ids:
         raise InputError(f"Nothing is selected; select what to {verb}, or write its numbers after the command.")
     return ids
 
 
-def delete(words: Arguments, session: Session) -> Delete:
+def delete(words: Arguments, session: DraftingSession) -> Delete:
     """Take curves away."""
     return Delete(_chosen(words, session, "delete"))
 
 
-def move(words: Arguments, session: Session) -> Transform:
+def move(words: Arguments, session: DraftingSession) -> Transform:
     """Shift curves."""
     by = words.shift("the shift @dx,dy")
     return Transform(_chosen(words, session, "move"), (shift(by),), "Move")
 
 
-def copy(words: Arguments, session: Session) -> Transform:
+def copy(words: Arguments, session: DraftingSession) -> Transform:
     """Put copies of curves a shift away, several in a row where a number is given."""
     by = words.shift("the shift @dx,dy")
     count = words.count("the number of copies", 1, MOST_COPIES) if words.accept("times") else 1
@@ -47,30 +47,30 @@ def copy(words: Arguments, session: Session) -> Transform:
     return Transform(_chosen(words, session, "copy"), maps, "Copy", keep=True)
 
 
-def rotate(words: Arguments, session: Session) -> Transform:
+def rotate(words: Arguments, session: DraftingSession) -> Transform:
     """Turn curves about a centre."""
     centre = words.point("the centre x,y")
     return _mapped(words, session, turn(centre, words.angle("the angle")), "Rotate")
 
 
-def scale(words: Arguments, session: Session) -> Transform:
+def scale(words: Arguments, session: DraftingSession) -> Transform:
     """Make curves larger or smaller about a centre."""
     centre = words.point("the centre x,y")
     return _mapped(words, session, scaling(centre, words.number("the factor")), "Scale")
 
 
-def mirror(words: Arguments, session: Session) -> Transform:
+def mirror(words: Arguments, session: DraftingSession) -> Transform:
     """Mirror curves about the line through two points."""
     a, b = words.point("a point of the mirror line"), words.point("another point of the mirror line")
     return _mapped(words, session, mirroring(a, b), "Mirror")
 
 
-def _mapped(words: Arguments, session: Session, to: Similarity, name: str) -> Transform:
+def _mapped(words: Arguments, session: DraftingSession, to: Similarity, name: str) -> Transform:
     keep = bool(words.accept("copy"))
     return Transform(_chosen(words, session, name.lower()), (to,), name, keep)
 
 
-def array(words: Arguments, session: Session) -> Transform:
+def array(words: Arguments, session: DraftingSession) -> Transform:
     """Put copies of curves in rows and columns, or round a centre."""
     if words.accept("polar"):
         centre = words.point("the centre x,y")
@@ -88,7 +88,7 @@ def array(words: Arguments, session: Session) -> Transform:
     return Transform(_chosen(words, session, "repeat"), maps, "Array", keep=True)
 
 
-def reverse(words: Arguments, session: Session) -> Rework:
+def reverse(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Let curves run the other way; those that join end to end all against the way of the first of them."""
     curves = chosen_curves(words, session, "reverse")
     turned = {
@@ -98,10 +98,12 @@ def reverse(words: Arguments, session: Session) -> Rework:
     }
     pieces = {number: (curve,) for number, curve in turned.items() if curve != curves[number]}
     already = len(curves) - len(pieces)
-    return Rework(pieces, "Reverse", f"{len(pieces)} reversed" + (f", {already} ran that way." if already else "."))
+    return ReplaceCurves(
+        pieces, "Reverse", f"{len(pieces)} reversed" + (f", {already} ran that way." if already else ".")
+    )
 
 
-def layer(words: Arguments, session: Session) -> SetLayer:
+def layer(words: Arguments, session: DraftingSession) -> SetLayer:
     """Draw on a layer, put curves on it, or say how it looks."""
     name = words.name("the name of a layer").strip()
     if not name:
@@ -109,55 +111,57 @@ def layer(words: Arguments, session: Session) -> SetLayer:
     return SetLayer(name, frozenset(words.ids()))
 
 
-def hide(words: Arguments, session: Session) -> SetLook:
+def hide(words: Arguments, session: DraftingSession) -> SetLayerStyle:
     """Hide a layer: its curves are neither seen nor machined."""
     name = words.name("the name of a layer")
-    return SetLook(name, {"visible": False}, f"Layer {name} is hidden.")
+    return SetLayerStyle(name, {"visible": False}, f"Layer {name} is hidden.")
 
 
-def show(words: Arguments, session: Session) -> SetLook:
+def show(words: Arguments, session: DraftingSession) -> SetLayerStyle:
     """Show a layer again."""
     name = words.name("the name of a layer")
-    return SetLook(name, {"visible": True}, f"Layer {name} is shown.")
+    return SetLayerStyle(name, {"visible": True}, f"Layer {name} is shown.")
 
 
-def lock(words: Arguments, session: Session) -> SetLook:
+def lock(words: Arguments, session: DraftingSession) -> SetLayerStyle:
     """Lock a layer: its curves are not selected."""
     name = words.name("the name of a layer")
-    return SetLook(name, {"locked": True}, f"Layer {name} is locked.")
+    return SetLayerStyle(name, {"locked": True}, f"Layer {name} is locked.")
 
 
-def unlock(words: Arguments, session: Session) -> SetLook:
+def unlock(words: Arguments, session: DraftingSession) -> SetLayerStyle:
     """Unlock a layer."""
     name = words.name("the name of a layer")
-    return SetLook(name, {"locked": False}, f"Layer {name} is unlocked.")
+    return SetLayerStyle(name, {"locked": False}, f"Layer {name} is unlocked.")
 
 
-def colour(words: Arguments, session: Session) -> SetLook:
+def colour(words: Arguments, session: DraftingSession) -> SetLayerStyle:
     """Give a layer a colour, or the ink's again."""
     name = words.name("the name of a layer")
     if words.accept("none"):
-        return SetLook(name, {"colour": ""}, f"Layer {name} has the colour of ink.")
+        return SetLayerStyle(name, {"colour": ""}, f"Layer {name} has the colour of ink.")
     place, value = words.place, words.name('a colour such as "#d55e00", or none')
     if not _COLOUR.fullmatch(value):
         raise wrong(f"'{value}' is no colour; write one such as \"#d55e00\", or none.", place)
-    return SetLook(name, {"colour": value.lower()}, f"Layer {name} has a colour.")
+    return SetLayerStyle(name, {"colour": value.lower()}, f"Layer {name} has a colour.")
 
 
-def select(words: Arguments, session: Session) -> Select:
+def select(words: Arguments, session: DraftingSession) -> SelectEntities:
     """Choose curves."""
-    how = How(words.accept("add", "remove"))
+    how = SelectMode(words.accept("add", "remove"))
     kind = words.accept("all", "none", "window", "crossing", "layer", "chain")
     if kind in _LOOKS:
         words.takes((e.curve for e in session.part.entities), _LOOKS[kind])
     if kind in ("window", "crossing"):
-        return Select(By(kind), how, box=box(words.point("a corner x,y"), words.point("the opposite corner x,y")))
+        return SelectEntities(
+            SelectCriterion(kind), how, box=box(words.point("a corner x,y"), words.point("the opposite corner x,y"))
+        )
     if kind == "layer":
-        return Select(By.LAYER, how, layer=words.name("the name of a layer"))
+        return SelectEntities(SelectCriterion.LAYER, how, layer=words.name("the name of a layer"))
     if kind == "chain":
-        return Select(By.CHAIN, how, _chosen(words, session, "follow"))
+        return SelectEntities(SelectCriterion.CHAIN, how, _chosen(words, session, "follow"))
     if kind:
-        return Select(By(kind), how)
+        return SelectEntities(SelectCriterion(kind), how)
     if not words.more:
         raise words.wrong("Write what to select: all, none, window, crossing, layer, or entity numbers.")
-    return Select(By.IDS, how, frozenset(words.ids()))
+    return SelectEntities(SelectCriterion.IDS, how, frozenset(words.ids()))

@@ -9,13 +9,13 @@ from ...core.errors import InputError
 from ...core.tolerances import WELD
 from ...geometry.dimension_lines import figure
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from ...model.notes import Dimension, Guide, Mark, Measure, Shape
-from ..commands.command import Session
-from ..curves.meet import foot
+from ...model.notes import Dimension, DimensionKind, Guide, Mark, Shape
+from ..commands.command import DraftingSession
+from ..curves.intersections import nearest_point
 from ..curves.shapes import shown
 from ..expressions.arguments import Arguments
 
-_MEASURES = {measure.value: measure for measure in Measure}
+_MEASURES = {measure.value: measure for measure in DimensionKind}
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,18 +31,18 @@ class DrawNote:
     reply: str
     last: Point
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with the note added, on a fresh id."""
         return replace(session, part=session.part.with_note(self.shape, session.layer), last=self.last)
 
 
-def point(words: Arguments, session: Session) -> DrawNote:
+def point(words: Arguments, session: DraftingSession) -> DrawNote:
     """A point to snap to."""
     at = words.point()
     return DrawNote("Point", Mark(at), f"Point {shown(at)}.", at)
 
 
-def guide(words: Arguments, session: Session) -> DrawNote:
+def guide(words: Arguments, session: DraftingSession) -> DrawNote:
     """A construction line: through two points, at an angle, or only across or up."""
     way = words.accept("across", "up")
     through = words.point("a point of it")
@@ -64,7 +64,7 @@ def guide(words: Arguments, session: Session) -> DrawNote:
     )
 
 
-def dimension(words: Arguments, session: Session) -> DrawNote:
+def dimension(words: Arguments, session: DraftingSession) -> DrawNote:
     """A dimension of two points, of a curve, or of an angle at a point."""
     measure = _MEASURES.get(words.accept(*_MEASURES))
     curve: Curve | None = None
@@ -72,14 +72,14 @@ def dimension(words: Arguments, session: Session) -> DrawNote:
     if measure is None and not words.is_point():
         _, curve = words.curve("two points, or a curve")
     else:
-        points = tuple(words.point() for _ in range(3 if measure is Measure.ANGLE else 2))
+        points = tuple(words.point() for _ in range(3 if measure is DimensionKind.ANGLE else 2))
     if not words.accept("place"):
         raise words.wrong("Write place and the point where the figure stands.")
     place = words.point("where the figure stands")
     if curve is not None:
         made = _of_curve(curve, place)
     else:
-        made = Dimension(measure or _MEASURES.get(words.accept("across", "up"), Measure.ALIGNED), points, place)
+        made = Dimension(measure or _MEASURES.get(words.accept("across", "up"), DimensionKind.ALIGNED), points, place)
     if any(math.dist(made.points[0], other) < WELD for other in made.points[1:]):
         raise InputError("A dimension needs different points.")
     return DrawNote("Dimension", made, f"Dimension, {figure(made)}.", place)
@@ -87,9 +87,11 @@ def dimension(words: Arguments, session: Session) -> DrawNote:
 
 def _of_curve(curve: Curve, place: Point) -> Dimension:
     if isinstance(curve, Line):
-        return Dimension(Measure.ALIGNED, (curve.start, curve.end), place)
+        return Dimension(DimensionKind.ALIGNED, (curve.start, curve.end), place)
     if isinstance(curve, Circle):
-        return Dimension(Measure.DIAMETER, (curve.centre, (curve.centre[0] + curve.radius, curve.centre[1])), place)
+        return Dimension(
+            DimensionKind.DIAMETER, (curve.centre, (curve.centre[0] + curve.radius, curve.centre[1])), place
+        )
     if isinstance(curve, Arc):
-        return Dimension(Measure.RADIUS, (curve.centre, foot(curve, place)), place)
+        return Dimension(DimensionKind.RADIUS, (curve.centre, nearest_point(curve, place)), place)
     raise InputError("A dimension of a curve is of a line, an arc or a circle; of others give two points.")

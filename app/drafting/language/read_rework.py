@@ -7,34 +7,36 @@ from ...core.tolerances import WELD
 from ...model.curves import Arc, Circle, Curve, Line, Point
 from ...model.notes import Guide, Note
 from ...model.part import Entity
-from ..commands.chosen import chosen_curves
-from ..commands.command import Rework, Session, check_ids, counted
+from ..commands.command import DraftingSession, ReplaceCurves, check_ids, counted
+from ..commands.command_curves import chosen_curves
 from ..commands.drafting import broken, extended, parallel, trimmed
 from ..commands.offset_chain import chain_parallel
-from ..curves.chains import Chain, chained
+from ..curves.chains import CurveChain, chained
 from ..expressions.arguments import Arguments
 
 _EDGE = 0.25
 """To look where a curve crosses others costs so much of what it costs to take these apart."""
 
 
-def trim(words: Arguments, session: Session) -> Rework:
+def trim(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Take out the piece of a curve at a point, up to what crosses it."""
     number, curve = words.curve("the curve to trim")
     at = words.point("a point of the piece that goes")
     kept = trimmed(curve, at, _edges(words, session, number, "by"))
-    return Rework({number: kept}, "Trim", f"{counted(len(kept), 'piece')} {'stays' if len(kept) == 1 else 'stay'}.")
+    return ReplaceCurves(
+        {number: kept}, "Trim", f"{counted(len(kept), 'piece')} {'stays' if len(kept) == 1 else 'stay'}."
+    )
 
 
-def extend(words: Arguments, session: Session) -> Rework:
+def extend(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Let the end of a line or arc go on to what lies ahead."""
     number, curve = words.curve("the line or arc to extend")
     at = words.point("a point near the end that goes on")
     made = extended(curve, at, _edges(words, session, number, "to"))
-    return Rework({number: (made,)}, "Extend", "1 extended.")
+    return ReplaceCurves({number: (made,)}, "Extend", "1 extended.")
 
 
-def _edges(words: Arguments, session: Session, number: int, word: str) -> list[Curve]:
+def _edges(words: Arguments, session: DraftingSession, number: int, word: str) -> list[Curve]:
     """Return what ends a trim or an extension: the curves and construction lines named, else all that are seen."""
     part = session.part
     chosen = frozenset(words.ids()) if words.accept(word) else None
@@ -50,15 +52,15 @@ def _edges(words: Arguments, session: Session, number: int, word: str) -> list[C
     return edges + guides
 
 
-def break_at(words: Arguments, session: Session) -> Rework:
+def break_at(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Break a curve at a point, or take out what lies between two."""
     number, curve = words.curve("the curve to break")
     first = words.point("a point of the curve")
     pieces = broken(curve, first, words.point("a second point") if words.more else None)
-    return Rework({number: pieces}, "Break", f"{counted(len(pieces), 'piece')}.")
+    return ReplaceCurves({number: pieces}, "Break", f"{counted(len(pieces), 'piece')}.")
 
 
-def offset(words: Arguments, session: Session) -> Rework:
+def offset(words: Arguments, session: DraftingSession) -> ReplaceCurves:
     """Draw parallels at a distance, on the side of a point: of chains of curves as a whole, their corners joined."""
     away = words.length("the distance")
     side = words.point("a point on the side where the parallels go")
@@ -74,10 +76,10 @@ def offset(words: Arguments, session: Session) -> Rework:
             nothing.append(error)
     if not made:
         raise nothing[0]
-    return Rework({}, "Offset", f"{len(made)} drawn.", tuple(made))
+    return ReplaceCurves({}, "Offset", f"{len(made)} drawn.", tuple(made))
 
 
-def _parallels(contour: Chain, away: float, side: Point, rounded: bool) -> list[tuple[int, Curve]]:
+def _parallels(contour: CurveChain, away: float, side: Point, rounded: bool) -> list[tuple[int, Curve]]:
     if len(contour.curves) == 1 and isinstance(contour.curves[0], Line | Arc | Circle):
         return [(contour.numbers[0], parallel(contour.curves[0], away, side))]
     made = list[tuple[int, Curve]](chain_parallel(contour, away, side, rounded))

@@ -10,8 +10,8 @@ from ...core.errors import InputError
 from ...model.curves import Curve, Point
 from ...model.notes import Shape
 from ...model.part import Part
-from ..commands.command import Session, SetLayer, check_ids
-from ..commands.properties import WORDS, Kind, Value, properties_of, with_property
+from ..commands.command import DraftingSession, SetLayer, check_ids
+from ..commands.properties import WORDS, PropertyKind, Value, properties_of, with_property
 from ..curves.shapes import shown
 from ..expressions.arguments import Arguments
 
@@ -40,11 +40,11 @@ class SetProperty:
             return f"{self.word.capitalize()} {shown(self.value)}."
         return (
             f"{self.word.capitalize()} {self.value:.2f}\u00b0."
-            if WORDS[self.word] is Kind.ANGLE
+            if WORDS[self.word] is PropertyKind.ANGLE
             else (f"{self.word.capitalize()} {self.value:.3f} mm.")
         )
 
-    def carried_out(self, session: Session) -> Session:
+    def carried_out(self, session: DraftingSession) -> DraftingSession:
         """Return the session with these curves and notes changed.
 
         Raises:
@@ -64,7 +64,7 @@ class SetProperty:
             raise InputError(str(wrong) if len(self.ids) == 1 else f"{number}: {wrong}") from wrong
 
 
-def set_property(words: Arguments, session: Session) -> SetProperty | SetLayer:
+def set_property(words: Arguments, session: DraftingSession) -> SetProperty | SetLayer:
     """Give a property of curves another value."""
     found: list[int] = []
     while not (word := words.accept(*WORDS, "layer")):
@@ -82,9 +82,9 @@ def set_property(words: Arguments, session: Session) -> SetProperty | SetLayer:
 
 def _value(words: Arguments, part: Part, what: tuple[frozenset[int], str]) -> Value:
     ids, word = what
-    if WORDS[word] is Kind.ANGLE:
+    if WORDS[word] is PropertyKind.ANGLE:
         return words.angle("the angle")
-    if WORDS[word] is Kind.LENGTH:
+    if WORDS[word] is PropertyKind.LENGTH:
         return words.length("the length")
     words.last = _present(part, ids, word) or words.last
     return words.point()

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from ...core.errors import InputError
 from ...core.tolerances import WELD
-from ...geometry.lettering import Face, engraving, placed
+from ...geometry.stroke_font import StrokeFont, engraving, placed
 from ...geometry.transform import Similarity, transformed, turn
 from ...model.curves import Curve
-from ..commands.command import Draw, Session, counted
+from ..commands.command import DraftingSession, Draw, counted
 from ..expressions.arguments import Arguments
 from ..expressions.values import wrong
 
 MOST_LETTERS = 1000
 
 
-def text(words: Arguments, session: Session) -> Draw:
+def text(words: Arguments, session: DraftingSession) -> Draw:
     """Words on a baseline from a point on; the height is that of the capitals."""
     at = words.point("the lower left of the words")
     place, height = words.place, words.length("the height of the capitals")
@@ -40,7 +40,7 @@ def text(words: Arguments, session: Session) -> Draw:
     return Draw("Text", tuple(curves), figures, at)
 
 
-def _face(font: str, said: str) -> Face:
+def _face(font: str, said: str) -> StrokeFont:
     if font:
         from ...geometry.typeface import outlined
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..expressions.errors import CommandError
 from ..expressions.grammar import read_script
-from ..expressions.syntax import Command, Coordinates, Statement, Units
+from ..expressions.syntax import Command, Coordinates, Statement, UnitsBlock
 from .language import command_word
 
 _NO_LENGTHS = frozenset(
@@ -40,7 +40,7 @@ def in_unit(line: str, unit: str) -> str:
         statements = read_script(line)
     except CommandError:
         return line
-    if all(isinstance(statement, Units) or _is_lengthless(statement) for statement in statements):
+    if all(isinstance(statement, UnitsBlock) or _is_lengthless(statement) for statement in statements):
         return line
     return f"units {unit}\n{line}\nend" if "\n" in line or "#" in line else f"units {unit}; {line}; end"
 

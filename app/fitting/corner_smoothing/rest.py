@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import TURN, turns
-from .smoothed import PieceKind, Smoothed
+from .smoothed_path import PieceKind, SmoothedPath
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -28,7 +28,7 @@ _LEAST = math.radians(1.0)
 _MOST = math.radians(20.0)
 
 
-def without_bends(path: Smoothed, points: Floats, limit: float) -> Smoothed:
+def without_bends(path: SmoothedPath, points: Floats, limit: float) -> SmoothedPath:
     """Return a closed path of lines and arcs without its slight bends, as far as its points allow.
 
     Args:
@@ -54,7 +54,9 @@ def without_bends(path: Smoothed, points: Floats, limit: float) -> Smoothed:
     return path
 
 
-def _smoothed(path: Smoothed, points: Floats, anchors: tuple[Floats, Ints], bent: Mask) -> tuple[Smoothed | None, Ints]:
+def _smoothed(
+    path: SmoothedPath, points: Floats, anchors: tuple[Floats, Ints], bent: Mask
+) -> tuple[SmoothedPath | None, Ints]:
     """Return a path with biarcs round its bends, and the number of the old row that each row is part of or leads to.
 
     Where a bend has no biarc, there is no path, and the bend is taken off the list.

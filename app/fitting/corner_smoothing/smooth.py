@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...core.errors import ParameterError
 from ...geometry.primitives import R, Rows, turns
 from .rest import NO_BEND, without_bends
-from .smoothed import PieceKind, Smoothed
+from .smoothed_path import PieceKind, SmoothedPath
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,12 +36,12 @@ _LAST_ROUNDS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class SmoothOptions:
+class CornerSmoothingOptions:
     """How to smooth. Lengths in the units of the points.
 
     Attributes:
         tolerance: points may be so far from the line or arc that is fitted to them, > 0; from the path, which joins
-            these, up to twice as far, near corners, which pixels fill, four times: `Smoothed.deviation` tells.
+            these, up to twice as far, near corners, which pixels fill, four times: `SmoothedPath.deviation` tells.
         long_line: from this length on a line is a long one: ten times the tool's diameter in the text.
         pitch: of pixels whose centres the points are: lines and arcs are then moved to the right, out of the traced
             area, by as much as pixels inside a line lie off it on average; 0 = the points are the path itself.
@@ -56,7 +56,7 @@ class SmoothOptions:
             raise ParameterError(f"The smoothing tolerance is {self.tolerance:g} mm; it must be greater than 0.")
 
 
-def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
+def smooth(points: Floats, options: CornerSmoothingOptions) -> SmoothedPath:
     """Return a closed path of points as circles, lines and arcs.
 
     Args:
@@ -90,7 +90,7 @@ def smooth(points: Floats, options: SmoothOptions) -> Smoothed:
     return as_it_is(points)
 
 
-def _among(path: Smoothed, numbers: Ints, count: int) -> Smoothed:
+def _among(path: SmoothedPath, numbers: Ints, count: int) -> SmoothedPath:
     """Return a path through some of a closed path's points as one through all of them.
 
     Args:
@@ -158,7 +158,9 @@ def _finer(rounds: Floats, a: int, b: int, tolerance: float) -> tuple[Ints, Ints
     return ends[: found + 1], kinds[:found]
 
 
-def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tuple[Smoothed, NDArray[np.bool_]]:
+def _joined(
+    rounds: Floats, segments: _Segments, options: CornerSmoothingOptions
+) -> tuple[SmoothedPath, NDArray[np.bool_]]:
     """Return the path along segments, tangent where neighbours nearly touch, and which rows are too far off."""
     from . import joint_kernels
 
@@ -171,14 +173,14 @@ def _joined(rounds: Floats, segments: _Segments, options: SmoothOptions) -> tupl
         joint_kernels.CROSSING
     )
     joint_kernels.deviations(rounds, ends, carriers, rows, worst)
-    path = Smoothed(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
+    path = SmoothedPath(rows, _kinds(rows, options), ends, joined, float(worst[:, 0].max()), True, carriers)
     return path, worst[:, 1] > _LIMIT * options.tolerance
 
 
-def _one_circle(points: Floats, carriers: Floats) -> Smoothed:
+def _one_circle(points: Floats, carriers: Floats) -> SmoothedPath:
     """Step 401: the whole path is one circle."""
     off = np.hypot(*(points - carriers[0, :2]).T) - carriers[0, 2]
-    return Smoothed(
+    return SmoothedPath(
         circle_rows(carriers[0]),
         np.array([PieceKind.CIRCLE]),
         np.array([0, len(points)]),
@@ -206,18 +208,18 @@ def _rows(rounds: Floats, ends: Ints, fitted: tuple[Floats, NDArray[np.uint8]], 
     return rows
 
 
-def _kinds(rows: Rows, options: SmoothOptions) -> Ints:
+def _kinds(rows: Rows, options: CornerSmoothingOptions) -> Ints:
     length = np.hypot(rows[:, 2] - rows[:, 0], rows[:, 3] - rows[:, 1])
     lines = np.where(length >= options.long_line, PieceKind.LONG_LINE, PieceKind.SHORT_LINE)
     return np.where(rows[:, R] == 0, lines, PieceKind.ARC).astype(np.int64)
 
 
-def _without_bias(path: Smoothed, points: Floats, options: SmoothOptions) -> Smoothed:
+def _without_bias(path: SmoothedPath, points: Floats, options: CornerSmoothingOptions) -> SmoothedPath:
     """Return the path moved out of the traced area by what pixels lie inside it on average."""
     return moved(path, points, options.pitch / 2 * _slant(path), options.tolerance) if options.pitch else path
 
 
-def _slant(path: Smoothed) -> Floats:
+def _slant(path: SmoothedPath) -> Floats:
     """Return for each row the larger coordinate of its unit normal, for arcs the mean along them."""
     if len(path.rows) == 1:
         return np.array([2 * np.sqrt(2) / np.pi])
@@ -234,7 +236,7 @@ def _slant(path: Smoothed) -> Floats:
     return slant
 
 
-def moved(path: Smoothed, points: Floats, right: Floats, tolerance: float) -> Smoothed:
+def moved(path: SmoothedPath, points: Floats, right: Floats, tolerance: float) -> SmoothedPath:
     """Return a path whose lines and circles are moved to the right of travel and joined again.
 
     Args:
@@ -256,7 +258,7 @@ def moved(path: Smoothed, points: Floats, right: Floats, tolerance: float) -> Sm
     return replace(path, rows=rows, carriers=carriers)
 
 
-def astray(path: Smoothed, points: Floats, limit: float) -> NDArray[np.bool_]:
+def astray(path: SmoothedPath, points: Floats, limit: float) -> NDArray[np.bool_]:
     """Return which rows (n,) run back, have no radius left, or are farther than a limit from the points they
     replace.
     """
@@ -270,7 +272,7 @@ def astray(path: Smoothed, points: Floats, limit: float) -> NDArray[np.bool_]:
     return shrunk | (worst[:, 1] > limit)
 
 
-def without(path: Smoothed, dropped: NDArray[np.bool_]) -> Smoothed | None:
+def without(path: SmoothedPath, dropped: NDArray[np.bool_]) -> SmoothedPath | None:
     """Return the path without some of its rows, whose neighbours are still to be joined by `moved`; None where too few
     stay.
 
@@ -308,10 +310,10 @@ def _moved(carriers: Floats, right: Floats) -> Floats:
     return result
 
 
-def as_it_is(points: Floats) -> Smoothed:
+def as_it_is(points: Floats) -> SmoothedPath:
     """Return the path as lines from point to point."""
     rows = np.zeros((len(points), 8))
     rows[:, :2], rows[:, 2:4] = points, np.roll(points, -1, axis=0)
     count = len(points)
     kinds, joined = np.full(count, PieceKind.SPLINE), np.full(count, 2, np.uint8)
-    return Smoothed(rows, kinds, np.arange(count + 1), joined, 0.0, False, np.zeros((count, 5)))
+    return SmoothedPath(rows, kinds, np.arange(count + 1), joined, 0.0, False, np.zeros((count, 5)))

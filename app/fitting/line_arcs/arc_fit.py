@@ -12,7 +12,7 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, Plane
 from ..fitted import FittedPath, arcs_between, chained
 from ..point_curves.corners import corners
-from ..point_curves.tube import Tube
+from ..point_curves.tube import ToleranceTube
 from .flat_fit import FlatFit
 
 Ints = NDArray[np.int64]
@@ -48,9 +48,9 @@ class ArcOptions:
     bend: float = BEND
 
     @property
-    def tube(self) -> Tube:
+    def tube(self) -> ToleranceTube:
         """The region round the points."""
-        return Tube(self.tolerance, self.middle)
+        return ToleranceTube(self.tolerance, self.middle)
 
 
 def fit_arcs(points: Floats, options: ArcOptions, progress: Progress = NO_PROGRESS) -> FittedPath:

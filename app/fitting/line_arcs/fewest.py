@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.motion import Floats
-from .tangent import Chain, Polyline, joined
+from .tangent import PlanarPolyline, TangentPath, joined
 
 Ints = NDArray[np.int64]
 
@@ -49,19 +49,19 @@ class FewestPieces:
         swell: the squared limit half way between two points exceeds that at them by so many times that.
     """
 
-    line: Polyline
+    line: PlanarPolyline
     limit: float
     bends: Floats
     largest: float
     swell: float = 0.0
 
-    def chain(self, rough: Ints) -> Chain | None:
+    def chain(self, rough: Ints) -> TangentPath | None:
         """Return the pieces; None where there are none.
 
         Args:
             rough: (m + 1,) the points between which the longest pieces run, 0 and n - 1 the outer ones.
         """
-        parts: list[Chain] = []
+        parts: list[TangentPath] = []
         leaving = (-_ANY, _ANY)
         for k in range(0, len(rough) - 1, _PIECES):
             part = self._part(rough[k : k + _PIECES + 1], leaving)
@@ -72,7 +72,7 @@ class FewestPieces:
             leaving = (arrives, arrives)
         return joined(parts)
 
-    def _part(self, rough: Ints, leaving: tuple[float, float]) -> Chain | None:
+    def _part(self, rough: Ints, leaving: tuple[float, float]) -> TangentPath | None:
         """Return pieces over some of the longest ones, that set out as what came before arrives, give or take the bend
         there.
         """
@@ -94,7 +94,7 @@ class FewestPieces:
             return None
         ends = np.append(points[rows[:count][::-1]], points[-1])
         aside = np.append(left[:count][::-1], 0.0) * self.limit
-        return Chain(self.line.along[ends], aside, half[:count][::-1].copy(), half[:count][::-1] != 0.0)
+        return TangentPath(self.line.along[ends], aside, half[:count][::-1].copy(), half[:count][::-1] != 0.0)
 
     def _states(self, points: Ints) -> Floats:
         """Return the states (s, 6) of points, see the kernels."""
@@ -125,7 +125,7 @@ class FewestPieces:
             places, limits, at = places[kept], limits[kept], np.searchsorted(kept, at)
         return np.column_stack([places.real, places.imag, limits]), at
 
-    def _arrival(self, chain: Chain) -> float:
+    def _arrival(self, chain: TangentPath) -> float:
         """Return the direction in which the last piece arrives, radians."""
         z = self.line.joints(chain)[-2:]
         return float(np.angle(z[1] - z[0]) + chain.half[-1])

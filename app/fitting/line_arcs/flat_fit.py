@@ -11,9 +11,9 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, Plane
 from ..fitted import FittedPath, arcs_between
 from ..point_curves.space_curve import curve_of_motions
-from ..point_curves.tube import Answer, Tube, judge
+from ..point_curves.tube import ToleranceTube, TubeAnswer, judge
 from .fewest import FewestPieces
-from .tangent import Chain, Polyline, TangentFit
+from .tangent import PlanarPolyline, TangentFit, TangentPath
 
 _MOVED = (0.999, 0.9)
 """Of the tolerance, that joints are moved in: between the samples that they are held to a little more is used."""
@@ -63,15 +63,15 @@ class FlatFit:
 
     points: Floats
     plane: Plane
-    tube: Tube
+    tube: ToleranceTube
     reach: float
     largest: float
 
     @cached_property
-    def line(self) -> Polyline:
+    def line(self) -> PlanarPolyline:
         """The points in their plane."""
         points = self.points[:, list(self.plane.axes[:2])]
-        return Polyline(points, self.reach, min(_last_digit(points), _FINE * self.tube.radius))
+        return PlanarPolyline(points, self.reach, min(_last_digit(points), _FINE * self.tube.radius))
 
     def fewest(self, bend: float, fewer_than: int) -> FlatPath | None:
         """Return the fewest pieces that the shortest path over places for joints finds; None where these are not fewer,
@@ -127,7 +127,7 @@ class FlatFit:
         allowed: Floats = np.maximum(bend, np.minimum(_AS_SHARP * there, turns.max()))
         return allowed
 
-    def _turns(self, chain: Chain) -> Floats:
+    def _turns(self, chain: TangentPath) -> Floats:
         """Return by how much a chain turns at each joint (m + 1,), radians."""
         from . import tangent_kernels as kernels
 
@@ -135,14 +135,14 @@ class FlatFit:
         kernels.bends(self.line.joints(chain), chain.half, turns)
         return turns
 
-    def _proven(self, chain: Chain, turns: Floats) -> FlatPath | None:
+    def _proven(self, chain: TangentPath, turns: Floats) -> FlatPath | None:
         """Return the pieces, None where they are not proven to keep to the tube."""
         z, axes = self.line.joints(chain), self.plane.axes
         places = np.empty((len(z), 3))
         places[:, axes[0]], places[:, axes[1]], places[:, axes[2]] = z.real, z.imag, self.points[0, axes[2]]
         places[0], places[-1] = self.points[0], self.points[-1]
         motions = arcs_between(places, chain.half, np.full(len(chain), self.plane, np.uint8))
-        if judge(curve_of_motions(motions), self.points, self.tube).answer is not Answer.INSIDE:
+        if judge(curve_of_motions(motions), self.points, self.tube).answer is not TubeAnswer.INSIDE:
             return None
         return FlatPath(FittedPath(motions, self.line.nearest(chain.s[1:])), float(turns.max()))
 

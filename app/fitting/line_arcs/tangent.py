@@ -37,7 +37,7 @@ _SLIGHT = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Chain:
+class TangentPath:
     """A path of m lines and arcs beside a polyline of n points in a plane.
 
     Attributes:
@@ -55,9 +55,9 @@ class Chain:
     def __len__(self) -> int:
         return len(self.half)
 
-    def part(self, first: int, stop: int) -> Chain:
+    def part(self, first: int, stop: int) -> TangentPath:
         """Return some of its pieces."""
-        return Chain(
+        return TangentPath(
             self.s[first : stop + 1].copy(),
             self.left[first : stop + 1].copy(),
             self.half[first:stop],
@@ -65,7 +65,7 @@ class Chain:
         )
 
 
-class Polyline:
+class PlanarPolyline:
     """n points in a plane, as the kernels want them.
 
     Attributes:
@@ -92,7 +92,7 @@ class Polyline:
         chords = np.concatenate([[0.0], np.abs(np.angle(ways[1:] / ways[:-1])), [0.0]])
         self.turns: Floats = np.minimum(chords, _bends(self.points, reach, step))
 
-    def joints(self, chain: Chain) -> Places:
+    def joints(self, chain: TangentPath) -> Places:
         """Return the places (m + 1,) of a chain's joints."""
         from . import tangent_kernels as kernels
 
@@ -118,13 +118,13 @@ class TangentFit:
         swell: the squared limit half way between two points exceeds that at them by so many times that.
     """
 
-    line: Polyline
+    line: PlanarPolyline
     limit: float
     bend: float
     largest: float
     swell: float = 0.0
 
-    def chain(self, fewer_than: int, progress: Progress = NO_PROGRESS) -> Chain | None:
+    def chain(self, fewer_than: int, progress: Progress = NO_PROGRESS) -> TangentPath | None:
         """Return the pieces; None where it does not come about.
 
         Args:
@@ -134,7 +134,7 @@ class TangentFit:
         Raises:
             Cancelled: the job was asked to stop.
         """
-        best: Chain | None = None
+        best: TangentPath | None = None
         for k, start in enumerate(_STARTS):
             plain = self.longest(start)
             if len(plain) < fewer_than:
@@ -142,13 +142,13 @@ class TangentFit:
                 best, fewer_than = (made, len(made)) if made is not None else (best, fewer_than)
         return best
 
-    def longest(self, share: float = 1.0) -> Chain:
+    def longest(self, share: float = 1.0) -> TangentPath:
         """Return the longest pieces from point to point that keep to a share of the limit, with bends where they
         meet.
         """
         return self._greedy(self.line, share * self.limit)
 
-    def _repaired(self, chain: Chain, fewer_than: int, progress: Progress) -> Chain | None:
+    def _repaired(self, chain: TangentPath, fewer_than: int, progress: Progress) -> TangentPath | None:
         """Return pieces whose joints were moved; where they cannot be moved well enough there is one more, until there
         are too many.
         """
@@ -170,7 +170,7 @@ class TangentFit:
                 break
         return None
 
-    def _straighter(self, chain: Chain, off: Floats, flat: Flags, progress: Progress) -> Chain | None:
+    def _straighter(self, chain: TangentPath, off: Floats, flat: Flags, progress: Progress) -> TangentPath | None:
         """Return a chain whose flat pieces are lines, None where it would be bad then."""
         straight, off = (
             replace(chain.part(0, len(chain)), half=np.where(flat, 0.0, chain.half), bent=chain.bent & ~flat),
@@ -179,11 +179,11 @@ class TangentFit:
         self._tune(straight, flat & chain.bent, off, progress)
         return None if self._bad(straight, off).any() else straight
 
-    def _sizes(self, chain: Chain) -> Floats:
+    def _sizes(self, chain: TangentPath) -> Floats:
         sizes: Floats = np.abs(np.diff(self.line.joints(chain)))
         return sizes
 
-    def _round(self, chain: Chain) -> Flags:
+    def _round(self, chain: TangentPath) -> Flags:
         """Tell which lines may as well be arcs: about as long as both neighbours, with bends that an arc takes within
         the limit.
         """
@@ -196,7 +196,7 @@ class TangentFit:
         )
         return some
 
-    def _tune(self, chain: Chain, dirty: Flags, off: Floats, progress: Progress) -> None:
+    def _tune(self, chain: TangentPath, dirty: Flags, off: Floats, progress: Progress) -> None:
         """Move the joints of dirty pieces and of those about them, in place."""
         from . import tangent_kernels as kernels
 
@@ -222,7 +222,7 @@ class TangentFit:
                 )
                 begin = end - _OVERLAP
 
-    def _bad(self, chain: Chain, off: Floats) -> Flags:
+    def _bad(self, chain: TangentPath, off: Floats) -> Flags:
         """Tell which pieces are beyond the limit or meet another with too much of a bend."""
         from . import tangent_kernels as kernels
 
@@ -239,7 +239,7 @@ class TangentFit:
         bad: Flags = (off > self.limit) | sharp[:-1] | sharp[1:]
         return bad
 
-    def _anew(self, chain: Chain, bad: Flags, off: Floats, more: bool) -> tuple[Chain, Flags, Floats]:
+    def _anew(self, chain: TangentPath, bad: Flags, off: Floats, more: bool) -> tuple[TangentPath, Flags, Floats]:
         """Return a chain whose bad pieces are fitted anew, as many or one more in a row; what is new, and how far all
         are off.
         """
@@ -249,7 +249,7 @@ class TangentFit:
         chain.bent[may] = True
         again = bad & ~_beside(may, 1)
         edges = _stretches(again if more else _beside(again, 1))
-        parts: list[Chain] = []
+        parts: list[TangentPath] = []
         news: list[Flags] = []
         offs: list[Floats] = []
         at = 0
@@ -262,13 +262,13 @@ class TangentFit:
             at = stop
         return joined(parts), np.concatenate(news), np.concatenate(offs)
 
-    def _evenly(self, old: Chain, count: int) -> Chain:
+    def _evenly(self, old: TangentPath, count: int) -> TangentPath:
         """Return no more pieces than a count between the ends of others, all within as little as can be."""
         first, stop = self.line.nearest(old.s[[0, -1]]).tolist()
         if stop <= first:
             return old
         some = np.unique(np.linspace(first, stop, min(stop - first + 1, _PLENTY)).astype(np.int64))
-        few = Polyline(self.line.points[some, :2], self.limit)
+        few = PlanarPolyline(self.line.points[some, :2], self.limit)
         low, high = 1e-2 * self.limit, 4.0 * self.limit
         best = self._greedy(few, self.limit)
         for _ in range(_HALVINGS):
@@ -283,7 +283,7 @@ class TangentFit:
             best.s[end], best.left[end] = old.s[end], old.left[end]
         return best
 
-    def _greedy(self, line: Polyline, limit: float) -> Chain:
+    def _greedy(self, line: PlanarPolyline, limit: float) -> TangentPath:
         """Return the longest lines and arcs from point to point."""
         from . import arc_fit_kernels as kernels
 
@@ -293,7 +293,7 @@ class TangentFit:
         at = np.concatenate([[0], rows[:count, 0]])
         bent = rows[:count, 1] == kernels.ARC
         half = np.where(bent, -2 * np.arctan2(heights[:count], 0.5 * np.abs(np.diff(line.xy[at]))), 0.0)
-        return Chain(line.along[at], np.zeros(count + 1), half, bent)
+        return TangentPath(line.along[at], np.zeros(count + 1), half, bent)
 
 
 def _bends(points: Floats, reach: float, step: float) -> Floats:
@@ -316,13 +316,13 @@ def _bends(points: Floats, reach: float, step: float) -> Floats:
     return bends
 
 
-def joined(parts: list[Chain]) -> Chain:
+def joined(parts: list[TangentPath]) -> TangentPath:
     """Return chains one after the other as one; where one ends the next begins."""
     s, left, half, bent = (
         np.concatenate([getattr(part, name)[: len(part)] for part in parts]) for name in ("s", "left", "half", "bent")
     )
     last = parts[-1]
-    return Chain(np.append(s, last.s[-1]), np.append(left, last.left[-1]), half, bent)
+    return TangentPath(np.append(s, last.s[-1]), np.append(left, last.left[-1]), half, bent)
 
 
 def _beside(flags: Flags, reach: int) -> Flags:

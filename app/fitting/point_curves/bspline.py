@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Nurbs
 from .space_curve import DEGREE
-from .tube import Tube
+from .tube import ToleranceTube
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -58,7 +58,7 @@ class SplineFit:
 
 
 @dataclass(frozen=True, eq=False)
-class _State:
+class _SplineState:
     """A spline on its way.
 
     Attributes:
@@ -92,7 +92,9 @@ class _Samples:
         self.along = np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress = NO_PROGRESS) -> SplineFit | Ints:
+def fit_spline(
+    points: Floats, tube: ToleranceTube, degree: int = 3, progress: Progress = NO_PROGRESS
+) -> SplineFit | Ints:
     """Return a spline in the tube round points; where there is none, the numbers of the points at which it needs
     corners.
 
@@ -102,19 +104,19 @@ def fit_spline(points: Floats, tube: Tube, degree: int = 3, progress: Progress =
         degree: 3 or 5.
         progress: told of rounds; may cancel.
     """
-    work = _Work(points, tube, degree, progress)
+    work = _FitStretch(points, tube, degree, progress)
     state = work.halved()
-    if not isinstance(state, _State):
+    if not isinstance(state, _SplineState):
         return state
     state = work.spread(state)
     knots = work.knots(np.rint(state.breaks / work.unit))
     return SplineFit(Nurbs(state.control, np.ones(len(state.control)), knots, degree), state.feet)
 
 
-class _Work:
+class _FitStretch:
     """One stretch of points and what its spline has to keep to."""
 
-    def __init__(self, points: Floats, tube: Tube, degree: int, progress: Progress) -> None:
+    def __init__(self, points: Floats, tube: ToleranceTube, degree: int, progress: Progress) -> None:
         self._points = np.ascontiguousarray(points, np.float64)
         self._samples, self._degree, self._progress = _Samples(self._points), degree, progress
         self._tube, self._squares = tube, tube.squares(1e-9)
@@ -124,7 +126,7 @@ class _Work:
         """Return the knots of spans that end at breaks."""
         return np.concatenate([np.repeat(breaks[0], self._degree), breaks, np.repeat(breaks[-1], self._degree)])
 
-    def halved(self) -> _State | Ints:
+    def halved(self) -> _SplineState | Ints:
         """Return a proven spline, made by halving spans that fail; or where corners are needed."""
         along, count = self._samples.along, len(self._points) - 1
         spans = max(1, min(round(count / _SPAN), round(self._turn() / _ANGLE) + _LEAST))
@@ -148,7 +150,7 @@ class _Work:
         steps /= np.maximum(np.linalg.norm(steps, axis=1), 1e-300)[:, None]
         return float(np.sum(np.arccos(np.clip(np.einsum("ij,ij->i", steps[:-1], steps[1:]), -1.0, 1.0))))
 
-    def _corners(self, state: _State) -> Ints:
+    def _corners(self, state: _SplineState) -> Ints:
         """Return the inner points of unproven chords where the path turns the most: one of each run of such chords."""
         steps = np.diff(self._points, axis=0)
         steps /= np.linalg.norm(steps, axis=1)[:, None]
@@ -162,7 +164,7 @@ class _Work:
         at = [first + int(np.argmax(turn[first:stop])) for first, stop in edges.reshape(-1, 2).tolist()]
         return np.array(at or [len(turn) // 2])
 
-    def _finer(self, state: _State) -> Floats | None:
+    def _finer(self, state: _SplineState) -> Floats | None:
         """Return breaks with each span halved that holds an unproven chord; None where nothing can be halved."""
         inner = state.feet
         low = np.clip(inner[:-1].astype(np.int64), 0, len(state.pieces) - 1)
@@ -179,7 +181,7 @@ class _Work:
         at = state.places[(first[some] + last[some]) // 2]
         return np.unique(np.concatenate([state.breaks, at]))
 
-    def _solved(self, breaks: Floats, places: Floats) -> _State:
+    def _solved(self, breaks: Floats, places: Floats) -> _SplineState:
         """Return the least-squares spline over breaks, its samples' places moved to the nearest, and what is not
         proven.
         """
@@ -203,7 +205,7 @@ class _Work:
             moved,
             bad,
         )
-        return _State(breaks, self._mended(moved), control, pieces, feet, bad)
+        return _SplineState(breaks, self._mended(moved), control, pieces, feet, bad)
 
     def _mended(self, places: Floats) -> Floats:
         """Return places of samples, spread again where two lie so far apart that nothing holds the curve between
@@ -220,7 +222,7 @@ class _Work:
         free[0] = free[-1] = False
         return np.asarray(np.interp(along, along[~free], places[~free]))
 
-    def spread(self, state: _State) -> _State:
+    def spread(self, state: _SplineState) -> _SplineState:
         """Return a proven spline whose spans are as long as lets their curves be equally far from the points, if it has
         fewer.
         """
@@ -235,7 +237,7 @@ class _Work:
             best = made if len(made.pieces) < len(best.pieces) else best
         return best
 
-    def _evened(self, state: _State, share: float) -> Floats:
+    def _evened(self, state: _SplineState, share: float) -> Floats:
         """Return breaks so that every span is expected to use up a share of the tolerance (after de Boor's newknot)."""
         use = self._off(state) / (share * self._tube.radius)
         density = np.clip(use ** (1 / (self._degree + 1)), *_STRETCH)
@@ -244,7 +246,7 @@ class _Work:
         breaks: Floats = np.interp(goals, total, state.breaks)
         return breaks
 
-    def _halved_from(self, breaks: Floats, places: Floats) -> _State | None:
+    def _halved_from(self, breaks: Floats, places: Floats) -> _SplineState | None:
         """Return a proven spline made from breaks by halving spans that fail; None where it takes too much."""
         for _ in range(_MENDINGS):
             made = self._solved(breaks, places)
@@ -256,7 +258,7 @@ class _Work:
             breaks = finer
         return None
 
-    def _off(self, state: _State) -> Floats:
+    def _off(self, state: _SplineState) -> Floats:
         """Return how far the curve of each span is found from its chords, mm."""
         from . import tube_feet_kernels
 

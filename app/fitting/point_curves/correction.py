@@ -23,7 +23,7 @@ _MOST = 50
 """Effective points on one side of a correction curve."""
 
 
-class Curve(IntEnum):
+class CorrectionCurve(IntEnum):
     """What a correction curve is."""
 
     THROUGH = 0
@@ -32,7 +32,7 @@ class Curve(IntEnum):
     """The one cubic nearest to its points by least squares: effective points move too."""
 
 
-class Move(IntEnum):
+class CorrectionMove(IntEnum):
     """Where a point moves to on its correction curve."""
 
     NEAREST = 0
@@ -40,7 +40,7 @@ class Move(IntEnum):
     """At right angles to the chord of the gap; to the nearest place where the curve has none there."""
 
 
-class Select(IntEnum):
+class CorrectionScope(IntEnum):
     """Which of the points between effective ones are corrected; the others are left out of the final curve."""
 
     RATIO = 0
@@ -63,11 +63,11 @@ class CorrectionOptions:
     """
 
     limit: float = 1.0
-    select: Select = Select.RATIO
+    select: CorrectionScope = CorrectionScope.RATIO
     before: int = 2
     after: int = 3
-    curve: Curve = Curve.THROUGH
-    move: Move = Move.NEAREST
+    curve: CorrectionCurve = CorrectionCurve.THROUGH
+    move: CorrectionMove = CorrectionMove.NEAREST
 
     def __post_init__(self) -> None:
         if not 0 <= self.before <= _MOST:
@@ -76,11 +76,11 @@ class CorrectionOptions:
             raise ParameterError(
                 f"{self.after} effective points after the first of a gap; the number must be in 1 to {_MOST}."
             )
-        if self.select == Select.RATIO and not 0 <= self.limit <= 1:
+        if self.select == CorrectionScope.RATIO and not 0 <= self.limit <= 1:
             raise ParameterError(
                 f"Points are corrected up to a share {self.limit:g} of their gap; it must be in 0 to 1."
             )
-        if self.select == Select.DISTANCE and not 0 <= self.limit < np.inf:
+        if self.select == CorrectionScope.DISTANCE and not 0 <= self.limit < np.inf:
             raise ParameterError(f"Points are corrected that move {self.limit:g} mm at most; it must be 0 or more.")
 
 
@@ -127,10 +127,14 @@ def corrected(
     if (state[held] != PointState.EFFECTIVE).any():
         raise ParameterError("The first and the last point of a path and those that are kept must be effective.")
     places = np.empty_like(flat)
-    ways = options.curve == Curve.NEAR, options.move == Move.PERPENDICULAR
+    ways = options.curve == CorrectionCurve.NEAR, options.move == CorrectionMove.PERPENDICULAR
     correction_kernels.correct(flat, effective, held[effective], options.before, options.after, *ways, places)
     moved = np.linalg.norm(places - flat, axis=1)
-    chosen = moved <= options.limit if options.select == Select.DISTANCE else _near_ends(flat, effective, options.limit)
+    chosen = (
+        moved <= options.limit
+        if options.select == CorrectionScope.DISTANCE
+        else _near_ends(flat, effective, options.limit)
+    )
     left_out = ~chosen & (state != PointState.EFFECTIVE)
     places[left_out], moved[left_out] = flat[left_out], 0.0
     after = np.full(len(flat), PointState.CORRECTED, np.uint8)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...model.motion import Floats
-from .correction import CorrectionOptions, Curve, Move, Select, corrected
-from .effective_points import EffectiveOptions, Ends, PointState, effective_points
+from .correction import CorrectionCurve, CorrectionMove, CorrectionOptions, CorrectionScope, corrected
+from .effective_points import EffectiveOptions, PointState, RangeEnds, effective_points
 
 _DEFAULTS = CorrectionOptions()
 
@@ -70,7 +70,7 @@ class EffectiveMethod:
         """Whether all points that the curve goes by are meant to lie on the true shape, or on one curve: then a spline
         through them is nearer to it than chords are.
         """
-        return self.choose.ends is Ends.OUTER or self.correct is not None
+        return self.choose.ends is RangeEnds.OUTER or self.correct is not None
 
     def nearness_for(self, digit: float) -> float:
         """Return how far from its points the curve may be, mm.
@@ -82,7 +82,7 @@ class EffectiveMethod:
         Args:
             digit: the last decimal of a program's words, mm.
         """
-        share = _OF_EPSILON if self.choose.ends is Ends.OUTER else 1.0
+        share = _OF_EPSILON if self.choose.ends is RangeEnds.OUTER else 1.0
         return self.nearness if self.nearness is not None else max(_DIGITS * digit, share * self.choose.epsilon)
 
     def classes(self, points: Floats, corners: NDArray[np.int64]) -> PointClasses:
@@ -96,10 +96,10 @@ class EffectiveMethod:
 
 
 def second_embodiment(
-    select: tuple[Select, float] | None = None,
+    select: tuple[CorrectionScope, float] | None = None,
     before: int | None = None,
     after: int | None = None,
-    move: Move = Move.NEAREST,
+    move: CorrectionMove = CorrectionMove.NEAREST,
 ) -> CorrectionOptions:
     """Return how points are corrected as users ask for it: to cubics near the effective points, which move these too
     (S23).
@@ -118,7 +118,7 @@ def second_embodiment(
         kind,
         _DEFAULTS.before if before is None else before,
         _DEFAULTS.after if after is None else after,
-        Curve.NEAR,
+        CorrectionCurve.NEAR,
         move,
     )
 

@@ -31,7 +31,7 @@ class PointState(IntEnum):
     """Within a facet, and moved to the correction curve."""
 
 
-class Ends(IntEnum):
+class RangeEnds(IntEnum):
     """Which points of a range are effective."""
 
     OUTER = 0
@@ -53,17 +53,17 @@ class EffectiveOptions:
     """
 
     epsilon: float
-    ends: Ends = Ends.OUTER
+    ends: RangeEnds = RangeEnds.OUTER
     limit: float = 0.0
 
     def __post_init__(self) -> None:
         if not (self.epsilon > 0 and math.isfinite(self.epsilon)):
             raise ParameterError(f"epsilon is {self.epsilon:g} mm; it must be greater than 0.")
-        if self.ends == Ends.RATIO and not 0 <= self.limit <= 0.5:
+        if self.ends == RangeEnds.RATIO and not 0 <= self.limit <= 0.5:
             raise ParameterError(
                 f"The share of a range that counts as its end is {self.limit:g}; it must be in 0 to 0.5."
             )
-        if self.ends == Ends.DISTANCE and not (self.limit >= 0 and math.isfinite(self.limit)):
+        if self.ends == RangeEnds.DISTANCE and not (self.limit >= 0 and math.isfinite(self.limit)):
             raise ParameterError(
                 f"The distance that counts as the end of a range is {self.limit:g} mm; it must be 0 or more."
             )
@@ -107,11 +107,11 @@ def effective_points(points: Floats, options: EffectiveOptions, kept: Iterable[i
     ranges = found[:count].copy()
     state = np.full(len(flat), PointState.INVALID, np.uint8)
     state[ranges] = PointState.EFFECTIVE
-    if options.ends != Ends.OUTER:
+    if options.ends != RangeEnds.OUTER:
         at = np.minimum(np.searchsorted(ranges[:, 1], np.arange(len(flat))), count - 1)
         first, last = flat[ranges[at, 0]], flat[ranges[at, 1]]
         from_end = np.minimum(np.linalg.norm(flat - first, axis=1), np.linalg.norm(flat - last, axis=1))
-        whole = np.linalg.norm(last - first, axis=1) if options.ends == Ends.RATIO else 1.0
+        whole = np.linalg.norm(last - first, axis=1) if options.ends == RangeEnds.RATIO else 1.0
         state[from_end < options.limit * whole] = PointState.EFFECTIVE
     return EffectivePoints(ranges, state)
 

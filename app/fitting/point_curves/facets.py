@@ -23,7 +23,7 @@ Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
-class Facets:
+class CloudFacets:
     """The facets of a cloud of n points.
 
     Attributes:
@@ -37,7 +37,7 @@ class Facets:
     state: NDArray[np.uint8]
 
 
-def facets_of_grid(points: Floats, epsilon: float) -> Facets:
+def facets_of_grid(points: Floats, epsilon: float) -> CloudFacets:
     """Part a grid of points (rows, cols, 3) mm, of two rows and columns at least, numbered row by row.
 
     Args:
@@ -60,7 +60,7 @@ def facets_of_grid(points: Floats, epsilon: float) -> Facets:
     return _parted(points.reshape(-1, 3), np.concatenate((across, down)), rim.ravel(), epsilon)
 
 
-def facets_of_rows(rows: Sequence[Floats], epsilon: float) -> Facets:
+def facets_of_rows(rows: Sequence[Floats], epsilon: float) -> CloudFacets:
     """Part a cloud scanned in rows, each (n, 3) mm, n >= 2, two rows at least, numbered row by row.
 
     Args:
@@ -97,7 +97,7 @@ def _ensure_finite(points: Floats) -> None:
         raise GeometryError(f"Point {worst} of a cloud is at {points[worst].tolist()}; expected finite coordinates.")
 
 
-def _parted(points: Floats, pairs: Ints, rim: NDArray[np.bool_], epsilon: float) -> Facets:
+def _parted(points: Floats, pairs: Ints, rim: NDArray[np.bool_], epsilon: float) -> CloudFacets:
     """Part points (n, 3) with pairs of neighbours (m, 2); those on the rim (n,) are effective anyhow."""
     from . import facet_kernels
 
@@ -112,4 +112,4 @@ def _parted(points: Floats, pairs: Ints, rim: NDArray[np.bool_], epsilon: float)
     count = facet_kernels.grow(points, offsets, beside, np.argsort(rough, kind="stable"), epsilon, facet, planes)
     state = np.where(rim, PointState.EFFECTIVE, PointState.INVALID).astype(np.uint8)
     state[both[facet[both[:, 0]] != facet[both[:, 1]], 0]] = PointState.EFFECTIVE
-    return Facets(facet, planes[:count].copy(), state)
+    return CloudFacets(facet, planes[:count].copy(), state)

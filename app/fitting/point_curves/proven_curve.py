@@ -13,10 +13,10 @@ from ...model.motion import Floats, Nurbs
 from ..fitted import FittedPath, chained, lines_between, spline_motion
 from .bspline import fit_spline
 from .corners import corners
-from .cubic_near import cubic_near
+from .cubic_approximation import cubic_near
 from .smoothness import of_curve, of_points
 from .space_curve import curve_of_motions
-from .tube import Tube
+from .tube import ToleranceTube
 
 _REACH = 4.0
 """Corners are looked for over so many tolerances of the path."""
@@ -40,7 +40,7 @@ class SplineOptions:
             would take no fewer blocks than chords; chords unless said otherwise.
     """
 
-    tube: Tube
+    tube: ToleranceTube
     degree: int = 3
     cubic: float = 0.0
     corner: float = np.radians(30.0)

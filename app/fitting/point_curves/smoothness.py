@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.same_places import near
+from ...geometry.coincident_points import near
 from ...model.motion import Floats
 from .space_curve import DEGREE, SpaceCurve
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .space_curve import SpaceCurve
-from .tube import Answer
+from .tube import TubeAnswer
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ _DEEPEST = 40
 
 
 @dataclass(frozen=True)
-class Outline:
+class RevolvedOutline:
     """A solid of revolution about a chord, r = f(z), with a ball of radius f at either end.
 
     Attributes:
@@ -41,7 +41,7 @@ class Outline:
         return min(self.radius(first), self.radius(last)) if self.least is None else self.least(first, last)
 
 
-def lies_within(curve: SpaceCurve, points: Floats, outline: Outline, feet: Floats) -> tuple[Answer, float]:
+def lies_within(curve: SpaceCurve, points: Floats, outline: RevolvedOutline, feet: Floats) -> tuple[TubeAnswer, float]:
     """Return whether each stretch of a curve lies in its chord's region, and where one does not, its parameter.
 
     Args:
@@ -61,16 +61,16 @@ def lies_within(curve: SpaceCurve, points: Floats, outline: Outline, feet: Float
         while low < feet[i + 1]:
             high = min(math.floor(low) + 1.0, float(feet[i + 1]))
             answer, at = _stretch(curve, chord, low, high)
-            if answer is not Answer.INSIDE:
+            if answer is not TubeAnswer.INSIDE:
                 return answer, at
             low = high
-    return Answer.INSIDE, 0.0
+    return TubeAnswer.INSIDE, 0.0
 
 
 class _Chord:
     """A chord and the region round it."""
 
-    def __init__(self, start: Floats, end: Floats, outline: Outline, slack: float) -> None:
+    def __init__(self, start: Floats, end: Floats, outline: RevolvedOutline, slack: float) -> None:
         self._start, self._outline, self._slack = start, outline, slack
         self._length = float(np.linalg.norm(end - start))
         self._axis = (end - start) / self._length if self._length > 0 else np.zeros(3)
@@ -96,22 +96,22 @@ class _Chord:
         return any(max(math.hypot(z - end, off) for z in along) + width + self._slack <= radius for end, radius in ends)
 
 
-def _stretch(curve: SpaceCurve, chord: _Chord, low: float, high: float) -> tuple[Answer, float]:
+def _stretch(curve: SpaceCurve, chord: _Chord, low: float, high: float) -> tuple[TubeAnswer, float]:
     waiting = [(low, high, 0)]
     while waiting:
         a, b, depth = waiting.pop()
         control = portion_of(curve, a, b)
         for at, place in ((a, control[0]), (b, control[-1])):
             if not chord.holds(place):
-                return Answer.OUTSIDE, at
+                return TubeAnswer.OUTSIDE, at
         length = float(np.sum(np.linalg.norm(np.diff(control, axis=0), axis=1)))
         if chord.holds_spheroid(control[0], control[-1], length):
             continue
         if depth == _DEEPEST:
-            return Answer.UNDECIDED, a
+            return TubeAnswer.UNDECIDED, a
         middle = (a + b) / 2
         waiting += [(middle, b, depth + 1), (a, middle, depth + 1)]
-    return Answer.INSIDE, 0.0
+    return TubeAnswer.INSIDE, 0.0
 
 
 def portion_of(curve: SpaceCurve, a: float, b: float) -> Floats:

@@ -28,7 +28,7 @@ _SHARE = 1e-3
 """The stated bound exceeds the largest distance found by so much of it at most."""
 
 
-class Answer(Enum):
+class TubeAnswer(Enum):
     """What the judge says; undecided counts as outside."""
 
     INSIDE = "inside"
@@ -37,7 +37,7 @@ class Answer(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Tube:
+class ToleranceTube:
     """The region round a polyline.
 
     Attributes:
@@ -67,9 +67,9 @@ class Tube:
         """By how many times that at the points the squared radius is more half way between them."""
         return (self.widest / self.radius) ** 2 - 1.0
 
-    def narrower(self, by: float) -> Tube:
+    def narrower(self, by: float) -> ToleranceTube:
         """Return the tube with all radii less by something, mm."""
-        return Tube(self.radius - by, None if self.middle is None else self.middle - by)
+        return ToleranceTube(self.radius - by, None if self.middle is None else self.middle - by)
 
     def squares(self, slack: float) -> tuple[float, float]:
         """Return squared radius at the points and what the parabola adds (4 (middle^2 - radius^2)), with all radii less
@@ -80,7 +80,7 @@ class Tube:
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement:
+class TubeJudgement:
     """What the judge found.
 
     Attributes:
@@ -96,7 +96,7 @@ class Judgement:
         feet: (n,) places of the curve that answer to the points, never falling; None unless inside.
     """
 
-    answer: Answer
+    answer: TubeAnswer
     bound: float
     from_curve: float
     from_points: float
@@ -106,7 +106,7 @@ class Judgement:
     feet: Floats | None = None
 
 
-def judge(curve: SpaceCurve, points: Floats, tube: Tube, feet: Floats | None = None) -> Judgement:
+def judge(curve: SpaceCurve, points: Floats, tube: ToleranceTube, feet: Floats | None = None) -> TubeJudgement:
     """Return whether a whole curve and a polyline keep within a tube of one another, in order.
 
     Args:
@@ -155,7 +155,7 @@ def _checked(curve: SpaceCurve, points: Floats) -> Floats:
     return points
 
 
-def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> Judgement:
+def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> TubeJudgement:
     from . import tube_feet_kernels as kernels
 
     found, at, back, worst = kernels.found_apart(curve.control, points, feet)
@@ -164,10 +164,10 @@ def _proven(curve: SpaceCurve, points: Floats, feet: Floats, widest: float) -> J
         at = float(feet[int(worst)])
     chord = min(max(int(np.searchsorted(feet, at, side="right")) - 1, 0), len(points) - 2)
     bound = min(bound + curve.slack, widest)
-    return Judgement(Answer.INSIDE, bound, found, back, at, _place(curve, at), chord, feet)
+    return TubeJudgement(TubeAnswer.INSIDE, bound, found, back, at, _place(curve, at), chord, feet)
 
 
-def _refused(curve: SpaceCurve, points: Floats, squares: tuple[float, float], left: tuple[int, float]) -> Judgement:
+def _refused(curve: SpaceCurve, points: Floats, squares: tuple[float, float], left: tuple[int, float]) -> TubeJudgement:
     """Return the witness: where the curve is farthest from the chord whose region it leaves, before it comes back to
     it.
     """
@@ -177,9 +177,13 @@ def _refused(curve: SpaceCurve, points: Floats, squares: tuple[float, float], le
     for at, end in ((0.0, 0), (float(len(curve)), len(points) - 1)):
         off = math.dist(_place(curve, at), points[end])
         if off > math.sqrt(squares[0]):
-            return Judgement(Answer.OUTSIDE, math.inf, off, math.inf, at, _place(curve, at), min(end, len(points) - 2))
+            return TubeJudgement(
+                TubeAnswer.OUTSIDE, math.inf, off, math.inf, at, _place(curve, at), min(end, len(points) - 2)
+            )
     at, off, out = kernels.excursion(curve.control, until, points, chord, *squares)
-    return Judgement(Answer.OUTSIDE if out else Answer.UNDECIDED, math.inf, off, math.inf, at, _place(curve, at), chord)
+    return TubeJudgement(
+        TubeAnswer.OUTSIDE if out else TubeAnswer.UNDECIDED, math.inf, off, math.inf, at, _place(curve, at), chord
+    )
 
 
 def _place(curve: SpaceCurve, at: float) -> tuple[float, float, float]:

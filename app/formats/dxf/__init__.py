@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from ...model.part import Part
-from ...model.reading import Reading
-from ..drawing import Drawing, Written
-from ..registry import DrawingFormat, Writer
+from ...model.reading import ReadingOptions
+from ..drawing import Drawing, WrittenDrawing
+from ..registry import DrawingFormat, FormatWriter
 
 _VERSIONS = {
     "R2010": "DXF, AutoCAD 2010 and later",
@@ -20,13 +20,13 @@ _VERSIONS = {
 }
 
 
-def _read(name: str, data: bytes, reading: Reading) -> Drawing:
+def _read(name: str, data: bytes, reading: ReadingOptions) -> Drawing:
     from .dxf import read_dxf
 
     return read_dxf(data, name, reading.units, reading.layers, reading.how)
 
 
-def _write(version: str, part: Part) -> Written:
+def _write(version: str, part: Part) -> WrittenDrawing:
     from .write import DxfVersion, dxf_bytes
 
     return dxf_bytes(part, DxfVersion[version])
@@ -37,5 +37,5 @@ DXF = DrawingFormat(
     _read,
     takes=frozenset({"layout", "without_types", "to_zero"}),
     foreign=True,
-    writers=tuple(Writer(version, words, partial(_write, version)) for version, words in _VERSIONS.items()),
+    writers=tuple(FormatWriter(version, words, partial(_write, version)) for version, words in _VERSIONS.items()),
 )

@@ -17,7 +17,7 @@ from ..drawing_account import MOST_CURVES
 from .curves import NegativeRadiusError, NoLengthError, curves_of, heights_of, plane_of
 from .fonts import Fonts
 from .hatch import Hatch, hatch_of
-from .letters import LeftOutError, Lettering
+from .letters import LeftOutError, TextCurves
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 DEEPEST = 64
@@ -25,7 +25,7 @@ DEEPEST = 64
 
 
 @dataclass(frozen=True)
-class Hidden:
+class HiddenInsert:
     """An inserted block that no CAD program shows, since the layer that it is inserted on is frozen.
 
     Attributes:
@@ -40,7 +40,7 @@ class Hidden:
 
 
 @dataclass(frozen=True)
-class Negative:
+class NegativeRadius:
     """A circle or an arc with a radius below 0; lengths in drawing units."""
 
     at: Point
@@ -64,7 +64,7 @@ def _place_of(entity: Any) -> Point:
 
 
 @dataclass
-class DxfSheet:
+class DxfContent:
     """What a space or a block draws.
 
     Attributes:
@@ -79,12 +79,12 @@ class DxfSheet:
     """
 
     curves: list[tuple[Curve, str]] = field(default_factory=list)
-    letterings: list[Lettering] = field(default_factory=list)
+    letterings: list[TextCurves] = field(default_factory=list)
     hatches: list[Hatch] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     without_length: list[Point | None] = field(default_factory=list)
-    hidden: list[Hidden] = field(default_factory=list)
-    negative: list[Negative] = field(default_factory=list)
+    hidden: list[HiddenInsert] = field(default_factory=list)
+    negative: list[NegativeRadius] = field(default_factory=list)
     unread: list[UnreadText] = field(default_factory=list)
     heights: tuple[float, float] = (0.0, 0.0)
     any_height: bool = False
@@ -100,7 +100,7 @@ class DxfSheet:
         """True where nothing is drawn, and nothing is to be said of a place."""
         return not (self.size or self.letterings or self.without_length or self.hidden or self.negative or self.unread)
 
-    def more(self) -> Iterator[Lettering | Hatch]:
+    def more(self) -> Iterator[TextCurves | Hatch]:
         """Yield its texts and hatches."""
         yield from self.letterings
         yield from self.hatches
@@ -111,9 +111,9 @@ class DxfSheet:
         for each in self.more():
             yield from (each.layer for _ in range(each.size))
 
-    def add(self, made: Lettering | Hatch) -> None:
+    def add(self, made: TextCurves | Hatch) -> None:
         """Note what a text or a hatch draws, if it does; one of which letters are missing alone counts as a curve."""
-        if not made.size and not (isinstance(made, Lettering) and made.lacking):
+        if not made.size and not (isinstance(made, TextCurves) and made.lacking):
             return
         if isinstance(made, Hatch):
             self.hatches.append(made)
@@ -131,78 +131,80 @@ class DxfSheet:
 class DxfWalker:
     """Reads spaces of one document; every block is read once."""
 
-    def __init__(self, document: Any, name: str, asked: tuple[str, ...] = (), without: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, document: Any, name: str, requested: tuple[str, ...] = (), without: tuple[str, ...] = ()
+    ) -> None:
         """Make a reader.
 
         Args:
             document: of the library. name: of the file, for messages.
-            asked: layers that are machined even where they are frozen.
+            requested: layers that are machined even where they are frozen.
             without: types of entities to leave out, in any case.
         """
         self._name = name
-        wanted = {layer.casefold() for layer in asked}
+        wanted = {layer.casefold() for layer in requested}
         self._frozen = {layer.dxf.name.casefold() for layer in document.layers if layer.is_frozen()} - wanted
         self._without = {kind.upper() for kind in without}
         self._fonts = Fonts(document.styles)
-        self._blocks: dict[str, DxfSheet] = {}
+        self._blocks: dict[str, DxfContent] = {}
         self._open: list[str] = []
         self.types: set[str] = set()
         """Types of the entities that were met, also of those that were left out."""
         self._read: dict[str, None] = {}  # types of texts that are
 
-    def sheet(self, entities: Iterable[Any]) -> DxfSheet:
+    def content(self, entities: Iterable[Any]) -> DxfContent:
         """Return what some entities draw.
 
         Raises:
             InputError: blocks insert themselves, are nested too deep, or unfold to too many curves.
         """
-        sheet = DxfSheet()
+        content = DxfContent()
         for entity in entities:
             kind = entity.dxftype()
             self.types.add(kind)
             try:
-                self._one(entity, kind, sheet)
+                self._one(entity, kind, content)
             except HitofudeError:
                 raise
             except Exception:  # whatever an entity of a damaged file lacks: it is one that draws nothing
-                sheet.left_out[f"{kind} (damaged)"] += 1
-            self._bounded(sheet.size)
-        return sheet
+                content.left_out[f"{kind} (damaged)"] += 1
+            self._bounded(content.size)
+        return content
 
-    def _one(self, entity: Any, kind: str, sheet: DxfSheet) -> None:
+    def _one(self, entity: Any, kind: str, content: DxfContent) -> None:
         if entity.dxf.hasattr("invisible") and entity.dxf.invisible:
-            sheet.left_out[f"{kind} (invisible)"] += 1
+            content.left_out[f"{kind} (invisible)"] += 1
         elif kind in self._without:
-            sheet.left_out[f"{kind} (as asked)"] += 1
+            content.left_out[f"{kind} (as asked)"] += 1
         elif kind == "INSERT":
-            self._insert(entity, sheet)
+            self._insert(entity, content)
         else:
-            self._draw(entity, kind, sheet)
+            self._draw(entity, kind, content)
 
-    def _draw(self, entity: Any, kind: str, sheet: DxfSheet) -> None:
+    def _draw(self, entity: Any, kind: str, content: DxfContent) -> None:
         try:
             made = self._letterings(entity, kind) if kind in _TEXTS else [hatch_of(entity)] if kind == "HATCH" else []
             curves = [] if made else curves_of(entity)
         except NoLengthError as nothing:
-            sheet.without_length.append(nothing.args[0])
+            content.without_length.append(nothing.args[0])
             return
         except LeftOutError as left:
-            sheet.left_out[left.args[0]] += 1
-            sheet.unread.append(UnreadText(_place_of(entity), left.args[0], entity.dxf.layer))
+            content.left_out[left.args[0]] += 1
+            content.unread.append(UnreadText(_place_of(entity), left.args[0], entity.dxf.layer))
             return
         except NegativeRadiusError as negative:
             at, radius = negative.args
-            sheet.negative.append(Negative(at, radius, entity.dxf.layer))
+            content.negative.append(NegativeRadius(at, radius, entity.dxf.layer))
             return
         if curves is None:
-            sheet.left_out[kind] += 1
+            content.left_out[kind] += 1
             return
-        sheet.see(heights_of(entity))
-        sheet.curves += [(curve, entity.dxf.layer) for curve in curves]
+        content.see(heights_of(entity))
+        content.curves += [(curve, entity.dxf.layer) for curve in curves]
         for each in made:
-            sheet.add(each)
+            content.add(each)
 
-    def _letterings(self, entity: Any, kind: str) -> list[Lettering]:
+    def _letterings(self, entity: Any, kind: str) -> list[TextCurves]:
         """Return what a text draws; an MTEXT of several columns as many times as it has columns."""
         if kind != "MTEXT":
             return [self._lettering(entity, kind)]
@@ -210,7 +212,7 @@ class DxfWalker:
 
         return [self._lettering(each, kind) for each in columns_of(entity)]
 
-    def _lettering(self, entity: Any, kind: str) -> Lettering:
+    def _lettering(self, entity: Any, kind: str) -> TextCurves:
         self._read[kind] = None
         from .mtext import mtext_lettering  # few drawings have texts
         from .text import text_lettering
@@ -221,72 +223,72 @@ class DxfWalker:
             return replace(mtext_lettering(entity.virtual_mtext_entity(), self._fonts), kind=kind)
         return text_lettering(entity, self._fonts)
 
-    def _insert(self, insert: Any, sheet: DxfSheet) -> None:
+    def _insert(self, insert: Any, content: DxfContent) -> None:
         """Add every copy of a block; what is on its layer 0 takes the layer of the insert."""
         if insert.block() is None:
-            sheet.left_out["INSERT of a missing block"] += 1
-            sheet.left_out["ATTRIB"] += len(insert.attribs)
+            content.left_out["INSERT of a missing block"] += 1
+            content.left_out["ATTRIB"] += len(insert.attribs)
             return
         inner = self._block(insert.dxf.name, insert)
         places = max(insert.dxf.row_count, 1) * max(insert.dxf.column_count, 1)
-        self._bounded(sheet.size + inner.size * places, insert)
+        self._bounded(content.size + inner.size * places, insert)
         self._bounded(places, insert)
         if self._is_hidden(insert):
             layers = tuple(insert.dxf.layer if layer == "0" else layer for layer in inner.layers())
-            sheet.hidden.append(
-                Hidden(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places)
+            content.hidden.append(
+                HiddenInsert(insert.dxf.layer, insert.dxf.name, next(iter(_origins(insert)), None), layers * places)
             )
             return
         for kind, count in inner.left_out.items():
-            sheet.left_out[kind] += count * places
+            content.left_out[kind] += count * places
         if inner.any_height:
-            sheet.see(z + insert.dxf.insert.z for z in inner.heights)
+            content.see(z + insert.dxf.insert.z for z in inner.heights)
         if inner.is_empty and not insert.attribs:
             return
         copies = _places(insert)
         for place in copies:
-            self._copy(inner, place, insert.dxf.layer, sheet)
-        self._attributes(insert, copies, sheet)
+            self._copy(inner, place, insert.dxf.layer, content)
+        self._attributes(insert, copies, content)
 
-    def _attributes(self, insert: Any, copies: list[Affine], sheet: DxfSheet) -> None:
+    def _attributes(self, insert: Any, copies: list[Affine], content: DxfContent) -> None:
         """Add the attributes of a block, which lie where the block is inserted first, with every copy of it."""
-        own = self.sheet(attribute for attribute in insert.attribs if not attribute.is_invisible)
+        own = self.content(attribute for attribute in insert.attribs if not attribute.is_invisible)
         own.left_out["ATTRIB (invisible)"] += sum(bool(attribute.is_invisible) for attribute in insert.attribs)
-        self._bounded(sheet.size + own.size * len(copies), insert)
+        self._bounded(content.size + own.size * len(copies), insert)
         for place in copies:
-            self._copy(own, Affine(x0=place.x0 - copies[0].x0, y0=place.y0 - copies[0].y0), insert.dxf.layer, sheet)
-        sheet.left_out += Counter({kind: count * len(copies) for kind, count in own.left_out.items()})
+            self._copy(own, Affine(x0=place.x0 - copies[0].x0, y0=place.y0 - copies[0].y0), insert.dxf.layer, content)
+        content.left_out += Counter({kind: count * len(copies) for kind, count in own.left_out.items()})
         if own.any_height:
-            sheet.see(own.heights)
+            content.see(own.heights)
 
     def _is_hidden(self, insert: Any) -> bool:
         """True on a frozen layer; in a block, layer 0 is that on which the block itself is inserted."""
         layer = insert.dxf.layer.casefold()
         return layer in self._frozen and not (self._open and layer == "0")
 
-    def _copy(self, inner: DxfSheet, place: Affine, outer: str, sheet: DxfSheet) -> None:
+    def _copy(self, inner: DxfContent, place: Affine, outer: str, content: DxfContent) -> None:
         """Add what a block draws in one place, on the layer `outer` where it names none."""
-        sheet.without_length += [None if p is None else place.point(p) for p in inner.without_length]
-        sheet.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
-        sheet.negative += [
+        content.without_length += [None if p is None else place.point(p) for p in inner.without_length]
+        content.hidden += [replace(each, at=each.at and place.point(each.at)) for each in inner.hidden]
+        content.negative += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.negative
         ]
-        sheet.unread += [
+        content.unread += [
             replace(each, at=place.point(each.at), layer=outer if each.layer == "0" else each.layer)
             for each in inner.unread
         ]
         for each in inner.more():
-            sheet.add(each.moved(place, outer))
+            content.add(each.moved(place, outer))
         for curve, layer in inner.curves:
             moved = transformed(curve, place)
             if moved is None:
-                sheet.without_length.append(place.point(curve.start))
+                content.without_length.append(place.point(curve.start))
             else:
-                sheet.curves.append((moved, outer if layer == "0" else layer))
-        self._bounded(max(len(sheet.hidden), len(sheet.negative), len(sheet.unread), sheet.size))
+                content.curves.append((moved, outer if layer == "0" else layer))
+        self._bounded(max(len(content.hidden), len(content.negative), len(content.unread), content.size))
 
-    def _block(self, name: str, insert: Any) -> DxfSheet:
+    def _block(self, name: str, insert: Any) -> DxfContent:
         key = name.casefold()
         if key in self._open:
             raise InputError(
@@ -299,7 +301,7 @@ class DxfWalker:
             )
         if key not in self._blocks:
             self._open.append(key)
-            self._blocks[key] = self.sheet(insert.block())
+            self._blocks[key] = self.content(insert.block())
             self._open.pop()
         return self._blocks[key]
 

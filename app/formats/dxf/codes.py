@@ -15,7 +15,7 @@ _OF_STROKED_FONTS = {127: "°", 128: "±", 129: "Ø"}
 _PAGES = {"1": "cp932", "2": "cp950", "3": "cp949", "4": "johab", "5": "cp936"}
 
 
-class Bar(Enum):
+class TextBar(Enum):
     """A line along the words; the value is its height over the baseline in heights of the capitals."""
 
     UNDER = -0.2
@@ -23,7 +23,7 @@ class Bar(Enum):
     THROUGH = 0.5
 
 
-_BARS = {"u": Bar.UNDER, "o": Bar.OVER, "k": Bar.THROUGH}
+_BARS = {"u": TextBar.UNDER, "o": TextBar.OVER, "k": TextBar.THROUGH}
 
 
 def numbered_signs(text: str) -> str:
@@ -31,9 +31,9 @@ def numbered_signs(text: str) -> str:
     return _CODE.sub(lambda match: _sign(match) if match[3] or match[4] else match[0], text)
 
 
-def stretches(text: str) -> Iterator[tuple[str, frozenset[Bar]]]:
+def stretches(text: str) -> Iterator[tuple[str, frozenset[TextBar]]]:
     """Yield the stretches of a text of one line, and the lines along each; codes are the letters that they mean."""
-    at, bars = 0, frozenset[Bar]()
+    at, bars = 0, frozenset[TextBar]()
     words = ""
     for match in _CODE.finditer(text):
         words += text[at : match.start()]

@@ -14,27 +14,42 @@ from ...model.curves import Curve
 from ...model.finding import Finding, FindingKind
 from ...model.part import Entity, Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
-from ...model.reading import Reading
+from ...model.reading import ReadingOptions
 from ..drawing import Drawing
 from ..drawing_account import (
     MOVE,
-    Taken,
-    about_place,
+    UsableCurves,
     all_left_out,
     listed,
     on_layers,
     other_units,
+    placement_findings,
     remark,
     size_of,
     strays_or_none,
     switched_off,
-    taken,
+    usable_curves,
     without_length,
 )
-from ..reading_question import Contents, Question, UndecidedError, about_far, about_frozen, about_layouts, about_units
-from .blocks import DxfSheet, DxfWalker
-from .drawn import all_drawn
-from .findings import about_commas, about_hatches, about_hidden, about_letterings, about_negative, about_unread
+from ..reading_question import (
+    FileContents,
+    ReadingQuestion,
+    UndecidedError,
+    far_question,
+    frozen_question,
+    layouts_question,
+    units_question,
+)
+from .blocks import DxfContent, DxfWalker
+from .drawn_curves import all_drawn
+from .findings import (
+    about_unread,
+    comma_findings,
+    hatch_findings,
+    hidden_insert_findings,
+    negative_radius_findings,
+    text_findings,
+)
 from .layouts import PAPER, layout_named, paper
 from .load import load
 
@@ -88,61 +103,65 @@ def read_dxf(
         InputError: the file is no usable DXF, has no curves, or has not one of the layers or the layout.
     """
     loaded = load(data, name)
-    document, reading = loaded.document, Reading(units, layers, how)
+    document, reading = loaded.document, ReadingOptions(units, layers, how)
     unit = _unit(document, data, units, how.overrule)
     walker = DxfWalker(document, name, layers, how.without_types)
-    sheet = walker.sheet(layout_named(document, how.layout, name))
+    content = walker.content(layout_named(document, how.layout, name))
     to_mm, machined = scaled(unit.size), _machined(document, layers, how.without_layers)
-    drawn = all_drawn(sheet, machined, unit.size)
+    drawn = all_drawn(content, machined, unit.size)
     curves = _spelled(document, drawn.curves)
 
-    def placed(to_zero: bool) -> Taken:
-        return taken(curves, to_mm if unit.size != 1.0 else None, machined if to_zero else None, drawn.strokes)
+    def placed(to_zero: bool) -> UsableCurves:
+        return usable_curves(curves, to_mm if unit.size != 1.0 else None, machined if to_zero else None, drawn.strokes)
 
     found, papers = placed(how.to_zero), paper(document)
     others = Counter() if how.layout else papers
     if not found.entities:
-        raise UndecidedError(f"{name}: {_nothing(sheet, found, others)}", _asked(sheet, found, others, reading, unit))
+        raise UndecidedError(
+            f"{name}: {_nothing(content, found, others)}", _asked(content, found, others, reading, unit)
+        )
     part = Part(name=PurePath(name).stem, units=unit.shown, layers=_layers(document, found.entities)).with_entities(
         found.entities
     )
     names = tuple(layer.name for layer in part.layers)
     part = on_layers(part, layers, name)
-    left_out = sheet.left_out + Counter({PAPER: others.total()})
-    nothing = [None if p is None else to_mm.point(p) for p in sheet.without_length] + found.nothing
+    left_out = content.left_out + Counter({PAPER: others.total()})
+    nothing = [None if p is None else to_mm.point(p) for p in content.without_length] + found.nothing
     findings = [
         *_unit_findings(units, unit),
-        *about_commas(loaded.commas),
+        *comma_findings(loaded.commas),
         *_damage(loaded.repaired),
-        *about_place(found),
-        *about_negative(sheet, unit.size),
-        *about_unread(sheet, unit.size),
+        *placement_findings(found),
+        *negative_radius_findings(content, unit.size),
+        *about_unread(content, unit.size),
         *without_length(nothing),
-        *_heights(sheet, unit.size),
-        *about_hidden(sheet, unit.size),
-        *about_letterings([each for each in sheet.letterings if machined(each.layer)], unit.size),
-        *about_hatches(drawn),
+        *_heights(content, unit.size),
+        *hidden_insert_findings(content, unit.size),
+        *text_findings([each for each in content.letterings if machined(each.layer)], unit.size),
+        *hatch_findings(drawn),
         *switched_off(part, layers),
         *all_left_out(+left_out),
     ]
-    contents = Contents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
+    contents = FileContents(names, tuple(papers.items()), tuple(sorted(walker.types)), unit.own)
     question = strays_or_none(found, reading, placed) or (
-        None if unit.named or units else about_units(unit.shown, size_of(part), reading)
+        None if unit.named or units else units_question(unit.shown, size_of(part), reading)
     )
     return Drawing(
         part, tuple(findings), tuple(sorted((+left_out + found.missing).items())), unit.named, contents, question
     )
 
 
-def _asked(sheet: DxfSheet, found: Taken, others: Counter[str], reading: Reading, unit: _Unit) -> Question | None:
+def _asked(
+    content: DxfContent, found: UsableCurves, others: Counter[str], reading: ReadingOptions, unit: _Unit
+) -> ReadingQuestion | None:
     """Return what to ask about a drawing that has nothing to machine, in the order of `_nothing`."""
     if found.far and found.moved is None:
-        return about_far(found.far[0][0], reading, unit.shown)
-    if sheet.hidden:
-        layers = dict.fromkeys(layer for each in sheet.hidden for layer in (each.layer, *each.curves))
-        count = sum(len(each.curves) for each in sheet.hidden)
-        return about_frozen(tuple(layers), count, reading) if count else None
-    return about_layouts(others, reading) if others else None
+        return far_question(found.far[0][0], reading, unit.shown)
+    if content.hidden:
+        layers = dict.fromkeys(layer for each in content.hidden for layer in (each.layer, *each.curves))
+        count = sum(len(each.curves) for each in content.hidden)
+        return frozen_question(tuple(layers), count, reading) if count else None
+    return layouts_question(others, reading) if others else None
 
 
 @dataclass(frozen=True)
@@ -179,24 +198,26 @@ def _unit(document: Any, data: bytes, given: Units | None, overrule: bool) -> _U
 
 def _machined(document: Any, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
-    wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
+    requested, gone = ({layer.casefold() for layer in names} for names in (layers, without))
     hidden = {layer.dxf.name.casefold() for layer in document.layers if layer.is_off() or layer.is_frozen()}
     return lambda layer: (
-        layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer.casefold() not in hidden)
+        layer.casefold() not in gone
+        and (layer.casefold() in requested if requested else layer.casefold() not in hidden)
     )
 
 
-def _nothing(sheet: DxfSheet, found: Taken, others: Counter[str]) -> str:
+def _nothing(content: DxfContent, found: UsableCurves, others: Counter[str]) -> str:
     """Return why a drawing has nothing to machine, and what to do."""
-    left_out = sheet.left_out + found.missing + Counter({PAPER: others.total()})
+    left_out = content.left_out + found.missing + Counter({PAPER: others.total()})
     said = listed(+left_out, "; left out: ")
     if found.far and found.moved is None:
         return (
             f"all of the drawing lies beyond 1 km, at ({found.far[0][0][0]:.3f}, {found.far[0][0][1]:.3f}) mm; "
             f"{MOVE}{said}."
         )
-    if sheet.hidden:
-        return f"the drawing has no curves that are shown. {' '.join(each.text for each in about_hidden(sheet, 1.0))}"
+    if content.hidden:
+        hidden = " ".join(each.text for each in hidden_insert_findings(content, 1.0))
+        return f"the drawing has no curves that are shown. {hidden}"
     if others:
         layout = others.most_common(1)[0][0]
         return (
@@ -258,8 +279,8 @@ def _damage(repaired: int) -> Iterable[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, amount=float(repaired))
 
 
-def _heights(sheet: DxfSheet, factor: float) -> Iterable[Finding]:
-    low, high = (z * factor for z in sheet.heights)
+def _heights(content: DxfContent, factor: float) -> Iterable[Finding]:
+    low, high = (z * factor for z in content.heights)
     if high - low > tolerances.CURVE:
         yield remark(
             f"The drawing is not flat, its Z runs from {low:g} to {high:g} mm; it is read as seen from above.",

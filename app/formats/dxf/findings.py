@@ -9,16 +9,16 @@ from collections.abc import Iterator, Sequence
 
 from ...model.finding import Finding, FindingKind
 from ..drawing_account import remark
-from .blocks import DxfSheet, Hidden
-from .drawn import AllDrawn
-from .letters import Lettering
-from .numbers import Commas
+from .blocks import DxfContent, HiddenInsert
+from .drawn_curves import DrawnCurves
+from .letters import TextCurves
+from .numbers import DecimalCommas
 
 _NAMED, _LETTERS = 3, 10
 """So many blocks, layers or fonts, and so many letters, are named in one sentence."""
 
 
-def about_commas(commas: Commas) -> Iterator[Finding]:
+def comma_findings(commas: DecimalCommas) -> Iterator[Finding]:
     """Say that decimal commas were read as points."""
     if commas.count:
         what = "1 number has a decimal comma" if commas.count == 1 else f"{commas.count} numbers have decimal commas"
@@ -28,12 +28,12 @@ def about_commas(commas: Commas) -> Iterator[Finding]:
         )
 
 
-def about_negative(sheet: DxfSheet, size: float) -> Iterator[Finding]:
+def negative_radius_findings(content: DxfContent, size: float) -> Iterator[Finding]:
     """Say that circles and arcs are missing, for their radius is below 0; `size` is that of the drawing's unit, mm."""
-    if sheet.negative:
-        first = sheet.negative[0]
+    if content.negative:
+        first = content.negative[0]
         x, y, radius = first.at[0] * size, first.at[1] * size, first.radius * size
-        count = len(sheet.negative)
+        count = len(content.negative)
         what = (
             "1 circle or arc has a radius below 0 and is"
             if count == 1
@@ -46,25 +46,25 @@ def about_negative(sheet: DxfSheet, size: float) -> Iterator[Finding]:
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=float(count))
 
 
-def about_unread(sheet: DxfSheet, size: float) -> Iterator[Finding]:
+def about_unread(content: DxfContent, size: float) -> Iterator[Finding]:
     """Name the texts that are left out for what they are, a sentence a sort; `size`: the drawing's unit, mm."""
-    for sort in dict.fromkeys(each.sort for each in sheet.unread):
-        alike = [each for each in sheet.unread if each.sort == sort]
+    for sort in dict.fromkeys(each.sort for each in content.unread):
+        alike = [each for each in content.unread if each.sort == sort]
         x, y = alike[0].at[0] * size, alike[0].at[1] * size
         count, where = len(alike), f"at ({x:.3f}, {y:.3f}) on layer {alike[0].layer}"
         text = f"1 {sort} {where} is not read." if count == 1 else f"{count} {sort} are not read, the first {where}."
         yield Finding(FindingKind.LEFT_OUT, text, x, y, counts=False, amount=float(count), layer=alike[0].layer)
 
 
-def about_hidden(sheet: DxfSheet, size: float) -> Iterator[Finding]:
+def hidden_insert_findings(content: DxfContent, size: float) -> Iterator[Finding]:
     """Name the blocks that are inserted on frozen layers, a sentence a layer; `size` is that of the drawing's unit,
     mm.
     """
-    for layer in dict.fromkeys(each.layer for each in sheet.hidden):
-        yield _hidden([each for each in sheet.hidden if each.layer == layer], size)
+    for layer in dict.fromkeys(each.layer for each in content.hidden):
+        yield _hidden([each for each in content.hidden if each.layer == layer], size)
 
 
-def _hidden(inserts: list[Hidden], size: float) -> Finding:
+def _hidden(inserts: list[HiddenInsert], size: float) -> Finding:
     layer, blocks = inserts[0].layer, dict.fromkeys(each.block for each in inserts)
     curves = [on for each in inserts for on in each.curves]
     named = ", ".join(list(blocks)[:_NAMED]) + (f" and {len(blocks) - _NAMED} more" if len(blocks) > _NAMED else "")
@@ -72,16 +72,16 @@ def _hidden(inserts: list[Hidden], size: float) -> Finding:
     first = "" if len(inserts) == 1 else "the first "
     where = f", {first}at ({at[0] * size:.3f}, {at[1] * size:.3f})," if at is not None else ""
     what = f"Block {named} is" if len(inserts) == 1 else f"{len(inserts)} blocks ({named}) are"
-    wanted = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
+    requested = " ".join(f"--layer {each}" for each in list(dict.fromkeys((layer, *curves)))[: _NAMED + 1])
     lost = "1 curve is" if len(curves) == 1 else f"{len(curves)} curves are"
     return remark(
         f"{what} inserted{where} on layer {layer}, which is frozen; {lost} not shown and not machined. "
-        f"Say {wanted} to machine them; in the window they are chosen in File, Reading options.",
+        f"Say {requested} to machine them; in the window they are chosen in File, Reading options.",
         float(len(curves)),
     )
 
 
-def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Finding]:
+def text_findings(texts: Sequence[TextCurves], size: float) -> Iterator[Finding]:
     """Say that texts are read, in which fonts, and how to leave them out; and which letters are missing from them.
 
     Args:
@@ -123,17 +123,17 @@ def about_letterings(texts: Sequence[Lettering], size: float) -> Iterator[Findin
         )
 
 
-def _in_font(asked: str, drawn: str) -> str:
+def _in_font(requested: str, drawn: str) -> str:
     if drawn:
         return f"in {drawn}"
     return (
-        f"in the engraving face, for font {asked} is not installed here"
-        if asked
+        f"in the engraving face, for font {requested} is not installed here"
+        if requested
         else "in the engraving face, for no font is named"
     )
 
 
-def about_hatches(drawn: AllDrawn) -> Iterator[Finding]:
+def hatch_findings(drawn: DrawnCurves) -> Iterator[Finding]:
     """Say that boundaries of hatches are read, how many lie on drawn curves, and how to leave them out."""
     if drawn.boundaries:
         what = "1 boundary of a hatch is" if drawn.boundaries == 1 else f"{drawn.boundaries} boundaries of hatches are"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...core.errors import InputError
 from ...geometry.affine import scaled, transformed
-from ...geometry.lettering import Face, Glyph, engraving
+from ...geometry.stroke_font import Glyph, StrokeFont, engraving
 
 if TYPE_CHECKING:
     from ...geometry.typeface import Typeface
@@ -34,11 +34,11 @@ class FontName:
     @property
     def style(self) -> str:
         """The words for it in the names of fonts."""
-        return " ".join(word for word, wanted in (("bold", self.bold), ("italic", self.italic)) if wanted)
+        return " ".join(word for word, requested in (("bold", self.bold), ("italic", self.italic)) if requested)
 
 
 @dataclass(frozen=True, slots=True)
-class Set:
+class LetterSet:
     """Letters to set some words with.
 
     Attributes:
@@ -48,7 +48,7 @@ class Set:
         lacking: letters that neither the font nor the engraving face has.
     """
 
-    face: Face
+    face: StrokeFont
     font: str
     strokes: frozenset[str]
     lacking: str
@@ -69,14 +69,14 @@ class Fonts:
         """Return the text style of a name, None where the drawing has none."""
         return self.styles.get(name) if self.styles.has_entry(name) else None
 
-    def of(self, name: FontName, words: str) -> Set:
+    def of(self, name: FontName, words: str) -> LetterSet:
         """Return the letters for some words; those that the font lacks are of the engraving face."""
         strokes = engraving()
         font = self._font(name)
         if font is None:
             lacking = "".join(dict.fromkeys(letter for letter in words if letter not in strokes.glyphs))
             blank = Glyph((), strokes.glyphs[" "].advance)
-            return Set(
+            return LetterSet(
                 replace(strokes, glyphs={**strokes.glyphs, **dict.fromkeys(lacking, blank)}),
                 "",
                 frozenset(words),
@@ -93,7 +93,7 @@ class Fonts:
             for letter in drawn
         }
         lacking = "".join(letter for letter in drawn if letter not in strokes.glyphs)
-        return Set(replace(face, glyphs={**face.glyphs, **others}), font.name, frozenset(drawn), lacking)
+        return LetterSet(replace(face, glyphs={**face.glyphs, **others}), font.name, frozenset(drawn), lacking)
 
     def _font(self, name: FontName) -> Typeface | None:
         from ...geometry.typeface import Typeface  # reading fonts is for drawings with texts alone

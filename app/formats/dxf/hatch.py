@@ -99,7 +99,7 @@ def _edge(edge: Any, layer: str) -> Iterator[Curve]:
         yield made
 
 
-def apart(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], size: float) -> list[bool]:
+def bounding_alone(rings: Sequence[tuple[Curve, ...]], drawn: Sequence[Curve], size: float) -> list[bool]:
     """Return for each boundary whether it bounds something that nothing drawn bounds.
 
     One that lies on drawn curves all along, within the distance at which loose ends are joined, adds nothing: taken

@@ -9,10 +9,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from ...geometry.affine import IDENTITY, Affine, transformed
-from ...geometry.lettering import placed
+from ...geometry.stroke_font import placed
 from ...model.curves import Curve, Line, Point
-from .codes import Bar
-from .fonts import FontName, Fonts, Set
+from .codes import TextBar
+from .fonts import FontName, Fonts, LetterSet
 
 _THICK = 1 / 14
 """How thick lines along outlined words are, in heights of the capitals."""
@@ -40,11 +40,11 @@ class LetterStyle:
     width: float = 1.0
     oblique: float = 0.0
     tracking: float = 1.0
-    bars: frozenset[Bar] = frozenset()
+    bars: frozenset[TextBar] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
-class Lettering:
+class TextCurves:
     """What a text draws.
 
     Attributes:
@@ -68,7 +68,7 @@ class Lettering:
         """How many curves there are."""
         return len(self.strokes) + len(self.outlines)
 
-    def moved(self, to: Affine, layer: str = "") -> Lettering:
+    def moved(self, to: Affine, layer: str = "") -> TextCurves:
         """Return it under a map; what is on layer 0 goes to `layer`, where one is named."""
         strokes, outlines = (tuple(_moved(curves, to)) for curves in (self.strokes, self.outlines))
         return replace(
@@ -90,7 +90,7 @@ class LetterRun:
 
     words: str
     look: LetterStyle
-    letters: Set
+    letters: LetterSet
 
     @property
     def unit(self) -> float:
@@ -143,11 +143,11 @@ def bar_curves(start: Point, length: float, height: float, stroke: bool) -> Iter
     yield from ((Line(a, b), False) for a, b in zip(corners, corners[1:] + corners[:1], strict=True))
 
 
-def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[LetterRun], to: Affine = IDENTITY) -> Lettering:
+def lettered(curves: Iterable[tuple[Curve, bool]], runs: Iterable[LetterRun], to: Affine = IDENTITY) -> TextCurves:
     """Return what curves (and whether each is a stroke) of some runs are together, under a map."""
     drawn = list(curves)
     letters = [("" if run.letters.font else run.look.font.said, run.letters) for run in runs if run.words.strip()]
-    strokes, outlines = (tuple(curve for curve, stroke in drawn if stroke is wanted) for wanted in (True, False))
+    strokes, outlines = (tuple(curve for curve, stroke in drawn if stroke is requested) for requested in (True, False))
     fonts = tuple(dict.fromkeys((said, each.font) for said, each in letters))
     lacking = "".join(dict.fromkeys(letter for _, each in letters for letter in each.lacking))
-    return Lettering(strokes, outlines, fonts=fonts, lacking=lacking).moved(to)
+    return TextCurves(strokes, outlines, fonts=fonts, lacking=lacking).moved(to)

@@ -12,7 +12,7 @@ from typing import Any
 from ...core.errors import InputError
 from ..drawing_account import MOST_CURVES
 from .light_ezdxf import load_ezdxf
-from .numbers import NO_COMMAS, Commas, with_points
+from .numbers import NO_COMMAS, DecimalCommas, with_points
 from .splines import MOST_POINTS, too_many
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -32,7 +32,7 @@ _SUSPECT = 1 << 20
 
 
 @dataclass(frozen=True)
-class Loaded:
+class LoadedDocument:
     """A document of the library, and what had to be done to read it.
 
     Attributes:
@@ -42,10 +42,10 @@ class Loaded:
 
     document: Any
     repaired: int = 0
-    commas: Commas = NO_COMMAS
+    commas: DecimalCommas = NO_COMMAS
 
 
-def load(data: bytes, name: str) -> Loaded:
+def load(data: bytes, name: str) -> LoadedDocument:
     """Return what a file holds.
 
     Args:
@@ -57,13 +57,13 @@ def load(data: bytes, name: str) -> Loaded:
     """
     _refuse_others(data, name)
     try:
-        return Loaded(_probed(_load_sound(data)))
+        return LoadedDocument(_probed(_load_sound(data)))
     except Exception as fault:  # whatever a parser makes of a damaged file: the repairing reader gets its turn
         reason = fault
-    commas = Commas(data) if data.startswith(_BINARY) else with_points(data, name)
+    commas = DecimalCommas(data) if data.startswith(_BINARY) else with_points(data, name)
     if commas.count:
         try:
-            return Loaded(_probed(_load_sound(commas.data)), 0, replace(commas, data=b""))
+            return LoadedDocument(_probed(_load_sound(commas.data)), 0, replace(commas, data=b""))
         except Exception as fault:  # it has other faults too
             data, reason = commas.data, fault
     try:
@@ -76,7 +76,7 @@ def load(data: bytes, name: str) -> Loaded:
         raise InputError(
             f"{name}: the DXF is damaged and cannot be repaired ({_short(reason)}); save it again from the CAD program."
         ) from error
-    return Loaded(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
+    return LoadedDocument(document, max(1, len(auditor.errors) + len(auditor.fixes)), replace(commas, data=b""))
 
 
 def _refuse_others(data: bytes, name: str) -> None:

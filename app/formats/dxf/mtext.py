@@ -9,10 +9,10 @@ from typing import Any
 
 from ...geometry.affine import Affine
 from ...model.curves import Curve
-from .codes import Bar, legible, numbered_signs
+from .codes import TextBar, legible, numbered_signs
 from .curves import NoLengthError
 from .fonts import FontName, Fonts, style_font
-from .letters import LeftOutError, Lettering, LetterRun, LetterStyle, bar_curves, lettered, run_of
+from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, bar_curves, lettered, run_of
 from .text import MOST_LETTERS
 
 _APART = 5 / 3
@@ -31,7 +31,7 @@ def columns_of(entity: Any) -> list[Any]:
     return [entity, *(entity.columns.linked_columns if entity.has_columns else ())]
 
 
-def mtext_lettering(entity: Any, fonts: Fonts) -> Lettering:
+def mtext_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     """Return what an MTEXT draws, drawing units, seen from above.
 
     Lines break where the text says so, and between words where they would be wider than its width. Centred and right
@@ -178,14 +178,18 @@ class _TextPage:
             font = FontName(
                 named if as_file else "", "" if as_file else named, face.weight >= 600, "italic" in face.style.lower()
             )
-        flags = ((Bar.UNDER, context.underline), (Bar.OVER, context.overline), (Bar.THROUGH, context.strike_through))
+        flags = (
+            (TextBar.UNDER, context.underline),
+            (TextBar.OVER, context.overline),
+            (TextBar.THROUGH, context.strike_through),
+        )
         return LetterStyle(
             font,
             context.cap_height or self._look.height,
             context.width_factor or 1.0,
             context.oblique,
             context.char_tracking_factor or 1.0,
-            frozenset(bar for bar, wanted in flags if wanted),
+            frozenset(bar for bar, requested in flags if requested),
         )
 
     def _box(self, words: str, look: LetterStyle, lift: float = 0.0) -> _Box:
@@ -264,10 +268,10 @@ class _TextPage:
         """
         if not self._fresh and not follows:
             return self.lines[-1]
-        wanted, unit = context.paragraph, self._look.height
-        begin = wanted.left * unit + (0.0 if follows else wanted.indent * unit)
-        end = self._width - wanted.right * unit if self._width > 0 else 0.0
-        align = {"DEFAULT": "lcr"[self._across], "CENTER": "c", "RIGHT": "r"}.get(wanted.align.name, "l")
+        requested, unit = context.paragraph, self._look.height
+        begin = requested.left * unit + (0.0 if follows else requested.indent * unit)
+        end = self._width - requested.right * unit if self._width > 0 else 0.0
+        align = {"DEFAULT": "lcr"[self._across], "CENTER": "c", "RIGHT": "r"}.get(requested.align.name, "l")
         self.lines.append(_TextLine(context.cap_height or unit, begin, end, align))
         self._fresh = False
         return self.lines[-1]

@@ -25,7 +25,7 @@ _LINE_END = re.compile(rb"\r\n|\n|\r")
 
 
 @dataclass(frozen=True, slots=True)
-class Commas:
+class DecimalCommas:
     """What a text reads as.
 
     Attributes:
@@ -39,10 +39,10 @@ class Commas:
     value: str = ""
 
 
-NO_COMMAS = Commas(b"")
+NO_COMMAS = DecimalCommas(b"")
 
 
-def with_points(data: bytes, name: str) -> Commas:
+def with_points(data: bytes, name: str) -> DecimalCommas:
     """Return a text DXF with points in place of decimal commas.
 
     Args:
@@ -71,11 +71,11 @@ def with_points(data: bytes, name: str) -> Commas:
             "may be thousands or a fraction; save the drawing again with points as decimal signs."
         )
     if not commas:
-        return Commas(data)
+        return DecimalCommas(data)
     first, value = commas[0] + 1, _shown(lines[commas[0]])
     for number in commas:
         lines[number] = lines[number].replace(b",", b".")
-    return Commas(b"\n".join(lines), len(commas), first, value)
+    return DecimalCommas(b"\n".join(lines), len(commas), first, value)
 
 
 def _values(lines: list[bytes]) -> Iterator[tuple[int, int]]:

@@ -13,7 +13,7 @@ from ...model.curves import Point
 from .codes import stretches
 from .curves import NoLengthError, plane_of
 from .fonts import Fonts, style_font
-from .letters import LeftOutError, Lettering, LetterRun, LetterStyle, lettered, run_of
+from .letters import LeftOutError, LetterRun, LetterStyle, TextCurves, lettered, run_of
 
 MOST_LETTERS = 10_000
 """Of one text; more is no text."""
@@ -24,7 +24,7 @@ _LEFT, _CENTRE, _RIGHT, _ALIGNED, _MIDDLE, _FIT = range(6)
 _BASELINE, _BOTTOM, _HALF, _TOP = range(4)
 
 
-def text_lettering(entity: Any, fonts: Fonts) -> Lettering:
+def text_lettering(entity: Any, fonts: Fonts) -> TextCurves:
     """Return what a TEXT or an ATTRIB draws, drawing units, seen from above.
 
     Raises:

@@ -13,8 +13,8 @@ from ...core import tolerances
 from ...geometry.affine import scaled, transformed
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from ...model.part import Layer, Part, Units
-from ..drawing import Written
-from ..drawing_written import Conversions, box_round
+from ..drawing import WrittenDrawing
+from ..drawing_conversions import Conversions, box_round
 from .curves import polar
 from .light_ezdxf import load_ezdxf
 
@@ -45,7 +45,9 @@ _INK = 7
 """The colour that is black or white as the ground demands."""
 
 
-def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: float = tolerances.CURVE) -> Written:
+def dxf_bytes(
+    part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: float = tolerances.CURVE
+) -> WrittenDrawing:
     """Return the part as a DXF text file.
 
     All curves are kept to rounding, but for R12, which has neither ellipses nor splines: there each becomes one
@@ -79,7 +81,7 @@ def dxf_bytes(part: Part, version: DxfVersion = DxfVersion.R2010, tolerance: flo
             pen.draw(curve, {"layer": names[entity.layer]})
     _show_all(document, part, units)
     renamed = tuple((layer, name) for layer, name in names.items() if layer != name)
-    return Written(_text(document), pen.conversions.converted, renamed, notes_left_out=len(part.notes))
+    return WrittenDrawing(_text(document), pen.conversions.converted, renamed, notes_left_out=len(part.notes))
 
 
 def _names(layers: tuple[Layer, ...], version: DxfVersion) -> dict[str, str]:

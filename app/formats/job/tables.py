@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from ...core.errors import HitofudeError, InputError
-from ...core.toml_tables import QUOTED, Worded, brief, known_words
+from ...core.toml_tables import QUOTED, Keyword, brief, known_words
 from ...model.curve_selectors import Selector, read_selectors
-from ...model.fields import Placed, Unit
+from ...model.fields import ParameterPlace, Unit
 from ...model.tool import FeedRow
 
 Value = TypeVar("Value")
@@ -274,9 +274,9 @@ _READERS: dict[Unit, Callable[[Any], Any]] = {
 }
 
 
-def reader_of(placed: Placed) -> Callable[[Any], Any]:
+def reader_of(placed: ParameterPlace) -> Callable[[Any], Any]:
     """Return what reads a parameter's value as TOML gives it; it raises InputError for what can be none."""
-    if isinstance(placed.default, Worded):
+    if isinstance(placed.default, Keyword):
         return word(type(placed.default).words(), placed.parameter.label.lower())
     if placed.enum is not None:
         return word({each.value: each for each in placed.enum}, placed.parameter.label.lower())

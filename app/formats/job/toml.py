@@ -9,7 +9,7 @@ from typing import Any
 
 from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed
-from ...model.fields import Placed, declared_of, with_values
+from ...model.fields import ParameterPlace, declared_of, with_values
 from ...model.job import Job, OriginXY, OriginZ
 from ...model.part import Part, Units
 from ...model.tool import Tool
@@ -61,7 +61,7 @@ WORDS = {
 """Of parameters of the job whose words in files are not those of their enum."""
 
 
-def settings_of(table: str) -> Mapping[str, Placed]:
+def settings_of(table: str) -> Mapping[str, ParameterPlace]:
     """Return the parameters of the job that stand in a table of a job file, by their keys there."""
     return {
         placed.parameter.word or placed.key: placed

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 from ...core.toml_tables import spelled
-from ...model.fields import Placed, Unit, declared_of, parameters_of
+from ...model.fields import ParameterPlace, Unit, declared_of, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.part import Units
@@ -35,7 +35,7 @@ def job_lines(job: Job, units: Units | None = None) -> Iterator[str]:
         yield from _table("operation", dict(_operation(operation)), several=True)
 
 
-def _setting(placed: Placed, job: Job) -> Any:
+def _setting(placed: ParameterPlace, job: Job) -> Any:
     value, known = placed.of(job), WORDS.get(placed.key)
     return word_of(known.words, value) if known else value
 

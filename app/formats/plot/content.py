@@ -16,7 +16,7 @@ from ...model.curves import Arc, Circle, Curve, Line, Point
 from ...model.moves import MoveKind, Moves, Purpose
 from ...model.notes import Dimension, Mark
 from ...model.part import Layer, Part, Units
-from .page import Box, Ink, Patch, Pen, Stroke, Words
+from .page import Box, FilledPolygon, PageContent, Pen, PenStroke, TextLine
 
 INK = "#000000"
 TOOL_COLOURS = ("#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#7A6BC2", "#D55E00", "#882255", "#3B4F9E")
@@ -28,7 +28,7 @@ _DASHED = (Purpose.CONTOUR, Purpose.TAB, Purpose.DOG_BONE)
 
 
 @dataclass(frozen=True)
-class Shown:
+class DrawingContent:
     """What is plotted.
 
     Attributes:
@@ -54,9 +54,9 @@ class Shown:
         """The part's."""
         return self.part.units
 
-    def legend(self, box: Box) -> Ink:
+    def legend(self, box: Box) -> PageContent:
         """Return nothing: layers and tools are told apart by colour alone."""
-        return Ink()
+        return PageContent()
 
     @property
     def _layers(self) -> dict[str, tuple[int, Layer]]:
@@ -78,29 +78,33 @@ class Shown:
         found += [bounds(curve) for stroke in self._paths() for curve in stroke.curves]
         return union(found)
 
-    def ink(self, scale: float) -> Ink:
+    def ink(self, scale: float) -> PageContent:
         """Return the ink, in the part's mm, for paper on which the part is `scale` times as large."""
         curves: dict[str, list[Curve]] = {name: [] for name in self._layers}
         for entity in self.part.entities:
             if entity.layer in curves:
                 curves[entity.layer].append(entity.curve)
-        drawn = tuple(Stroke(self._pen(name, PART_MM), tuple(those)) for name, those in curves.items() if those)
-        made = Ink(tuple(self._paths()) + drawn)
+        drawn = tuple(PenStroke(self._pen(name, PART_MM), tuple(those)) for name, those in curves.items() if those)
+        made = PageContent(tuple(self._paths()) + drawn)
         for note in self.part.notes if self.notes else ():
             if note.layer in curves and isinstance(note.shape, Mark | Dimension):
                 made += self._note(note.shape, self._pen(note.layer, NOTE_MM), scale)
         return made
 
-    def _note(self, shape: Mark | Dimension, pen: Pen, scale: float) -> Ink:
+    def _note(self, shape: Mark | Dimension, pen: Pen, scale: float) -> PageContent:
         if isinstance(shape, Mark):
             (x, y), arm = shape.at, _MARK_MM / scale
-            return Ink((Stroke(pen, (Line((x - arm, y), (x + arm, y)), Line((x, y - arm), (x, y + arm)))),))
+            return PageContent((PenStroke(pen, (Line((x - arm, y), (x + arm, y)), Line((x, y - arm), (x, y + arm)))),))
         inch = self.part.units in (Units.INCH, Units.FOOT)
         drawn = dimension_lines(shape, ARROW_MM / scale, Units.INCH.value if inch else 1.0)
-        words = Words(drawn.figure, drawn.at, FIGURE_MM, 0.5, drawn.angle, _LIFT_MM, pen)
-        return Ink((Stroke(pen, drawn.lines + drawn.arcs),), tuple(Patch(pen, head) for head in drawn.heads), (words,))
+        words = TextLine(drawn.figure, drawn.at, FIGURE_MM, 0.5, drawn.angle, _LIFT_MM, pen)
+        return PageContent(
+            (PenStroke(pen, drawn.lines + drawn.arcs),),
+            tuple(FilledPolygon(pen, head) for head in drawn.heads),
+            (words,),
+        )
 
-    def _paths(self) -> Iterator[Stroke]:
+    def _paths(self) -> Iterator[PenStroke]:
         """Yield a stroke for each tool and line style."""
         moves = self.moves
         if moves is None:
@@ -118,7 +122,7 @@ class Shown:
                 rows = np.flatnonzero(which & (moves.tool == tool) & (moves.kind != MoveKind.RAPID))
                 curves = tuple(_curves(moves, rows))
                 if curves:
-                    yield Stroke(Pen(len(self.part.layers) + 1 + at, colour, width, dash), curves)
+                    yield PenStroke(Pen(len(self.part.layers) + 1 + at, colour, width, dash), curves)
 
 
 def _curves(moves: Moves, rows: np.ndarray) -> Iterator[Curve]:

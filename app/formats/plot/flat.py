@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.lettering import engraving, placed
+from ...geometry.stroke_font import engraving, placed
 from ...geometry.transform import Similarity, transformed
 from ...model.curves import Curve
-from .page import Ink, Page, Pen, Words, chains, segments
+from .page import PageContent, Pen, PlotPage, TextLine, chains, segments
 
 Floats = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ _CAPITAL, _LETTER_WIDTH = 0.72, 0.07
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flat:
+class FlatPolyline:
     """A polyline, or the corners of a filled polygon: (n, 2) mm on paper from the lower left corner, y up."""
 
     pen: Pen
@@ -33,24 +33,24 @@ class Flat:
     filled: bool = False
 
 
-def flat_drawing(page: Page) -> Iterator[Flat]:
+def flat_drawing(page: PlotPage) -> Iterator[FlatPolyline]:
     """Yield what lies in the page's window, in the order of drawing; the caller clips it there."""
     return _flat(page.drawing, page.place)
 
 
-def flat_frame(page: Page) -> Iterator[Flat]:
+def flat_frame(page: PlotPage) -> Iterator[FlatPolyline]:
     """Yield what lies round the drawing."""
     return _flat(page.frame, Similarity())
 
 
-def _flat(ink: Ink, place: Similarity) -> Iterator[Flat]:
+def _flat(ink: PageContent, place: Similarity) -> Iterator[FlatPolyline]:
     for trace in ink.traces:
-        yield Flat(trace.pen, trace.placed(place))
+        yield FlatPolyline(trace.pen, trace.placed(place))
     for stroke in ink.strokes:
         for points in _polylines([transformed(curve, place) for curve in stroke.curves]):
-            yield Flat(stroke.pen, points)
+            yield FlatPolyline(stroke.pen, points)
     for patch in ink.patches:
-        yield Flat(patch.pen, np.array([place(corner) for corner in patch.corners]), filled=True)
+        yield FlatPolyline(patch.pen, np.array([place(corner) for corner in patch.corners]), filled=True)
     for words in ink.words:
         yield from _letters(words, place)
 
@@ -72,7 +72,7 @@ def _along(start: Floats, ends: Floats) -> Floats:
     return np.asarray((1 - t) ** 3 * start + 3 * t * (1 - t) ** 2 * b + 3 * t**2 * (1 - t) * c + t**3 * d)
 
 
-def _letters(words: Words, place: Similarity) -> Iterator[Flat]:
+def _letters(words: TextLine, place: Similarity) -> Iterator[FlatPolyline]:
     """Yield a text in the engraving face; a letter that it lacks is a question mark."""
     face = engraving()
     text = "".join(letter if letter in face.glyphs else "?" for letter in words.text)
@@ -87,7 +87,7 @@ def _letters(words: Words, place: Similarity) -> Iterator[Flat]:
     for glyph, at in letters:
         to = Similarity(turn * size, foot + turn * size * at)
         for points in _polylines([transformed(curve, to) for curve in glyph.curves]):
-            yield Flat(pen, points)
+            yield FlatPolyline(pen, points)
 
 
 def dashes(points: Floats, pattern: Sequence[float]) -> Iterator[Floats]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...geometry.arcs.arcs import lines_and_arcs
 from ...geometry.transform import Similarity, transformed
 from ...model.curves import Arc, Circle, Curve, Line, Point
-from .page import Ink, Page, Patch, Pen, Words
+from .page import FilledPolygon, PageContent, Pen, PlotPage, TextLine
 
 UNITS_PER_MM = 40
 _TOLERANCE = 0.005
@@ -30,7 +30,7 @@ _LETTER = (0.6, 0.7)
 """Width and height of a plotter's capital letter, of the body of the text."""
 
 
-def hpgl_bytes(pages: Iterable[Page]) -> bytes:
+def hpgl_bytes(pages: Iterable[PlotPage]) -> bytes:
     """Return all sheets as one HP-GL/2 file, parted by page advances; letters beyond ASCII become "?".
 
     Raises:
@@ -42,7 +42,7 @@ def hpgl_bytes(pages: Iterable[Page]) -> bytes:
     return "\n".join([*lines, "PU;SP0;", ""]).encode("ascii", "replace")
 
 
-def _page(page: Page) -> Iterator[str]:
+def _page(page: PlotPage) -> Iterator[str]:
     corner, far = _units((page.window[0], page.window[1])), _units((page.window[2], page.window[3]))
     yield f"IN;PS{round(page.height * UNITS_PER_MM)},{round(page.width * UNITS_PER_MM)};PA;"
     yield f"IW{corner},{far};"
@@ -51,7 +51,7 @@ def _page(page: Page) -> Iterator[str]:
     yield from _ink(page.frame, Similarity())
 
 
-def _ink(ink: Ink, place: Similarity) -> Iterator[str]:
+def _ink(ink: PageContent, place: Similarity) -> Iterator[str]:
     for trace in ink.traces:
         yield _pen(trace.pen) + _trace(trace.placed(place))
     for stroke in ink.strokes:
@@ -110,12 +110,12 @@ def _curve(curve: Line | Arc | Circle, at: str | None) -> tuple[str, str | None]
     return f"{go}PD;AA{_units(curve.centre)},{angle:.4f};PD{end};", end
 
 
-def _patch(patch: Patch, place: Similarity) -> str:
+def _patch(patch: FilledPolygon, place: Similarity) -> str:
     corners = [_units(place(corner)) for corner in patch.corners]
     return f"PU{corners[0]};PD{','.join((*corners[1:], corners[0]))};"
 
 
-def _label(words: Words, place: Similarity) -> str:
+def _label(words: TextLine, place: Similarity) -> str:
     at = place(words.at)
     c, s = math.cos(words.angle), math.sin(words.angle)
     foot = (at[0] - words.lift * s, at[1] + words.lift * c)

@@ -13,7 +13,7 @@ from ...geometry.sample import bounds
 from ...geometry.transform import Similarity
 from ...model.curves import Line, Point
 from ...model.part import Units
-from .page import Box, Ink, Page, Paper, Pen, Stroke, Words, fitted
+from .page import Box, PageContent, Paper, Pen, PenStroke, PlotPage, TextLine, fitted
 
 MARGIN, STRIP, OVERLAP = 10.0, 12.0, 10.0
 """Paper round the frame, height of the title strip, and what neighbouring sheets have in common, mm."""
@@ -44,7 +44,7 @@ class PlotOptions:
     framed: bool = True
 
 
-class Content(Protocol):
+class PlotContent(Protocol):
     """What can be plotted."""
 
     @property
@@ -62,10 +62,10 @@ class Content(Protocol):
     def box(self) -> Box | None:
         """Return x0, y0, x1, y1 round all of it, mm; None when there is nothing."""
 
-    def ink(self, scale: float) -> Ink:
+    def ink(self, scale: float) -> PageContent:
         """Return the ink, in mm, for paper on which it is `scale` times as large."""
 
-    def legend(self, box: Box) -> Ink:
+    def legend(self, box: Box) -> PageContent:
         """Return the legend for that place on the paper."""
 
 
@@ -77,13 +77,13 @@ class Plot:
         pages: row by row from the upper left. columns: sheets in a row. scale: size on paper over size of the part.
     """
 
-    pages: tuple[Page, ...]
+    pages: tuple[PlotPage, ...]
     columns: int
     scale: float
 
 
 @dataclass(frozen=True, slots=True)
-class _Sheets:
+class _SheetGrid:
     """How many sheets there are, where the drawing lies on the whole of them, and the window of each on its paper."""
 
     columns: int
@@ -109,7 +109,7 @@ def scale_words(scale: float) -> str:
     return f"{scale:.6g} : 1" if scale >= 1 else f"1 : {1 / scale:.6g}"
 
 
-def lay_out(shown: Content, options: PlotOptions, date: str = "") -> Plot:
+def lay_out(shown: PlotContent, options: PlotOptions, date: str = "") -> Plot:
     """Return the sheets.
 
     Args:
@@ -127,14 +127,14 @@ def lay_out(shown: Content, options: PlotOptions, date: str = "") -> Plot:
     window = (whole[0], whole[1] + shown.strip, *whole[2:])
     sheets = _sheets(box, window, options.scale)
     ink, count = shown.ink(sheets.scale), sheets.columns * sheets.rows
-    pages: list[Page] = []
+    pages: list[PlotPage] = []
     for row in reversed(range(sheets.rows)):
         for column in range(sheets.columns):
             place = sheets.place(column, row)
             seen = _seen(ink, place, sheets.window) if count > 1 else ink
-            page = Page(width, height, sheets.window, place, seen)
+            page = PlotPage(width, height, sheets.window, place, seen)
             title = (shown.title, scale_words(sheets.scale), _unit(shown.units), date, f"{len(pages) + 1} of {count}")
-            frame = _frame(whole, title) if options.framed else Ink()
+            frame = _frame(whole, title) if options.framed else PageContent()
             if shown.strip:
                 frame += _legend(shown, whole)
             pages.append(replace(page, frame=frame + _marks(sheets, column, row)))
@@ -149,7 +149,7 @@ def _window(width: float, height: float, framed: bool) -> Box:
     return (MARGIN, MARGIN + (STRIP if framed else 0.0), width - MARGIN, height - MARGIN)
 
 
-def _sheets(box: Box, window: Box, scale: float | None) -> _Sheets:
+def _sheets(box: Box, window: Box, scale: float | None) -> _SheetGrid:
     wide, high = window[2] - window[0], window[3] - window[1]
     across, up = box[2] - box[0], box[3] - box[1]
     if scale is None:
@@ -162,7 +162,7 @@ def _sheets(box: Box, window: Box, scale: float | None) -> _Sheets:
         )
     whole = (columns * (wide - OVERLAP) + OVERLAP, rows * (high - OVERLAP) + OVERLAP)
     corner = ((whole[0] - across * scale) / 2 - box[0] * scale, (whole[1] - up * scale) / 2 - box[1] * scale)
-    return _Sheets(columns, rows, window, scale, corner)
+    return _SheetGrid(columns, rows, window, scale, corner)
 
 
 def _count(length: float, room: float) -> int:
@@ -178,7 +178,7 @@ def _stated(scale: float) -> float:
     return 1 / (math.ceil(1 / scale / step - 1e-9) * step)
 
 
-def _seen(ink: Ink, place: Similarity, window: Box) -> Ink:
+def _seen(ink: PageContent, place: Similarity, window: Box) -> PageContent:
     """Return what of the ink may reach into a window of the paper."""
     (x0, y0), (x1, y1) = (
         (z.real, z.imag) for z in ((complex(*corner) - place.b) / place.a for corner in (window[:2], window[2:]))
@@ -188,7 +188,7 @@ def _seen(ink: Ink, place: Similarity, window: Box) -> Ink:
         boxes = ((curve, bounds(curve)) for curve in stroke.curves)
         near = tuple(curve for curve, b in boxes if b[0] <= x1 and b[2] >= x0 and b[1] <= y1 and b[3] >= y0)
         if near:
-            strokes.append(Stroke(stroke.pen, near))
+            strokes.append(PenStroke(stroke.pen, near))
     traces = tuple(
         trace
         for trace in ink.traces
@@ -203,28 +203,28 @@ def _box_lines(box: Box) -> tuple[Line, ...]:
     return tuple(Line(a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
 
 
-def _legend(shown: Content, whole: Box) -> Ink:
+def _legend(shown: PlotContent, whole: Box) -> PageContent:
     """Return the legend and the line above it."""
     x0, y0, x1, _ = whole
     top = y0 + shown.strip
-    return Ink((Stroke(_THIN, (Line((x0, top), (x1, top)),)),)) + shown.legend((x0, y0, x1, top))
+    return PageContent((PenStroke(_THIN, (Line((x0, top), (x1, top)),)),)) + shown.legend((x0, y0, x1, top))
 
 
-def _frame(whole: Box, title: tuple[str, ...]) -> Ink:
+def _frame(whole: Box, title: tuple[str, ...]) -> PageContent:
     """Return the frame and the title strip under all else."""
     x0, y0, x1, y1 = whole
     low, width = y0 - STRIP, x1 - x0
-    outer = Stroke(_FRAME, _box_lines((x0, low, x1, y1)))
+    outer = PenStroke(_FRAME, _box_lines((x0, low, x1, y1)))
     lefts = [x0 + part * width for part, _ in _CELLS]
-    inner = Stroke(_THIN, (Line((x0, y0), (x1, y0)), *(Line((x, low), (x, y0)) for x in lefts[1:])))
-    words: list[Words] = []
+    inner = PenStroke(_THIN, (Line((x0, y0), (x1, y0)), *(Line((x, low), (x, y0)) for x in lefts[1:])))
+    words: list[TextLine] = []
     for x, right, (_, caption), text in zip(lefts, (*lefts[1:], x1), _CELLS, title, strict=True):
-        words.append(Words(caption, (x + 2, y0 - 3.6), _CAPTION_MM))
-        words.append(Words(fitted(text, _TEXT_MM, right - x - 4), (x + 2, low + 2.6), _TEXT_MM))
-    return Ink((outer, inner), (), tuple(words))
+        words.append(TextLine(caption, (x + 2, y0 - 3.6), _CAPTION_MM))
+        words.append(TextLine(fitted(text, _TEXT_MM, right - x - 4), (x + 2, low + 2.6), _TEXT_MM))
+    return PageContent((outer, inner), (), tuple(words))
 
 
-def _marks(sheets: _Sheets, column: int, row: int) -> Ink:
+def _marks(sheets: _SheetGrid, column: int, row: int) -> PageContent:
     """Return the marks in the middle of overlaps: crosses that come to lie on one another, ticks at the window's
     edge.
     """
@@ -242,4 +242,4 @@ def _marks(sheets: _Sheets, column: int, row: int) -> Ink:
         *((x, y) for x in ups for y in acrosses),
     ):
         lines += [Line((x - _TICK, y), (x + _TICK, y)), Line((x, y - _TICK), (x, y + _TICK))]
-    return Ink((Stroke(_THIN, tuple(lines)),)) if lines else Ink()
+    return PageContent((PenStroke(_THIN, tuple(lines)),)) if lines else PageContent()

@@ -52,7 +52,7 @@ class Pen:
 
 
 @dataclass(frozen=True, slots=True)
-class Stroke:
+class PenStroke:
     """Curves drawn with one pen; one that begins where the one before ends is joined to it."""
 
     pen: Pen
@@ -60,7 +60,7 @@ class Stroke:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trace:
+class TracedPolyline:
     """One polyline without a gap, (n, 2) points, n >= 2; the dashes run on along all of it."""
 
     pen: Pen
@@ -73,7 +73,7 @@ class Trace:
 
 
 @dataclass(frozen=True, slots=True)
-class Patch:
+class FilledPolygon:
     """A filled polygon."""
 
     pen: Pen
@@ -81,7 +81,7 @@ class Patch:
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class TextLine:
     """One line of text.
 
     Attributes:
@@ -100,16 +100,16 @@ class Words:
 
 
 @dataclass(frozen=True)
-class Ink:
+class PageContent:
     """What is on a sheet: lines, filled polygons, text, and under them traces, in the order in which they are drawn."""
 
-    strokes: tuple[Stroke, ...] = ()
-    patches: tuple[Patch, ...] = ()
-    words: tuple[Words, ...] = ()
-    traces: tuple[Trace, ...] = ()
+    strokes: tuple[PenStroke, ...] = ()
+    patches: tuple[FilledPolygon, ...] = ()
+    words: tuple[TextLine, ...] = ()
+    traces: tuple[TracedPolyline, ...] = ()
 
-    def __add__(self, other: Ink) -> Ink:
-        return Ink(
+    def __add__(self, other: PageContent) -> PageContent:
+        return PageContent(
             self.strokes + other.strokes,
             self.patches + other.patches,
             self.words + other.words,
@@ -118,7 +118,7 @@ class Ink:
 
 
 @dataclass(frozen=True)
-class Page:
+class PlotPage:
     """One sheet.
 
     Attributes:
@@ -132,8 +132,8 @@ class Page:
     height: float
     window: Box
     place: Similarity
-    drawing: Ink
-    frame: Ink = field(default_factory=Ink)
+    drawing: PageContent
+    frame: PageContent = field(default_factory=PageContent)
 
 
 def fitted(text: str, height: float, room: float) -> str:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterable, Iterator
 
-from .flat import Flat, flat_drawing, flat_frame
-from .page import Page, Pen
+from .flat import FlatPolyline, flat_drawing, flat_frame
+from .page import Pen, PlotPage
 
 _POINTS_PER_MM = 72 / 25.4
 
 
-def pages_pdf(pages: Iterable[Page], title: str) -> bytes:
+def pages_pdf(pages: Iterable[PlotPage], title: str) -> bytes:
     """Return all sheets as PDF 1.4.
 
     Raises:
@@ -50,7 +50,7 @@ def _file(objects: list[bytes]) -> bytes:
     return b"".join(parts)
 
 
-def _content(page: Page) -> Iterator[str]:
+def _content(page: PlotPage) -> Iterator[str]:
     """Yield what draws a page; its unit is made 1 mm."""
     x0, y0, x1, y1 = page.window
     yield f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm 1 J 1 j"
@@ -60,7 +60,7 @@ def _content(page: Page) -> Iterator[str]:
     yield from _lines(flat_frame(page))
 
 
-def _lines(flats: Iterable[Flat]) -> Iterator[str]:
+def _lines(flats: Iterable[FlatPolyline]) -> Iterator[str]:
     at: Pen | None = None
     for flat in flats:
         if flat.pen != at:

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .flat import Flat, dashes, flat_drawing, flat_frame
-from .page import Page
+from .flat import FlatPolyline, dashes, flat_drawing, flat_frame
+from .page import PlotPage
 
 Pixels = NDArray[np.uint8]
 
@@ -21,7 +21,7 @@ _FINE, _SHIFT = 2, 4
 """Times finer that everything is drawn, and binary digits of a pixel that positions keep."""
 
 
-def page_png(page: Page) -> bytes:
+def page_png(page: PlotPage) -> bytes:
     """Return one sheet, 200 dots an inch or as many as 16 million pixels allow; the file tells.
 
     Raises:
@@ -40,7 +40,7 @@ def page_png(page: Page) -> bytes:
     return _with_size(cv2.imencode(".png", small, (cv2.IMWRITE_PNG_COMPRESSION, 9))[1].tobytes(), per_mm)
 
 
-def _draw(image: Pixels, flats: Iterable[Flat], per_mm: float) -> None:
+def _draw(image: Pixels, flats: Iterable[FlatPolyline], per_mm: float) -> None:
     for flat in flats:
         colour = tuple(int(flat.pen.colour[k : k + 2], 16) for k in (5, 3, 1))
         pieces = list(dashes(flat.points, flat.pen.dash)) if flat.pen.dash else [flat.points]

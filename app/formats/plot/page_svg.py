@@ -11,12 +11,12 @@ import numpy as np
 from ...core import tolerances
 from ...geometry.transform import Similarity, transformed
 from ...model.curves import Point
-from .page import Ink, Page, Pen, Words, chains, segments
+from .page import PageContent, Pen, PlotPage, TextLine, chains, segments
 
 _ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 
 
-def page_svg(page: Page, title: str) -> bytes:
+def page_svg(page: PlotPage, title: str) -> bytes:
     """Return one sheet as an SVG file.
 
     Raises:
@@ -40,7 +40,7 @@ def page_svg(page: Page, title: str) -> bytes:
     return "\n".join(parts).encode()
 
 
-def _elements(ink: Ink, place: Similarity, height: float) -> Iterator[str]:
+def _elements(ink: PageContent, place: Similarity, height: float) -> Iterator[str]:
     for trace in ink.traces:
         points = trace.placed(place)
         points[:, 1] = height - points[:, 1]
@@ -70,7 +70,7 @@ def _segment(points: tuple[Point, ...], height: float) -> str:
     return ("C" if len(points) == 3 else "L") + " ".join(_place(point, height) for point in points)
 
 
-def _text(words: Words, place: Similarity, height: float) -> str:
+def _text(words: TextLine, place: Similarity, height: float) -> str:
     at = place(words.at)
     foot = (at[0] - words.lift * math.sin(words.angle), at[1] + words.lift * math.cos(words.angle))
     turn = f' transform="rotate({_n(-math.degrees(words.angle))} {_place(foot, height)})"' if words.angle else ""

@@ -21,7 +21,7 @@ LEFT, UNREACHABLE, PLUNGE = "#2979FF", "#B0A8C8", "#D55E00"
 
 
 @dataclass(frozen=True)
-class PathStyle:
+class PicturePathStyle:
     """How a kind of path is drawn: colour, width in pixels, dash and gap in pixels (none: solid)."""
 
     name: str
@@ -30,15 +30,15 @@ class PathStyle:
     dash: tuple[float, ...] = ()
 
 
-PART = PathStyle("Part", INK, 1.6)
-RAPID = PathStyle("Rapid", "#8A8F98", 1.0, (1.5, 4.5))
-LINK = PathStyle("Link", "#66C5AB", 1.0)
-POCKET = PathStyle("Pocket", "#009E73", 1.6)
-CONTOUR = PathStyle("Contour", "#E69F00", 1.8, (9.0, 5.0))
+PART = PicturePathStyle("Part", INK, 1.6)
+RAPID = PicturePathStyle("Rapid", "#8A8F98", 1.0, (1.5, 4.5))
+LINK = PicturePathStyle("Link", "#66C5AB", 1.0)
+POCKET = PicturePathStyle("Pocket", "#009E73", 1.6)
+CONTOUR = PicturePathStyle("Contour", "#E69F00", 1.8, (9.0, 5.0))
 
 
 @dataclass(frozen=True)
-class Picture:
+class PathPicture:
     """What is drawn, in part coordinates, mm, y up.
 
     Attributes:
@@ -51,18 +51,18 @@ class Picture:
 
     title: str
     contours: tuple[Rows, ...]
-    paths: tuple[tuple[PathStyle, Rows], ...]
+    paths: tuple[tuple[PicturePathStyle, Rows], ...]
     plunges: Points
     left: tuple[Points, ...] = ()
     unreachable: tuple[Points, ...] = ()
 
-    def styles(self) -> tuple[PathStyle, ...]:
+    def styles(self) -> tuple[PicturePathStyle, ...]:
         """Return the styles that occur, the part first."""
         return (PART, *dict.fromkeys(style for style, _ in self.paths))
 
 
 @dataclass(frozen=True)
-class Layout:
+class PictureLayout:
     """Where part coordinates come to lie: pixel = (left + scale x, top - scale y)."""
 
     scale: float
@@ -75,7 +75,7 @@ class Layout:
         return np.stack([self.left + self.scale * points[:, 0], self.top - self.scale * points[:, 1]], axis=1)
 
 
-def layout(picture: Picture) -> Layout:
+def layout(picture: PathPicture) -> PictureLayout:
     """Return the layout that shows everything, as large as the width allows, no higher than 1.5 times as wide."""
     around = [boxes(rows) for rows in (*picture.contours, *(rows for _, rows in picture.paths)) if len(rows)]
     box = np.concatenate(around) if around else np.array([[0.0, 0.0, 1.0, 1.0]])
@@ -84,12 +84,14 @@ def layout(picture: Picture) -> Layout:
     scale = float(min(room / max(x1 - x0, 1e-6), 1.5 * WIDTH / max(y1 - y0, 1e-6)))
     height = max(round(scale * (y1 - y0)) + 2 * MARGIN, 320)
     across = MARGIN + (room - scale * (x1 - x0)) / 2
-    return Layout(scale, float(across - scale * x0), float(MARGIN + scale * y1), height)
+    return PictureLayout(scale, float(across - scale * x0), float(MARGIN + scale * y1), height)
 
 
-def legend_rows(picture: Picture) -> list[tuple[str, str, PathStyle | None]]:
+def legend_rows(picture: PathPicture) -> list[tuple[str, str, PicturePathStyle | None]]:
     """Return (label, colour, line style or None for a patch) of each entry of the legend."""
-    rows: list[tuple[str, str, PathStyle | None]] = [(style.name, style.colour, style) for style in picture.styles()]
+    rows: list[tuple[str, str, PicturePathStyle | None]] = [
+        (style.name, style.colour, style) for style in picture.styles()
+    ]
     rows += [("Plunge", PLUNGE, None)] if len(picture.plunges) else []
     rows += [("Left, within reach", LEFT, None)] if picture.left else []
     rows += [("Out of reach", UNREACHABLE, None)] if picture.unreachable else []

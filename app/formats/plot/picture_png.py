@@ -22,9 +22,9 @@ from .picture import (
     PLUNGE,
     UNREACHABLE,
     WIDTH,
-    Layout,
-    PathStyle,
-    Picture,
+    PathPicture,
+    PictureLayout,
+    PicturePathStyle,
     Points,
     layout,
     legend_rows,
@@ -42,10 +42,10 @@ _CHORD = 0.2
 """Pixels by which an arc's chords may leave it."""
 
 
-def png(picture: Picture) -> bytes:
+def png(picture: PathPicture) -> bytes:
     """Return the picture as PNG bytes, WIDTH pixels wide."""
     place = layout(picture)
-    fine = Layout(place.scale * _FINE, place.left * _FINE, place.top * _FINE, place.height * _FINE)
+    fine = PictureLayout(place.scale * _FINE, place.left * _FINE, place.top * _FINE, place.height * _FINE)
     image = np.full((fine.height, WIDTH * _FINE, 3), _bgr(PAPER), np.uint8)
     _fill(image, [_points(rows, fine) for rows in picture.contours], AREA)
     _fill(image, [fine.pixels(outline) for outline in picture.unreachable], UNREACHABLE)
@@ -65,7 +65,7 @@ def _bgr(colour: str) -> tuple[int, int, int]:
     return int(colour[5:7], 16), int(colour[3:5], 16), int(colour[1:3], 16)
 
 
-def _points(rows: Rows, place: Layout) -> Points:
+def _points(rows: Rows, place: PictureLayout) -> Points:
     """Return the pixel positions along connected rows, the last end included."""
     if not len(rows):
         return np.zeros((0, 2))
@@ -82,7 +82,7 @@ def _fill(image: Pixels, rings: Sequence[Points], colour: str) -> None:
         cv2.fillPoly(image, [_fixed(ring) for ring in rings if len(ring) > 2], _bgr(colour), cv2.LINE_AA, _SHIFT)
 
 
-def _draw(image: Pixels, points: Points, style: PathStyle) -> None:
+def _draw(image: Pixels, points: Points, style: PicturePathStyle) -> None:
     """Draw a path in its style."""
     pieces = [points] if not style.dash else list(dashes(points, [length * _FINE for length in style.dash]))
     width = max(1, round(style.width * _FINE))
@@ -97,7 +97,7 @@ def _draw(image: Pixels, points: Points, style: PathStyle) -> None:
     )
 
 
-def _legend(image: Pixels, picture: Picture) -> None:
+def _legend(image: Pixels, picture: PathPicture) -> None:
     x, y = (WIDTH - LEGEND) * _FINE, (MARGIN + 14) * _FINE
     _text(image, picture.title, (x, y), INK)
     for number, (label, colour, style) in enumerate(legend_rows(picture), 1):

@@ -20,13 +20,13 @@ from .picture import (
     PLUNGE,
     UNREACHABLE,
     WIDTH,
-    Picture,
+    PathPicture,
     layout,
     legend_rows,
 )
 
 
-def svg(picture: Picture) -> str:
+def svg(picture: PathPicture) -> str:
     """Return the picture as SVG text: true arcs, in part coordinates under one transform that turns y up."""
     place = layout(picture)
     pixel = 1 / place.scale
@@ -45,7 +45,7 @@ def svg(picture: Picture) -> str:
     )
 
 
-def _areas(picture: Picture) -> Iterator[str]:
+def _areas(picture: PathPicture) -> Iterator[str]:
     """Yield the machined area and what is left of it."""
     shape = "".join(path_data(rows) + "Z" for rows in picture.contours if _closed(rows))
     yield f'<path id="area" d="{shape}" fill="{AREA}" fill-rule="evenodd"/>'
@@ -59,7 +59,7 @@ def _closed(rows: Rows) -> bool:
     return len(rows) > 0 and bool(np.all(rows[0, :2] == rows[-1, 2:4]))
 
 
-def _strokes(picture: Picture, pixel: float) -> Iterator[str]:
+def _strokes(picture: PathPicture, pixel: float) -> Iterator[str]:
     """Yield one path element a style."""
     for style in (*picture.styles()[1:], PART):
         pieces = picture.contours if style is PART else [rows for each, rows in picture.paths if each is style]
@@ -72,7 +72,7 @@ def _strokes(picture: Picture, pixel: float) -> Iterator[str]:
         )
 
 
-def _plunges(picture: Picture, pixel: float) -> Iterator[str]:
+def _plunges(picture: PathPicture, pixel: float) -> Iterator[str]:
     for x, y in picture.plunges:
         yield (
             f'<circle cx="{_n(x)}" cy="{_n(y)}" r="{_n(4 * pixel)}" stroke="{PLUNGE}" '
@@ -98,7 +98,7 @@ def path_data(rows: Rows) -> str:
     return "".join(parts)
 
 
-def _legend(picture: Picture) -> str:
+def _legend(picture: PathPicture) -> str:
     x, y = WIDTH - LEGEND, MARGIN + 14
     font = 'font-family="system-ui, sans-serif"'
     lines = [

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .picture import Picture
+from .picture import PathPicture
 from .picture_svg import svg
 
 
-def plot(picture: Picture, suffix: str) -> bytes:
+def plot(picture: PathPicture, suffix: str) -> bytes:
     """Return the picture as a file's bytes; `suffix` is .svg or .png."""
     if suffix == ".svg":
         return svg(picture).encode()

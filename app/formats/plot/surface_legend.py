@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...model.curves import Circle
-from .page import Box, Ink, Pen, Stroke, Trace, Words, fitted
+from .page import Box, PageContent, Pen, PenStroke, TextLine, TracedPolyline, fitted
 
 _COLUMNS, _ROW, _EDGE, _SAMPLE, _TEXT = 3, 5.2, 2.0, 15.0, 2.5
 
@@ -28,21 +28,23 @@ def legend_height(count: int) -> float:
     return 2 * _EDGE + _ROW * math.ceil(count / _COLUMNS)
 
 
-def legend_ink(entries: Sequence[LegendEntry], box: Box) -> Ink:
+def legend_ink(entries: Sequence[LegendEntry], box: Box) -> PageContent:
     """Return a legend in a place x0, y0, x1, y1 of the paper, row by row."""
     x0, _, x1, y1 = box
     wide = (x1 - x0) / _COLUMNS
-    made = Ink()
+    made = PageContent()
     for number, entry in enumerate(entries):
         x, y = x0 + wide * (number % _COLUMNS) + _EDGE, y1 - _EDGE - _ROW * (number // _COLUMNS + 0.5)
         indent = 0.0
         if entry.pen is not None and entry.radius:
-            made += Ink((Stroke(entry.pen, (Circle((x + _SAMPLE / 2, y), entry.radius),)),))
+            made += PageContent((PenStroke(entry.pen, (Circle((x + _SAMPLE / 2, y), entry.radius),)),))
         elif entry.pen is not None:
-            made += Ink(traces=(Trace(entry.pen, np.array([[x, y], [x + _SAMPLE, y]])),))
+            made += PageContent(traces=(TracedPolyline(entry.pen, np.array([[x, y], [x + _SAMPLE, y]])),))
         if entry.pen is not None:
             indent = _SAMPLE + _EDGE
-        made += Ink(
-            words=(Words(fitted(entry.text, _TEXT, wide - indent - 2 * _EDGE), (x + indent, y - 0.36 * _TEXT), _TEXT),)
+        made += PageContent(
+            words=(
+                TextLine(fitted(entry.text, _TEXT, wide - indent - 2 * _EDGE), (x + indent, y - 0.36 * _TEXT), _TEXT),
+            )
         )
     return made

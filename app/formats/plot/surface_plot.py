@@ -17,7 +17,7 @@ from ...model.curves import Circle
 from ...model.part import Units
 from ...model.scene import LineType
 from .content import INK, TOOL_COLOURS
-from .page import Box, Ink, Pen, Stroke, Trace, Words
+from .page import Box, PageContent, Pen, PenStroke, TextLine, TracedPolyline
 from .surface_labels import free_places
 from .surface_legend import LegendEntry, legend_height, legend_ink
 
@@ -154,23 +154,23 @@ class BySurface:
         (x0, y0), (x1, y1) = every.min(axis=0).tolist(), every.max(axis=0).tolist()
         return (x0, y0, x1, y1)
 
-    def ink(self, scale: float) -> Ink:
+    def ink(self, scale: float) -> PageContent:
         """Return the ink, in mm, for paper on which it is `scale` times as large."""
         pieces, marks = self._seen
         traces = tuple(
-            Trace(self.pen(self._kind(piece), piece.fine), points)
+            TracedPolyline(self.pen(self._kind(piece), piece.fine), points)
             for piece, points in zip(self.pieces, pieces, strict=True)
         )
         circles = tuple(Circle((x, y), MARK_MM / scale) for x, y in marks.tolist())
-        words: list[Words] = []
+        words: list[TextLine] = []
         if self.labels:
             places = free_places([points * scale for points in pieces], marks * scale, self.labels, LABEL_MM)
             words = [
-                Words(text, (at[0] / scale, at[1] / scale), LABEL_MM, pen=_MARK)
+                TextLine(text, (at[0] / scale, at[1] / scale), LABEL_MM, pen=_MARK)
                 for text, at in zip(self.labels, places, strict=True)
                 if at is not None
             ]
-        return Ink((Stroke(_MARK, circles),) if circles else (), (), tuple(words), traces)
+        return PageContent((PenStroke(_MARK, circles),) if circles else (), (), tuple(words), traces)
 
     @cached_property
     def _entries(self) -> list[LegendEntry]:
@@ -187,7 +187,7 @@ class BySurface:
         """Height of the legend, mm on paper."""
         return legend_height(len(self._entries)) if self.with_legend else 0.0
 
-    def legend(self, box: Box) -> Ink:
+    def legend(self, box: Box) -> PageContent:
         """Return the legend for that place on the paper: a sample of each line and its surface, boundary points,
         passes.
         """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...model.job import Job
-from ...model.reading import Reading
+from ...model.reading import ReadingOptions
 from ..drawing import Drawing
 from ..registry import DrawingFormat
 
@@ -11,7 +11,7 @@ SUFFIXES = (".hito", ".hito~")
 """A project, and the backup of one."""
 
 
-def _read(name: str, data: bytes, reading: Reading) -> Drawing:
+def _read(name: str, data: bytes, reading: ReadingOptions) -> Drawing:
     from .project import project_drawing
 
     return project_drawing(data, name, reading.units, reading.layers)

@@ -16,7 +16,7 @@ from typing import TypeVar
 
 from ...core.errors import InputError
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
-from ...model.notes import Dimension, Guide, Mark, Measure, Note, Shape
+from ...model.notes import Dimension, DimensionKind, Guide, Mark, Note, Shape
 from ...model.part import Entity
 
 MOST_THINGS = 500_000
@@ -247,10 +247,11 @@ def _spline(words: list[str]) -> Spline:
 
 
 def _dimension(words: list[str]) -> Dimension:
-    measure = Measure(words[0])
+    measure = DimensionKind(words[0])
     points = tuple(map(_xy, words[1:-2]))
     _expect(
-        words[-2] == "place" and len(points) == (3 if measure is Measure.ANGLE else 2), "points or place are missing"
+        words[-2] == "place" and len(points) == (3 if measure is DimensionKind.ANGLE else 2),
+        "points or place are missing",
     )
     return Dimension(measure, points, _xy(words[-1]))
 

@@ -15,10 +15,10 @@ from typing import Any
 from ...core.errors import InputError
 from ...core.toml_tables import brief, parsed, shown, spelled
 from ...drafting.expressions.grammar import read_script
-from ...drafting.expressions.syntax import Define
+from ...drafting.expressions.syntax import CommandDefinition
 from ...drafting.expressions.values import Curves, Length, Value
-from ...drafting.history import State
-from ...drafting.recorded import Recorded
+from ...drafting.history import HistoryState
+from ...drafting.recorded_lines import RecordedLine
 from ...model.curves import Point
 from ...model.notes import Note
 from ...model.part import Entity, Layer, Part, Units
@@ -37,8 +37,8 @@ from ..job.tables import (
 )
 from ..job.toml import TABLES, UNITS, read_kept_job, with_line
 from ..job.write import empty_lists, job_lines, word_of
-from .beside import NOTHING_BESIDE, Beside, beside_lines, read_beside
 from .curves import MOST_THINGS, curve_lines, note_lines, read_curves, read_notes
+from .extras import NOTHING_BESIDE, ProjectExtras, beside_lines, read_beside
 from .source import read_source, source_lines
 
 SUFFIX = ".hito"
@@ -71,7 +71,7 @@ _REMEDY = "mend the file, or open its backup, the file of the same name with ~ b
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class SavedView:
     """How a drawing was looked at.
 
     Attributes:
@@ -88,9 +88,9 @@ class Look:
 class Project:
     """What a project file holds."""
 
-    state: State
-    look: Look = Look()
-    beside: Beside = NOTHING_BESIDE
+    state: HistoryState
+    look: SavedView = SavedView()
+    beside: ProjectExtras = NOTHING_BESIDE
 
     def from_folder(self, folder: Path) -> Project:
         """Return it with the paths of other files as they are seen from elsewhere, where they are told from this
@@ -135,7 +135,9 @@ def read_project(name: str, data: bytes) -> Project:
     source = read_source(lines, _table(tree, lines, "source"))
     part = part if source is None else replace(part, reading=source.reading.how)
     return Project(
-        State(replace(job, part=part), layer, last, names, commands, Recorded(part), source), _look(tree, lines), beside
+        HistoryState(replace(job, part=part), layer, last, names, commands, RecordedLine(part), source),
+        _look(tree, lines),
+        beside,
     )
 
 
@@ -292,18 +294,22 @@ def _numbers(text: str) -> Iterator[int]:
         yield from range(int(first), int(last or first) + 1)
 
 
-def _command(file: str, name: str, value: Any) -> Define:
+def _command(file: str, name: str, value: Any) -> CommandDefinition:
     """Return the command of the user's own that lines define."""
     try:
         statements = read_script("\n".join(read_texts(value)))
     except InputError as error:
         raise InputError(f"{file}: {name} in [commands] cannot be read: {error} {_REMEDY}.") from error
-    if len(statements) != 1 or not isinstance(statements[0], Define) or statements[0].name.text.lower() != name:
+    if (
+        len(statements) != 1
+        or not isinstance(statements[0], CommandDefinition)
+        or statements[0].name.text.lower() != name
+    ):
         raise InputError(f"{file}: {name} in [commands] is not one define of that name; {_REMEDY}.")
     return statements[0]
 
 
-def _look(tree: dict[str, Any], lines: JobText) -> Look:
+def _look(tree: dict[str, Any], lines: JobText) -> SavedView:
     table = JobTable(lines, "view", 0, dict(_table(tree, lines, "view")))
     table.take("shown", read_text)
     table.take("centre", lambda value: read_points([value])[0])
@@ -311,7 +317,7 @@ def _look(tree: dict[str, Any], lines: JobText) -> Look:
     table.done("shown, centre, scale")
     if not 1e-9 < table.taken.get("scale", 1.0) < 1e9:
         raise table.error("scale", "is out of range; it is px per mm")
-    return Look(**table.taken)
+    return SavedView(**table.taken)
 
 
 def _lines(project: Project) -> Iterator[str]:
@@ -347,13 +353,13 @@ def _lines(project: Project) -> Iterator[str]:
         yield from ("", f"[{title}]", "lines = '''", *things, "'''")
 
 
-def _look_lines(look: Look) -> Iterator[str]:
+def _look_lines(look: SavedView) -> Iterator[str]:
     yield from ("", "[view]", f"shown = {spelled(look.shown)}", f"scale = {spelled(look.scale)}")
     if look.centre is not None:
         yield f"centre = {spelled(look.centre)}"
 
 
-def _name_lines(state: State) -> Iterator[str]:
+def _name_lines(state: HistoryState) -> Iterator[str]:
     if state.names:
         yield from ("", "[names]")
     for name, value in state.names.items():

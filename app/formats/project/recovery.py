@@ -63,7 +63,7 @@ def _lock(handle: int) -> None:
 
 
 @dataclass(frozen=True)
-class Edited:
+class EditedFile:
     """The file that was being edited.
 
     Attributes:
@@ -93,7 +93,7 @@ class RecoveryFile:
         except OSError as error:
             raise InputError(f"No recovery files can be kept in {folder}: {error.strerror}.") from error
 
-    def keep(self, project: Project, edited: Edited) -> None:
+    def keep(self, project: Project, edited: EditedFile) -> None:
         """Write what is drawn.
 
         Raises:
@@ -113,7 +113,7 @@ class RecoveryFile:
         self._lock.let_go()
 
 
-class Recovered:
+class RecoveredWork:
     """What a window that has crashed has left.
 
     Attributes:
@@ -125,14 +125,14 @@ class Recovered:
         self.path, self._lock = path, lock
         self.when = path.stat().st_mtime
 
-    def edited(self) -> Edited:
+    def edited(self) -> EditedFile:
         """Return which file was being edited; none where the first line does not tell."""
         with suppress(OSError, ValueError, TypeError):
             with self.path.open(encoding="utf-8") as file:
                 first = file.readline(10_000)
             path, stamp = json.loads(first.removeprefix(_NOTE))
-            return Edited(Path(path) if path else None, (stamp[0], stamp[1], stamp[2]) if stamp else None)
-        return Edited()
+            return EditedFile(Path(path) if path else None, (stamp[0], stamp[1], stamp[2]) if stamp else None)
+        return EditedFile()
 
     def load(self) -> Project:
         """Return what was drawn.
@@ -164,12 +164,12 @@ class Recovered:
         self._lock.let_go()
 
 
-def recoveries() -> tuple[Recovered, ...]:
+def recoveries() -> tuple[RecoveredWork, ...]:
     """Return what windows that are no longer there have left, the latest first; nobody else offers it meanwhile."""
     return tuple(sorted(_recoveries(), key=lambda each: each.when, reverse=True))
 
 
-def _recoveries() -> Iterator[Recovered]:
+def _recoveries() -> Iterator[RecoveredWork]:
     with suppress(OSError):
         for name in sorted({path.stem for path in state_folder().iterdir() if path.suffix in (".hito", ".lock")}):
             path = state_folder() / f"{name}.hito"
@@ -177,6 +177,6 @@ def _recoveries() -> Iterator[Recovered]:
             if not lock.take():
                 continue
             if path.is_file():
-                yield Recovered(path, lock)
+                yield RecoveredWork(path, lock)
             else:
                 lock.let_go()

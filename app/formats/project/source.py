@@ -9,7 +9,7 @@ from ...core.errors import InputError
 from ...core.toml_tables import spelled
 from ...model.part import Part
 from ...model.read_options import AS_DRAWN, DrawingOptions
-from ...model.reading import Reading, Source
+from ...model.reading import DrawingSource, ReadingOptions
 from ..job.tables import JobTable, JobText, read_flag, read_number, read_text, read_texts, word
 from ..job.toml import UNITS
 from ..job.write import word_of
@@ -25,7 +25,7 @@ _HOW = {
 _KEYS = ("path", "units", "layers", *_HOW)
 
 
-def source_lines(source: Source | None, part: Part) -> Iterator[str]:
+def source_lines(source: DrawingSource | None, part: Part) -> Iterator[str]:
     """Yield the table of a project file: what is as the drawing's file has it is not said.
 
     Args:
@@ -47,7 +47,7 @@ def source_lines(source: Source | None, part: Part) -> Iterator[str]:
             yield f"{key} = {spelled(value)}"
 
 
-def read_source(lines: JobText, values: dict[str, Any]) -> Source | None:
+def read_source(lines: JobText, values: dict[str, Any]) -> DrawingSource | None:
     """Return what `source_lines` has written.
 
     Args:
@@ -70,4 +70,4 @@ def read_source(lines: JobText, values: dict[str, Any]) -> Source | None:
     if not taken.get("path"):
         raise InputError(f"{lines.name}:{lines.line('source', 0, '')}: [source] names no drawing; give its path.")
     how = lines.built("source", 0, lambda: DrawingOptions(**{key: taken[key] for key in _HOW if key in taken}))
-    return Source(taken["path"], Reading(taken.get("units"), taken.get("layers", ()), how))
+    return DrawingSource(taken["path"], ReadingOptions(taken.get("units"), taken.get("layers", ()), how))

@@ -15,7 +15,7 @@ from ...core.toml_tables import spelled, tables_of, write_tables
 from ...model.job import Job, OriginZ
 from ...model.part import Part
 from ...model.scene import Passes, Scene, SceneStock, Surface
-from ...model.scene_curves import Sources
+from ...model.scene_curves import SceneFiles
 from ..job.tables import JobText
 from ..job.toml import ORIGIN_XY, ORIGIN_Z, OUT_UNITS, job_tree, read_job_tables
 from ..job.write import tool_lines, word_of
@@ -62,13 +62,13 @@ class _Tables:
     passes: tuple[Passes, ...] = ()
 
 
-def sources_of(data: Callable[[str], bytes]) -> Sources:
+def sources_of(data: Callable[[str], bytes]) -> SceneFiles:
     """Return what builds a scene's surfaces reads files by; `data` returns the bytes of a file that a scene names."""
 
     def part(name: str) -> Part:
         return read_drawing(name, data(name)).part
 
-    return Sources(data, part)
+    return SceneFiles(data, part)
 
 
 def read_scene(name: str, data: bytes) -> Scene:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from ...model.part import Part
-from ...model.reading import Reading
-from ..drawing import Drawing, Written
-from ..registry import DrawingFormat, Writer
+from ...model.reading import ReadingOptions
+from ..drawing import Drawing, WrittenDrawing
+from ..registry import DrawingFormat, FormatWriter
 
 
-def _read(name: str, data: bytes, reading: Reading) -> Drawing:
+def _read(name: str, data: bytes, reading: ReadingOptions) -> Drawing:
     from .svg import read_svg
 
     return read_svg(data, name, reading.units, reading.layers, reading.how)
 
 
-def _write(part: Part) -> Written:
+def _write(part: Part) -> WrittenDrawing:
     from .write import svg_bytes
 
     return svg_bytes(part)
@@ -26,5 +26,5 @@ SVG = DrawingFormat(
     takes=frozenset({"to_zero", "pixels_per_inch"}),
     foreign=True,
     scaled_page=True,
-    writers=(Writer(".svg", "SVG", _write),),
+    writers=(FormatWriter(".svg", "SVG", _write),),
 )

@@ -42,10 +42,10 @@ def density_of(root: Node) -> PixelDensity:
     """
     if "Adobe Illustrator" in root.comments:
         return PixelDensity(_ILLUSTRATOR, "Adobe Illustrator")
-    told = root.attributes.get(f"{INKSCAPE} version")
-    found = _VERSION.match(told or "")
+    version = root.attributes.get(f"{INKSCAPE} version")
+    found = _VERSION.match(version or "")
     if found and (int(found[1]), int(found[2])) < (0, 92):
         return PixelDensity(_OLD_INKSCAPE, f"Inkscape {found[1]}.{found[2]}")
-    if told is None and f"{SODIPODI} version" in root.attributes:
+    if version is None and f"{SODIPODI} version" in root.attributes:
         return PixelDensity(_OLD_INKSCAPE, "Sodipodi")
     return PixelDensity()

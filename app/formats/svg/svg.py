@@ -12,27 +12,27 @@ from ...geometry.affine import Affine
 from ...model.finding import Finding, FindingKind
 from ...model.part import Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
-from ...model.reading import Reading
+from ...model.reading import ReadingOptions
 from ..drawing import Drawing
 from ..drawing_account import (
     MOVE,
-    Taken,
-    about_place,
+    UsableCurves,
     all_left_out,
     listed,
     on_layers,
     other_units,
+    placement_findings,
     remark,
     size_of,
     strays_or_none,
     switched_off,
-    taken,
+    usable_curves,
     without_length,
 )
-from ..reading_question import Contents, Question, Size, UndecidedError, about_far, about_pixels
+from ..reading_question import FileContents, ReadingQuestion, Size, UndecidedError, far_question, pixels_question
 from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .numbers import MM, UnreadableError, ViewBox, WrittenLength, fitted, length, numbers, view_box
-from .walk import SvgSheet, SvgWalker
+from .walk import SvgContent, SvgWalker
 from .xml import Node, read_xml
 
 HITOFUDE = "urn:hitofude:svg"
@@ -84,13 +84,13 @@ def read_svg(
     """
     opened = _opened(name, data, units, how)
     root, density, page = opened.root, opened.density, opened.page
-    sheet, reading = SvgWalker(root, name).sheet(page.to, page.view), Reading(units, layers, how)
+    content, reading = SvgWalker(root, name).content(page.to, page.view), ReadingOptions(units, layers, how)
 
-    def placed(to_zero: bool) -> Taken:
-        return taken(sheet.curves, None, _anchors(sheet, layers, how.without_layers) if to_zero else None)
+    def placed(to_zero: bool) -> UsableCurves:
+        return usable_curves(content.curves, None, _anchors(content, layers, how.without_layers) if to_zero else None)
 
     found = placed(how.to_zero)
-    left_out = sheet.left_out + found.missing
+    left_out = content.left_out + found.missing
     if not found.entities:
         why = (
             "all of the drawing lies beyond 1 km"
@@ -100,9 +100,9 @@ def read_svg(
         far = bool(found.far and not how.to_zero)
         raise UndecidedError(
             f"{name}: {why}{f'; {MOVE}' * far}{listed(left_out, '; left out: ')}.",
-            about_far(found.far[0][0], reading, page.shown) if far else None,
+            far_question(found.far[0][0], reading, page.shown) if far else None,
         )
-    shown = tuple(note.layer(layer) for layer, note in sheet.layers.items())
+    shown = tuple(note.layer(layer) for layer, note in content.layers.items())
     part = Part(name=PurePath(name).stem, units=page.shown, layers=shown or (Layer(),)).with_entities(found.entities)
     assumed = not page.named and units is None  # told, so that whoever reads the drawing again takes the same
     part = replace(
@@ -110,15 +110,15 @@ def read_svg(
     )
     findings = [
         *_units(units, page, density, how),
-        *about_place(found),
-        *_faults(sheet),
-        *without_length(sheet.nothing + found.nothing),
-        *_clipped(sheet),
+        *placement_findings(found),
+        *_faults(content),
+        *without_length(content.nothing + found.nothing),
+        *_clipped(content),
         *switched_off(part, layers),
-        *all_left_out(sheet.left_out),
+        *all_left_out(content.left_out),
     ]
     own = density_of(root)
-    contents = Contents(
+    contents = FileContents(
         tuple(layer.name for layer in shown),
         units=page.shown if page.named else None,
         per_inch=None if page.named else own.per_inch,
@@ -131,7 +131,7 @@ def read_svg(
 
 
 @dataclass(frozen=True)
-class _Opened:
+class _OpenedFile:
     """A file whose page is known, and how many of its units it takes for an inch where it names no size."""
 
     root: Node
@@ -139,7 +139,7 @@ class _Opened:
     page: _Page
 
 
-def _opened(name: str, data: bytes, units: Units | None, how: DrawingOptions) -> _Opened:
+def _opened(name: str, data: bytes, units: Units | None, how: DrawingOptions) -> _OpenedFile:
     root = read_xml(data, name)
     if root.tag != "svg":
         raise InputError(
@@ -155,25 +155,27 @@ def _opened(name: str, data: bytes, units: Units | None, how: DrawingOptions) ->
             f"{name}:{root.line}: the page's width, height or viewBox, {error.args[0][:60]!r}, cannot be read; "
             "give it a size above 0 and save it again."
         ) from None
-    return _Opened(root, density, page)
+    return _OpenedFile(root, density, page)
 
 
-def _about_pixels(root: Node, density: PixelDensity, size: Size, to: Affine, reading: Reading) -> Question:
+def _about_pixels(
+    root: Node, density: PixelDensity, size: Size, to: Affine, reading: ReadingOptions
+) -> ReadingQuestion:
     """Ask how large the page's units are; `size` is the drawing's now, mm, and `to` the map by which it has it."""
     wide, high = size
 
-    def size_in(other: Reading) -> Size:
+    def size_in(other: ReadingOptions) -> Size:
         per_inch = other.how.pixels_per_inch
         made = _page(root, other.units, PixelDensity(per_inch).pixel if per_inch else density.pixel).to
         return wide * made.xx / to.xx, high * made.yy / to.yy
 
-    return about_pixels((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
+    return pixels_question((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
 
 
-def _anchors(sheet: SvgSheet, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
+def _anchors(content: SvgContent, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
     """Return what tells whether a layer is machined, and so counts for where the drawing lies."""
     wanted, gone = ({layer.casefold() for layer in names} for names in (layers, without))
-    hidden = {layer for layer, note in sheet.layers.items() if not note.visible}
+    hidden = {layer for layer, note in content.layers.items() if not note.visible}
     return lambda layer: (
         layer.casefold() not in gone and (layer.casefold() in wanted if wanted else layer not in hidden)
     )
@@ -259,22 +261,22 @@ def _units(given: Units | None, page: _Page, density: PixelDensity, how: Drawing
         yield Finding(FindingKind.UNITS_ASSUMED, text, counts=False)
 
 
-def _faults(sheet: SvgSheet) -> Iterator[Finding]:
-    if sheet.faults:
-        what = "1 shape has" if len(sheet.faults) == 1 else f"{len(sheet.faults)} shapes have"
-        first = next((fault for fault in sheet.faults if fault.what), sheet.faults[0])
+def _faults(content: SvgContent) -> Iterator[Finding]:
+    if content.faults:
+        what = "1 shape has" if len(content.faults) == 1 else f"{len(content.faults)} shapes have"
+        first = next((fault for fault in content.faults if fault.what), content.faults[0])
         why = f" ({first.what})" if first.what else ""
         text = (
             f"{what} data that cannot be read to the end, the first in line {first.line}{why}; what stands before is "
             "drawn. Check it."
         )
-        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(sheet.faults)))
+        yield Finding(FindingKind.LEFT_OUT, text, amount=float(len(content.faults)))
 
 
-def _clipped(sheet: SvgSheet) -> Iterator[Finding]:
-    if sheet.clipped:
+def _clipped(content: SvgContent) -> Iterator[Finding]:
+    if content.clipped:
         yield remark(
-            f"{sheet.clipped} {'curve is' if sheet.clipped == 1 else 'curves are'} clipped or masked in the drawing; "
-            "all of it is read.",
-            float(sheet.clipped),
+            f"{content.clipped} {'curve is' if content.clipped == 1 else 'curves are'} clipped or masked in the "
+            "drawing; all of it is read.",
+            float(content.clipped),
         )

@@ -56,7 +56,7 @@ class SvgFault:
 
 
 @dataclass
-class SvgSheet:
+class SvgContent:
     """What an SVG draws.
 
     Attributes:
@@ -101,7 +101,7 @@ class SvgWalker:
 
     def __init__(self, root: Node, name: str) -> None:
         self._root, self._name = root, name
-        self._sheet = SvgSheet()
+        self._sheet = SvgContent()
         self._styles = StyleSheet(root)
         self._ids: dict[str, Node] = {}
         self._named_layers = False
@@ -110,7 +110,7 @@ class SvgWalker:
             self._named_layers |= _is_layer(node)
         self._open: list[int] = []
 
-    def sheet(self, to: Affine, view: View) -> SvgSheet:
+    def content(self, to: Affine, view: View) -> SvgContent:
         """Return what the file draws.
 
         Args:
@@ -241,9 +241,9 @@ class SvgWalker:
             self._refuse(node, f"the length {error.args[0][:60]!r} cannot be read; write it in mm, px or user units")
 
     def _draw(self, node: Node, state: InheritedState) -> None:
-        sheet, style = self._sheet, state.style
+        content, style = self._sheet, state.style
         if not (style.shown and style.visible and style.draws):
-            sheet.left_out[
+            content.left_out[
                 f"{node.tag} ({'without stroke and fill' if style.shown and style.visible else 'invisible'})"
             ] += 1
             return
@@ -253,10 +253,10 @@ class SvgWalker:
                 drawn.runs = [_area(run) for run in drawn.runs]
             curves = self._placed(node, drawn, state.to) if drawn is not None else []
         except (ValueError, ArithmeticError):  # numbers that are none, or beyond all measure
-            sheet.left_out[f"{node.tag} (damaged)"] += 1
+            content.left_out[f"{node.tag} (damaged)"] += 1
             return
         if drawn is not None and drawn.fault is not None:
-            sheet.faults.append(SvgFault(node.line, drawn.why))
+            content.faults.append(SvgFault(node.line, drawn.why))
         for curve in curves:
             if isinstance(curve, Spline) and len(curve.control_points) > MOST_POINTS:
                 self._refuse(
@@ -265,11 +265,11 @@ class SvgWalker:
         if not curves:
             return
         layer = state.layer or "0"
-        note = sheet.layers.setdefault(layer, LayerNote())
+        note = content.layers.setdefault(layer, LayerNote())
         note.inks |= {style.ink or BLACK} if style.stroke != "none" else set()
-        sheet.clipped += style.clipped
-        sheet.curves += [(curve, layer) for curve in curves]
-        if len(sheet.curves) > MOST_CURVES:
+        content.clipped += style.clipped
+        content.curves += [(curve, layer) for curve in curves]
+        if len(content.curves) > MOST_CURVES:
             self._refuse(node, _TOO_MUCH)
 
     def _placed(self, node: Node, drawn: SvgPath, to: Affine) -> list[Curve]:

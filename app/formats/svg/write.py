@@ -13,8 +13,8 @@ from ...core import tolerances
 from ...geometry.arcs.bezier import pieces_of
 from ...model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from ...model.part import Entity, Layer, Part
-from ..drawing import Written
-from ..drawing_written import Conversions, box_round
+from ..drawing import WrittenDrawing
+from ..drawing_conversions import Conversions, box_round
 from .generator import INKSCAPE, SODIPODI
 from .joined import joined
 from .svg import HITOFUDE
@@ -36,7 +36,7 @@ _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 """What XML cannot hold in any form."""
 
 
-def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> Written:
+def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> WrittenDrawing:
     """Return the part as SVG.
 
     Lines, circles, arcs, ellipses and polynomial splines up to degree 3 are kept to the last digit; other splines
@@ -64,7 +64,9 @@ def svg_bytes(part: Part, tolerance: float = tolerances.CURVE) -> Written:
             f"    {element}" for element in _elements((e for e in part.entities if e.layer == layer.name), conversions)
         ]
         lines += ["  </g>"]
-    return Written("\n".join([*lines, "</svg>", ""]).encode(), conversions.converted, notes_left_out=len(part.notes))
+    return WrittenDrawing(
+        "\n".join([*lines, "</svg>", ""]).encode(), conversions.converted, notes_left_out=len(part.notes)
+    )
 
 
 def _group(number: int, layer: Layer) -> str:

@@ -101,8 +101,8 @@ def read_tool_csv(name: str, data: bytes) -> tuple[ToolLibrary, tuple[str, ...]]
                 f"{name}:{rows[0][0]}: there must be one column named {field}{'_mm' * (field == 'diameter')}, "
                 f"and there {'is none' if field not in found else 'are several'}."
             )
-    sheet = _Sheet(name, header, columns, _decimal_comma(columns, rows))
-    tools = tuple(sheet.tool(line, cells) for line, cells in rows[1:] if any(cell.strip() for cell in cells))
+    spreadsheet = _Spreadsheet(name, header, columns, _decimal_comma(columns, rows))
+    tools = tuple(spreadsheet.tool(line, cells) for line, cells in rows[1:] if any(cell.strip() for cell in cells))
     check_numbers(name, tools)
     passed = tuple(
         printable(f"{name}: column '{brief(cell, QUOTED)}' is none of a tool and is passed over.")
@@ -160,7 +160,7 @@ def _decimal_comma(columns: list[_Column | None], rows: list[tuple[int, list[str
 
 
 @dataclass(frozen=True)
-class _Sheet:
+class _Spreadsheet:
     """A file whose columns are known."""
 
     name: str

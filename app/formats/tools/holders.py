@@ -46,9 +46,9 @@ def outline_of(name: str) -> tuple[HolderPoint, ...]:
     Raises:
         InputError: there is none of that name.
     """
-    wanted = _plain(name)
+    plain_name = _plain(name)
     for holder in named_holders():
-        if _plain(holder.name) == wanted:
+        if _plain(holder.name) == plain_name:
             return holder.outline
     known = ", ".join(holder.name for holder in named_holders())
     raise InputError(

@@ -69,14 +69,14 @@ def _tool(entry: Any) -> Tool:
 
 def _entry(tool: Tool) -> Any:
     """Return a tool's entry, without what is as the model has it anyway."""
-    told = {
+    values = {
         key: placed.of(tool)
         for key, placed in declared_of(Tool).items()
         if placed.default is MISSING or placed.of(tool) != placed.default
     }
     if tool.tip_angle:
-        told["tip_angle"] = shortest_degrees(tool.tip_angle)
-    return _Entry(**told)
+        values["tip_angle"] = shortest_degrees(tool.tip_angle)
+    return _Entry(**values)
 
 
 _LISTS = (Unit.OUTLINE, Unit.FEEDS)

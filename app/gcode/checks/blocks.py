@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.job import Job
+from ..interpreter.block_fault import BlockFault
 from ..interpreter.dialect import Dialect
-from ..interpreter.fault import Fault
-from ..interpreter.program import Problem
+from ..interpreter.program import ProgramProblem
 from ..interpreter.text import code_of
 from ..posts.post import Post
 from ..writer.template_fields import Fields, program_fields, tool_fields
@@ -38,7 +38,7 @@ ENDS = frozenset({"M2", "M30"})
 
 
 @dataclass(frozen=True)
-class Block:
+class ExpectedBlock:
     """A block of the post: as it is spelled, and what the control obeys of it.
 
     Attributes:
@@ -59,7 +59,7 @@ class Block:
         return mine == other and self.loose <= ("z" in code)
 
 
-def blocks_of(post: Post, job: Job, tools: tuple[int, ...]) -> list[Block]:
+def blocks_of(post: Post, job: Job, tools: tuple[int, ...]) -> list[ExpectedBlock]:
     """Return every block of a program that is no move, in order.
 
     Args:
@@ -79,7 +79,7 @@ def blocks_of(post: Post, job: Job, tools: tuple[int, ...]) -> list[Block]:
         (template, fields) for template in (*lines.home, *lines.end)
     ]
     spelled = [(template.format(**values).strip(), "{clearance" in template) for template, values in filled]
-    blocks = [Block(text, _code(text, post), loose) for text, loose in spelled]
+    blocks = [ExpectedBlock(text, _code(text, post), loose) for text, loose in spelled]
     return [block for block in blocks if block.code]
 
 
@@ -88,7 +88,7 @@ def _next(tools: tuple[int, ...], k: int) -> int:
     return next((tool for tool in tools[k:] if tool != tools[k]), tools[0])
 
 
-def block_problems(text: str, post: Post, blocks: list[Block]) -> Iterator[Problem]:
+def block_problems(text: str, post: Post, blocks: list[ExpectedBlock]) -> Iterator[ProgramProblem]:
     """Yield the first block that is not the post's, and what the post's own blocks should not do.
 
     Args:
@@ -100,30 +100,34 @@ def block_problems(text: str, post: Post, blocks: list[Block]) -> Iterator[Probl
     alike = [plain.fullmatch(block.code) is not None for block in blocks]
     lines, more, number = text.split("\n"), _lines_with_more(text, post), 0
     while (number := number + 1) <= len(lines):
-        wanted = i < len(blocks) and alike[i]
-        if not wanted:
+        expected = i < len(blocks) and alike[i]
+        if not expected:
             following = int(np.searchsorted(more, number))
             if following == len(more):
                 break
             number = int(more[following])
         line = lines[number - 1]
         moves = plain.fullmatch(line) is not None
-        if moves and not wanted:
+        if moves and not expected:
             continue
         code = _code(line, post)
         if i < len(blocks) and blocks[i].is_as(code):
-            yield from (Problem(number, 0, line.strip(), fault) for fault in (*_unfit(code), *machine.obey(code)))
+            yield from (
+                ProgramProblem(number, 0, line.strip(), fault) for fault in (*_unfit(code), *machine.obey(code))
+            )
             i += 1
         elif code and not moves:
             there = f"the post writes {blocks[i].text}" if i < len(blocks) else "the post writes no more blocks"
             slash = ", and a block with a slash is done or left out as a switch stands" if code.startswith("/") else ""
-            yield Problem(number, 0, line.strip(), f"this is none of the program's moves, and {there} here{slash}.")
+            yield ProgramProblem(
+                number, 0, line.strip(), f"this is none of the program's moves, and {there} here{slash}."
+            )
             return
     if i < len(blocks):
-        yield Problem(text.count("\n"), 0, "", f"the block {blocks[i].text} of the post is missing.")
+        yield ProgramProblem(text.count("\n"), 0, "", f"the block {blocks[i].text} of the post is missing.")
 
 
-def approach_problems(text: str, first: list[int]) -> Iterator[Problem]:
+def approach_problems(text: str, first: list[int]) -> Iterator[ProgramProblem]:
     """Yield the first moves of tools that trust in where X or Y is: a tool may be changed anywhere.
 
     Args:
@@ -135,7 +139,7 @@ def approach_problems(text: str, first: list[int]) -> Iterator[Problem]:
         missing = [letter for letter in "XY" if letter not in lines[number - 1].upper()]
         if missing:
             axes = " and ".join(missing)
-            yield Problem(
+            yield ProgramProblem(
                 number,
                 0,
                 "",
@@ -182,7 +186,7 @@ def _code(line: str, post: Post) -> str:
     """Return what the control obeys of a line, in lower case, without its number."""
     try:
         code = code_of(line, nested=post.dialect is not Dialect.LINUXCNC)
-    except Fault:
+    except BlockFault:
         return line.lower()
     return re.sub(r"^n[0-9.]+", "", code)
 

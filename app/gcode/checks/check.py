@@ -20,17 +20,17 @@ from ...model.motion import Floats, MotionKind, Plane
 from ...model.moves import MoveKind, Moves, Program
 from ...model.stock_box import stock_box, work_origin
 from ..interpreter.options import ReadOptions, ToolOffset
-from ..interpreter.program import EventKind, NcProgram, Problem
+from ..interpreter.program import EventKind, NcProgram, ProgramProblem
 from ..interpreter.reader import read_program
-from ..interpreter.text import Text
+from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
 from ..posts.posts import comes_with_program
 from ..writer.write import NcFile, writing_tolerance
 from .blocks import approach_problems, block_problems, blocks_of
-from .elsewhere import FRESH, Standing, elsewhere, read_elsewhere
-from .lines import MeantPath, Owned, Rows, owned
+from .lines import MotionOwners, ReferencePath, Rows, motion_owners
 from .path import distances
-from .state import Expected, wrong_states
+from .start_states import FRESH, StartState, foreign_start, read_from_start
+from .state import ExpectedState, wrong_states
 
 NOISE = 1e-9
 """mm; what moving a path to another zero and back may add."""
@@ -58,7 +58,7 @@ class Check:
 
     largest_distance_mm: float
     tolerance_mm: float
-    problems: tuple[Problem, ...]
+    problems: tuple[ProgramProblem, ...]
     program: NcProgram
     post: Post
     move: Rows
@@ -81,23 +81,23 @@ class Check:
                 "program shows how"
             )
             raise HitofudeError(
-                f"{self.problems[0].told(name)}{more} What was written cannot be proven to be the path that was "
+                f"{self.problems[0].message(name)}{more} What was written cannot be proven to be the path that was "
                 f"computed, so it is not kept; {mend}."
             )
 
 
 @dataclass(frozen=True, eq=False)
-class _Compared:
+class _FileCheck:
     """One file and what it should hold."""
 
     read: NcProgram
     moves: Moves
-    meant: MeantPath
+    reference: ReferencePath
     file: NcFile
-    expected: Expected
+    expected: ExpectedState
     safe_z: float
     tolerance: float
-    standing: Standing = FRESH
+    start_state: StartState = FRESH
 
     @property
     def begins(self) -> Rows:
@@ -106,7 +106,7 @@ class _Compared:
 
 
 @dataclass(frozen=True)
-class Meant:
+class CheckReference:
     """What files were written from."""
 
     program: Program
@@ -114,54 +114,58 @@ class Meant:
     post: Post
 
 
-def check(data: bytes, file: NcFile, meant: Meant, progress: Progress = NO_PROGRESS) -> Check:
+def check(data: bytes, file: NcFile, reference: CheckReference, progress: Progress = NO_PROGRESS) -> Check:
     """Return how a text differs from the moves that it was written for.
 
     Args:
         data: the very bytes of the file.
         file: which lines of them were written for which moves.
-        meant: program, job and post that it was written from.
+        reference: program, job and post that it was written from.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
-    program, job, post = meant.program, meant.job, meant.post
+    program, job, post = reference.program, reference.job, reference.post
     options = ReadOptions(dialect=post.dialect, tool_table=_tool_table(job))
     read = read_program(data, options, progress.part(0.0, 0.5))
     stop = file.first + len(file.nc.lines)
     moves = program.moves.part(file.first, stop)
     origin = work_origin(job, stock_box(job, program.regions, program.lines))
     step = writing_tolerance(job, post)
-    compared = _Compared(
-        read, moves, MeantPath.of(moves, origin), file, Expected.of(job, post), job.travel_z - origin[2], step
+    compared = _FileCheck(
+        read, moves, ReferencePath.of(moves, origin), file, ExpectedState.of(job, post), job.travel_z - origin[2], step
     )
     mine, far, problems = _differences(compared)
     if not problems:
         problems = _elsewhere(compared, data, options, progress.part(0.5, 1.0))
     if read.error is None:
-        problems += tuple(_text_problems(compared, Text(data), post))
+        problems += tuple(_text_problems(compared, ProgramBuffer(data), post))
     move = np.minimum(np.searchsorted(file.nc.lines, read.motions.line), len(moves) - 1)
     move[mine.rows] = mine.move
     return Check(float(np.max(far)), step, problems, read, post, move + file.first)
 
 
-def _differences(compared: _Compared) -> tuple[Owned, Floats, tuple[Problem, ...]]:
+def _differences(compared: _FileCheck) -> tuple[MotionOwners, Floats, tuple[ProgramProblem, ...]]:
     """Return which motions belong to which moves, how far each move is missed, and every difference."""
     read = compared.read
-    mine = owned(read.motions, compared.file.nc.lines, compared.begins, compared.meant, compared.tolerance)
-    far = distances(read.motions, compared.meant, mine)
+    mine = motion_owners(read.motions, compared.file.nc.lines, compared.begins, compared.reference, compared.tolerance)
+    far = distances(read.motions, compared.reference, mine)
     return mine, far, (*read.problems, *sorted(_problems(compared, mine, far), key=lambda problem: problem.line))
 
 
-def _elsewhere(compared: _Compared, data: bytes, options: ReadOptions, progress: Progress) -> tuple[Problem, ...]:
+def _elsewhere(
+    compared: _FileCheck, data: bytes, options: ReadOptions, progress: Progress
+) -> tuple[ProgramProblem, ...]:
     """Return the differences on a machine that was left as another job left it."""
-    standing = elsewhere(compared.expected.job.out_units)
-    read = read_elsewhere(data, options, standing, progress)
-    *_, problems = _differences(replace(compared, read=read, tolerance=compared.tolerance + NOISE, standing=standing))
+    start_state = foreign_start(compared.expected.job.out_units)
+    read = read_from_start(data, options, start_state, progress)
+    *_, problems = _differences(
+        replace(compared, read=read, tolerance=compared.tolerance + NOISE, start_state=start_state)
+    )
     return tuple(replace(problem, text=f"{problem.text} {LEFT_SO}") for problem in problems)
 
 
-def _text_problems(compared: _Compared, text: Text, post: Post) -> Iterator[Problem]:
+def _text_problems(compared: _FileCheck, text: ProgramBuffer, post: Post) -> Iterator[ProgramProblem]:
     """Yield what is wrong with the text beside its motions."""
     code = text.data.decode(text.encoding)
     tools = tuple(compared.moves.tool[compared.begins].tolist())
@@ -177,7 +181,7 @@ def _tool_table(job: Job) -> dict[int, ToolOffset]:
     return {tool.number: ToolOffset((0.0, 0.0, float(rank))) for rank, tool in enumerate(job.tools, start=1)}
 
 
-def _problems(compared: _Compared, mine: Owned, far: np.ndarray) -> Iterator[Problem]:
+def _problems(compared: _FileCheck, mine: MotionOwners, far: np.ndarray) -> Iterator[ProgramProblem]:
     """Yield every difference."""
     motions = compared.read.motions
     if compared.read.error is not None:
@@ -195,7 +199,7 @@ def _problems(compared: _Compared, mine: Owned, far: np.ndarray) -> Iterator[Pro
         yield _problem(compared.read.line_count, "", "the program has no end (M2, M30), or goes on behind it.")
 
 
-def _path_problems(compared: _Compared, far: np.ndarray) -> Iterator[Problem]:
+def _path_problems(compared: _FileCheck, far: np.ndarray) -> Iterator[ProgramProblem]:
     """Yield what of the path is missing or elsewhere."""
     wrong = np.flatnonzero(~(far <= compared.tolerance))
     if len(wrong):
@@ -203,29 +207,31 @@ def _path_problems(compared: _Compared, far: np.ndarray) -> Iterator[Problem]:
         yield _problem(
             compared.file.nc.lines[move],
             "",
-            f"the written path is {far[move]:.4f} mm from the move to X{compared.meant.end[move, 0]:.4f} "
-            f"Y{compared.meant.end[move, 1]:.4f} Z{compared.meant.end[move, 2]:.4f}, and so in {len(wrong)} moves; "
-            f"{compared.tolerance:g} mm are allowed.",
+            f"the written path is {far[move]:.4f} mm from the move to X{compared.reference.end[move, 0]:.4f} "
+            f"Y{compared.reference.end[move, 1]:.4f} Z{compared.reference.end[move, 2]:.4f}, and so in {len(wrong)} "
+            f"moves; {compared.tolerance:g} mm are allowed.",
         )
 
 
-def _kind_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
+def _kind_problems(compared: _FileCheck, mine: MotionOwners) -> Iterator[ProgramProblem]:
     """Yield motions of another kind than their moves, and those that are too many."""
     motions, moves = compared.read.motions, compared.moves
-    kind, meant = motions.kind[mine.rows], moves.kind[mine.move]
-    arc = meant >= MoveKind.ARC_CW
-    wrong = (kind != meant) & ~(arc & (kind == MotionKind.LINE))
+    kind, reference = motions.kind[mine.rows], moves.kind[mine.move]
+    arc = reference >= MoveKind.ARC_CW
+    wrong = (kind != reference) & ~(arc & (kind == MotionKind.LINE))
     wrong |= (kind >= MotionKind.ARC_CW) & (motions.plane[mine.rows] != Plane.XY)
     if wrong.any():
         k = int(np.argmax(wrong))
         names = ("G0", "G1", "G2", "G3", "a spline")
-        yield _problem(motions.line[mine.rows[k]], "", f"this is {names[kind[k]]} where {names[meant[k]]} was meant.")
+        yield _problem(
+            motions.line[mine.rows[k]], "", f"this is {names[kind[k]]} where {names[reference[k]]} was meant."
+        )
     many = (mine.count > 1) & (moves.kind < MoveKind.ARC_CW)
     if many.any():
         yield _problem(compared.file.nc.lines[np.argmax(many)], "", "there are more motions than were meant.")
 
 
-def _lift_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
+def _lift_problems(compared: _FileCheck, mine: MotionOwners) -> Iterator[ProgramProblem]:
     """Yield motions that belong to no move and are no lifts; only the post's own home blocks go by the machine's
     coordinates.
     """
@@ -257,10 +263,10 @@ def _machine(read: NcProgram) -> NDArray[np.bool_]:
     return machine
 
 
-def _at_home(compared: _Compared) -> NDArray[np.bool_]:
+def _at_home(compared: _FileCheck) -> NDArray[np.bool_]:
     """Tell of each motion whether the tool's tip ends where one of the post's home blocks sends it along Z."""
-    standing, motions = compared.standing, compared.read.motions
-    heights = [standing.homes[code][2] for code in compared.expected.homes] + list(compared.expected.home_heights)
+    start_state, motions = compared.start_state, compared.read.motions
+    heights = [start_state.homes[code][2] for code in compared.expected.homes] + list(compared.expected.home_heights)
     lengths = _tool_table(compared.expected.job)
     tip = np.array(
         [
@@ -268,7 +274,7 @@ def _at_home(compared: _Compared) -> NDArray[np.bool_]:
             for state in compared.read.states
         ]
     )
-    place = motions.end[:, 2] + standing.zero[2] + tip[motions.state]
+    place = motions.end[:, 2] + start_state.zero[2] + tip[motions.state]
     return (
         np.any([np.abs(place - height) <= NOISE for height in heights], axis=0)
         if heights
@@ -276,7 +282,7 @@ def _at_home(compared: _Compared) -> NDArray[np.bool_]:
     )
 
 
-def _home_problems(compared: _Compared) -> Iterator[Problem]:
+def _home_problems(compared: _FileCheck) -> Iterator[ProgramProblem]:
     """Yield the first place where the tool should go home and does not."""
     motions, lines = compared.read.motions, np.array(compared.file.nc.home_lines, int)
     there = motions.line[_machine(compared.read) & _at_home(compared)]
@@ -290,7 +296,7 @@ def _home_problems(compared: _Compared) -> Iterator[Problem]:
         yield _problem(away[0], "", "the tool does not go home here, as it should.")
 
 
-def _section_problems(compared: _Compared, mine: Owned) -> Iterator[Problem]:
+def _section_problems(compared: _FileCheck, mine: MotionOwners) -> Iterator[ProgramProblem]:
     """Yield what is wrong between the tools: changes, dwells, stops, the approach."""
     begins, lines = compared.begins, compared.file.nc.lines
     missing = mine.count[begins] == 0
@@ -316,11 +322,11 @@ class _Sections:
         first: (k,) row of each tool's first motion. last: (k,) of its last one.
     """
 
-    compared: _Compared
+    compared: _FileCheck
     first: Rows
     last: Rows
 
-    def problems(self) -> Iterator[Problem]:
+    def problems(self) -> Iterator[ProgramProblem]:
         """Yield what is wrong."""
         expected, numbers = self.compared.expected, self.compared.moves.tool[self.compared.begins].tolist()
         changes: list[list[int]] = [[] for _ in numbers]
@@ -366,5 +372,5 @@ class _Sections:
         return bool(len(rows)) and motions.end[rows[-1], 2] >= self.compared.safe_z - self.compared.tolerance
 
 
-def _problem(line: int, word: str, text: str) -> Problem:
-    return Problem(int(line), 0, word, text)
+def _problem(line: int, word: str, text: str) -> ProgramProblem:
+    return ProgramProblem(int(line), 0, word, text)

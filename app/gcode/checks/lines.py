@@ -15,7 +15,7 @@ Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class MeantPath:
+class ReferencePath:
     """The moves as points in the program's coordinates, mm.
 
     Attributes:
@@ -30,14 +30,16 @@ class MeantPath:
     kind: NDArray[np.uint8]
 
     @staticmethod
-    def of(moves: Moves, origin: tuple[float, float, float]) -> MeantPath:
+    def of(moves: Moves, origin: tuple[float, float, float]) -> ReferencePath:
         """Return those of moves in part coordinates, from the work origin."""
         shift = np.array(origin)
-        return MeantPath(moves.start - shift, moves.end - shift, moves.centre - shift[:2], moves.sweeps(), moves.kind)
+        return ReferencePath(
+            moves.start - shift, moves.end - shift, moves.centre - shift[:2], moves.sweeps(), moves.kind
+        )
 
 
 @dataclass(frozen=True, eq=False)
-class Owned:
+class MotionOwners:
     """Which motions belong to which moves.
 
     Attributes:
@@ -56,7 +58,9 @@ class Owned:
     last: Rows
 
 
-def owned(motions: Motions, lines: NDArray[np.int32], begins: Rows, meant: MeantPath, tolerance: float) -> Owned:
+def motion_owners(
+    motions: Motions, lines: NDArray[np.int32], begins: Rows, reference: ReferencePath, tolerance: float
+) -> MotionOwners:
     """Tell which motions belong to which moves.
 
     A move has the motions behind the line of the move before, up to its own line. Of moves that share a line the first
@@ -67,7 +71,7 @@ def owned(motions: Motions, lines: NDArray[np.int32], begins: Rows, meant: Meant
         motions: as the text was read; their lines do not decrease.
         lines: (n,) of the moves, not decreasing.
         begins: index of the first move of each tool; what stands before its line belongs to no move.
-        meant: the moves.
+        reference: the moves.
         tolerance: how near to its move's end a motion of a cycle ends, mm.
     """
     line = motions.line
@@ -76,13 +80,13 @@ def owned(motions: Motions, lines: NDArray[np.int32], begins: Rows, meant: Meant
     starting[begins] = True
     before = starting[move] & (line < lines[np.minimum(move, len(lines) - 1)])
     rows = np.flatnonzero((move < len(lines)) & ~before)
-    rows, mine = _Cycles(motions, lines, meant, tolerance).parted(rows, move[rows])
+    rows, mine = _Cycles(motions, lines, reference, tolerance).parted(rows, move[rows])
     each = np.arange(len(lines))
     first = np.searchsorted(mine, each)
     count = np.searchsorted(mine, each, side="right") - first
     last = np.full(len(lines), -1)
     last[count > 0] = rows[(first + count - 1)[count > 0]]
-    return Owned(rows, mine, first, count, np.maximum.accumulate(last))
+    return MotionOwners(rows, mine, first, count, np.maximum.accumulate(last))
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +95,7 @@ class _Cycles:
 
     motions: Motions
     lines: NDArray[np.int32]
-    meant: MeantPath
+    reference: ReferencePath
     tolerance: float
 
     def parted(self, rows: Rows, move: Rows) -> tuple[Rows, Rows]:
@@ -127,5 +131,5 @@ class _Cycles:
 
     def _alike(self, row: int, move: int) -> bool:
         """Tell whether a motion is of a move's kind and ends where it ends."""
-        gap = self.motions.end[row] - self.meant.end[move]
-        return bool(self.motions.kind[row] == self.meant.kind[move] and np.max(np.abs(gap)) <= self.tolerance)
+        gap = self.motions.end[row] - self.reference.end[move]
+        return bool(self.motions.kind[row] == self.reference.kind[move] and np.max(np.abs(gap)) <= self.tolerance)

@@ -47,7 +47,7 @@ class Polyline:
         return Polyline(points, owner, np.concatenate([[0.0], np.cumsum(np.sqrt(np.einsum("ij,ij->i", steps, steps)))]))
 
 
-class Paths:
+class PolylinePaths:
     """The paths of a program's motions as straight pieces."""
 
     def __init__(self, motions: Motions, chord: float) -> None:
@@ -157,7 +157,7 @@ def _distances(points: Floats, place: Floats) -> Floats:
 
 
 @dataclass(frozen=True, slots=True)
-class Farthest:
+class LargestDistance:
     """The largest distance between two paths, both ways: how far, mm, and where on the one and on the other."""
 
     distance: float
@@ -165,7 +165,7 @@ class Farthest:
     b: tuple[float, float, float]
 
 
-def farthest(a: Polyline, b: Polyline) -> Farthest:
+def farthest(a: Polyline, b: Polyline) -> LargestDistance:
     """Return where two paths are farthest apart: the point of either that lies farthest from the other path.
 
     Looked at are the points of both, and places evenly along each, 16 a piece but not more than 4000; between two of
@@ -175,7 +175,7 @@ def farthest(a: Polyline, b: Polyline) -> Farthest:
     from_a, from_b = _one_way(dense_a, dense_b), _one_way(dense_b, dense_a)
     if from_a.distance >= from_b.distance:
         return from_a
-    return Farthest(from_b.distance, from_b.b, from_b.a)
+    return LargestDistance(from_b.distance, from_b.b, from_b.a)
 
 
 def _dense(path: Polyline, samples: int) -> Floats:
@@ -184,7 +184,7 @@ def _dense(path: Polyline, samples: int) -> Floats:
     return np.column_stack([np.interp(at, path.along, column) for column in path.points.T])
 
 
-def _one_way(a: Floats, b: Floats) -> Farthest:
+def _one_way(a: Floats, b: Floats) -> LargestDistance:
     """Return the point of a that is farthest from the pieces of b."""
     from scipy.spatial import cKDTree
 
@@ -196,7 +196,7 @@ def _one_way(a: Floats, b: Floats) -> Farthest:
         foot = np.where((distance < best)[:, None], b[first] + share[:, None] * steps, foot)
         best = np.minimum(distance, best)
     row = int(np.argmax(best))
-    return Farthest(float(best[row]), _place(a[row]), _place(foot[row]))
+    return LargestDistance(float(best[row]), _place(a[row]), _place(foot[row]))
 
 
 def _place(point: Floats) -> tuple[float, float, float]:

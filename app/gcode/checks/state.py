@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves
-from ..interpreter.program import FeedMode, ModalState, NcProgram, Problem
+from ..interpreter.program import FeedMode, ModalState, NcProgram, ProgramProblem
 from ..posts.post import Coolant, Post
 from ..writer.write import blend_mm
-from .lines import Owned
+from .lines import MotionOwners
 
 WORK_OFFSET = re.compile(r"G54\.1 P\d+|G5[4-9](?:\.\d)?")
 STOP = re.compile(r"\bM0?[01]\b")
@@ -24,7 +24,7 @@ END = re.compile(r"\bM0?(?:2|30)\b")
 
 
 @dataclass(frozen=True)
-class Expected:
+class ExpectedState:
     """What a post and a job promise.
 
     Attributes:
@@ -56,12 +56,12 @@ class Expected:
     feed_step: float
 
     @staticmethod
-    def of(job: Job, post: Post) -> Expected:
+    def of(job: Job, post: Post) -> ExpectedState:
         """Return what the text of a job should have in force by this post."""
         lines = post.program
         offsets = WORK_OFFSET.findall(" ".join((*lines.start, *lines.tool)))
         blocks = (*lines.top, *lines.start, *lines.tool, *lines.leave, *lines.home, *lines.end)
-        return Expected(
+        return ExpectedState(
             job=job,
             changes=not post.file_per_tool,
             lengths=any("G43" in line for line in lines.tool),
@@ -79,7 +79,9 @@ class Expected:
         )
 
 
-def wrong_states(read: NcProgram, moves: Moves, owned: Owned, expected: Expected) -> Iterator[Problem]:
+def wrong_states(
+    read: NcProgram, moves: Moves, owned: MotionOwners, expected: ExpectedState
+) -> Iterator[ProgramProblem]:
     """Yield what is in force and should not be, each with the first line where it is so.
 
     Args:
@@ -91,16 +93,16 @@ def wrong_states(read: NcProgram, moves: Moves, owned: Owned, expected: Expected
     line, state = read.motions.line[owned.rows], read.motions.state[owned.rows]
     tool = moves.tool[owned.move]
     pairs, first = np.unique(np.column_stack([state, tool]), axis=0, return_index=True)
-    told: set[str] = set()
+    reported: set[str] = set()
     for k in np.argsort(first):
         for text in _state_faults(read.states[pairs[k, 0]], int(pairs[k, 1]), expected):
-            if text not in told:
-                told.add(text)
-                yield Problem(int(line[first[k]]), 0, "", text)
+            if text not in reported:
+                reported.add(text)
+                yield ProgramProblem(int(line[first[k]]), 0, "", text)
     yield from _feed_faults(read, moves, owned, expected)
 
 
-def _state_faults(state: ModalState, number: int, expected: Expected) -> Iterator[str]:
+def _state_faults(state: ModalState, number: int, expected: ExpectedState) -> Iterator[str]:
     """Yield what is wrong while a tool does its moves."""
     tool = expected.job.tool(number)
     if expected.changes and state.tool != number:
@@ -139,17 +141,19 @@ def _blends(state: ModalState) -> float:
     return float("inf") if state.path_tolerance is None else max([*words, state.path_tolerance])
 
 
-def _feed_faults(read: NcProgram, moves: Moves, owned: Owned, expected: Expected) -> Iterator[Problem]:
+def _feed_faults(
+    read: NcProgram, moves: Moves, owned: MotionOwners, expected: ExpectedState
+) -> Iterator[ProgramProblem]:
     """Yield a motion whose feed is not its move's, to half a step of F's last decimal, at least one step."""
-    feed, meant = read.motions.feed[owned.rows], moves.feed[owned.move]
+    feed, reference = read.motions.feed[owned.rows], moves.feed[owned.move]
     cuts = moves.kind[owned.move] != MoveKind.RAPID
     step = expected.feed_step
-    wrong: NDArray[np.bool_] = cuts & ~(np.abs(feed - np.maximum(meant, step)) <= step / 2 + 1e-9 * meant)
+    wrong: NDArray[np.bool_] = cuts & ~(np.abs(feed - np.maximum(reference, step)) <= step / 2 + 1e-9 * reference)
     if wrong.any():
         k = int(np.argmax(wrong))
-        yield Problem(
+        yield ProgramProblem(
             int(read.motions.line[owned.rows[k]]),
             0,
             "F",
-            f"the feed is {feed[k]:g} mm/min where {meant[k]:g} was meant, and so in {int(np.sum(wrong))} motions.",
+            f"the feed is {feed[k]:g} mm/min where {reference[k]:g} was meant, and so in {int(np.sum(wrong))} motions.",
         )

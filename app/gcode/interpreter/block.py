@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NamedTuple
 
-from .codes import AXES, GROUP_OF, ROTARY, TAKES, Group
-from .expression import NUMBER, Value, Values, evaluated
-from .fault import Fault
+from .block_fault import BlockFault
+from .codes import AXES, GROUP_OF, ROTARY, TAKES, ModalGroup
+from .expression import NUMBER, Value, ValueReader, evaluated
 from .parameters import Key, Parameters
 
 Setting = Key | Callable[[Parameters], Key]
@@ -45,7 +45,7 @@ class Word(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Parsed:
+class ParsedLine:
     """A line that was understood.
 
     Attributes:
@@ -67,7 +67,7 @@ SLASH = re.compile(r"(?:n[0-9.]+)?/[0-9]?")
 """What marks a block that the control leaves out when it is told to."""
 
 
-def parse(code: str, nesting: int, free: bool = False, polar: bool = False, begin: int = 0) -> Parsed:
+def parse(code: str, nesting: int, free: bool = False, polar: bool = False, begin: int = 0) -> ParsedLine:
     """Return the words of a line; programs say many lines again and again, so the last ones are kept, but for long
     ones.
 
@@ -84,8 +84,8 @@ def parse(code: str, nesting: int, free: bool = False, polar: bool = False, begi
     return (_parsed_once if len(code) <= LONGEST_KEPT else _parsed)(code, nesting, free, polar, begin)
 
 
-def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> Parsed:
-    values = Values(code, nesting)
+def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> ParsedLine:
+    values = ValueReader(code, nesting)
     values.at = begin
     slash = SLASH.match(code, begin)
     deleted = slash is not None
@@ -103,20 +103,22 @@ def _parsed(code: str, nesting: int, free: bool, polar: bool, begin: int) -> Par
         if letter == "#":
             key = values.key()
             if code[values.at : values.at + 1] != "=":
-                raise Fault("expected = behind the parameter that is set.", column=-1 - values.at)
+                raise BlockFault("expected = behind the parameter that is set.", column=-1 - values.at)
             values.at += 1
             settings.append((key, values.expression() if free else values.value()))
         elif "a" <= letter <= "z" or (polar and letter in POLAR):
             words.append(Word(letter, values.value(), at, values.at, False))
         else:
-            raise Fault(f"{letter!r} begins no word; expected a letter with a number.", column=-1 - at, word=letter)
-    return Parsed(code, deleted, tuple(settings), tuple(words))
+            raise BlockFault(
+                f"{letter!r} begins no word; expected a letter with a number.", column=-1 - at, word=letter
+            )
+    return ParsedLine(code, deleted, tuple(settings), tuple(words))
 
 
 _parsed_once = lru_cache(2048)(_parsed)
 
 
-def _numbered(found: re.Match[str], values: Values) -> Word:
+def _numbered(found: re.Match[str], values: ValueReader) -> Word:
     """Return a word that is a letter and a number, and go on behind it."""
     values.at, number = found.end(), found[2]
     return Word(found[1], values.finite(float(number)), found.start(), found.end(), "." not in number)
@@ -134,7 +136,7 @@ class Block:
 
     values: dict[str, float] = field(default_factory=dict)
     whole: set[str] = field(default_factory=set)
-    codes: dict[Group, str] = field(default_factory=dict)
+    codes: dict[ModalGroup, str] = field(default_factory=dict)
     coolant: list[str] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
 
@@ -157,7 +159,7 @@ class Block:
             Fault: it is not there.
         """
         if letter not in self.values:
-            raise Fault(f"{code} needs a word {letter.upper()}.", letter=_letter(code))
+            raise BlockFault(f"{code} needs a word {letter.upper()}.", letter=_letter(code))
         return self.values[letter]
 
     def unused(self) -> str:
@@ -178,7 +180,7 @@ def _code(letter: str, number: float) -> str:
     return f"{letter.upper()}{round(number, 2):g}"
 
 
-def block_of(parsed: Parsed, parameters: Parameters) -> Block:
+def block_of(parsed: ParsedLine, parameters: Parameters) -> Block:
     """Return a line's block, and set the parameters that the line sets: after all its values are known.
 
     Raises:
@@ -190,10 +192,10 @@ def block_of(parsed: Parsed, parameters: Parameters) -> Block:
         if word.letter in "gm":
             _add_code(block, _code(word.letter, value), word)
         elif word.letter in block.values:
-            raise Fault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
+            raise BlockFault(f"a block takes one word {word.letter.upper()} only.", column=-1 - word.begin)
         elif word.letter == "n":
             if numbered or not parsed.code[word.begin + 1].isdigit():
-                raise Fault("a block has one number N, and that begins with a digit.", column=-1 - word.begin)
+                raise BlockFault("a block has one number N, and that begins with a digit.", column=-1 - word.begin)
             numbered = True
         else:
             block.values[word.letter] = value
@@ -213,14 +215,14 @@ def _add_code(block: Block, code: str, word: Word) -> None:
         block.unknown.append(code)
         return
     before = block.codes.get(group)
-    if group is Group.MOTION and before is not None and "G80" in (before, code):
+    if group is ModalGroup.MOTION and before is not None and "G80" in (before, code):
         code, before = (before if code == "G80" else code), None  # any other motion ends a cycle as G80 does
     both = {before, code} == {"M7", "M8"}
     if before is not None and not both and before != "G53" and code != "G53":
-        raise Fault(
+        raise BlockFault(
             f"{before} and {code} in one block contradict one another ({group.value}); write them in two.",
             column=-1 - word.begin,
         )
-    if group is Group.COOLANT:
+    if group is ModalGroup.COOLANT:
         block.coolant.append(code)
     block.codes[group] = code

@@ -31,7 +31,7 @@ class Motion:
     turns: int = 0
 
 
-class Columns:
+class MotionColumns:
     """The columns of `Motions`, longer than they need be: rows from `count` on mean nothing yet.
 
     Attributes:

@@ -12,8 +12,8 @@ import math
 from dataclasses import dataclass, replace
 
 from ...model.motion import MotionKind, Plane
-from .columns import Columns, Motion, Place
-from .fault import Fault
+from .block_fault import BlockFault
+from .columns import Motion, MotionColumns, Place
 
 SMOOTH = 0.05
 """A corner of less, radians, is taken for none, and one of so much less than half a turn for an outer one, as LinuxCNC
@@ -25,7 +25,7 @@ SLACK = 1e-9
 
 
 @dataclass(slots=True)
-class Side:
+class OffsetMove:
     """An offset move in its plane, as complex numbers.
 
     Attributes:
@@ -75,7 +75,7 @@ class Compensation:
             place: where the tool is.
         """
         self._radius, self._plane, self._place = radius, plane, place
-        self._before: Side | None = None
+        self._before: OffsetMove | None = None
         self.waiting: list[Motion] = []
 
     @property
@@ -83,7 +83,7 @@ class Compensation:
         """Where the tool is at the end of the last move."""
         return self.waiting[-1].end if self.waiting else self._place
 
-    def take(self, motion: Motion, columns: Columns) -> None:
+    def take(self, motion: Motion, columns: MotionColumns) -> None:
         """Take a programmed move; write those before it whose end is now known.
 
         Raises:
@@ -105,17 +105,17 @@ class Compensation:
             moved.centre = self._placed(side.centre, motion.centre)
         self._before, self.waiting, side.motion = side, [moved], moved
 
-    def flush(self, columns: Columns) -> None:
+    def flush(self, columns: MotionColumns) -> None:
         """Write all moves.
 
         Raises:
             Fault: two inner corners have turned a line round, so that the tool cannot get between them.
         """
         if self.waiting and self._turned_round():
-            raise Fault(_NO_ROOM, letter="g")
+            raise BlockFault(_NO_ROOM, letter="g")
         self.spill(columns)
 
-    def spill(self, columns: Columns) -> None:
+    def spill(self, columns: MotionColumns) -> None:
         """Write all moves as they are."""
         for motion in self.waiting:
             columns.add(motion)
@@ -131,24 +131,24 @@ class Compensation:
         way = complex(moved.end[u] - moved.start[u], moved.end[v] - moved.start[v])
         return (way * side.arriving.conjugate()).real < -SLACK
 
-    def _offset(self, motion: Motion, start: complex, end: complex) -> Side:
+    def _offset(self, motion: Motion, start: complex, end: complex) -> OffsetMove:
         if motion.kind == MotionKind.SPLINE:
-            raise Fault("cutter compensation follows no splines; write G40 before.", letter="g")
+            raise BlockFault("cutter compensation follows no splines; write G40 before.", letter="g")
         if motion.kind not in (MotionKind.ARC_CW, MotionKind.ARC_CCW):
             way = (end - start) / abs(end - start)
             aside = way * 1j * self._radius
-            return Side(motion, start + aside, end + aside, None, True, way, way, end)
+            return OffsetMove(motion, start + aside, end + aside, None, True, way, way, end)
         u, v, _ = self._plane.axes
         centre, ccw = complex(motion.centre[u], motion.centre[v]), motion.kind == MotionKind.ARC_CCW
         inward = self._radius if ccw else -self._radius
         first, last = start - centre, end - centre
         if min(abs(first), abs(last)) - inward < SLACK:
-            raise Fault(
+            raise BlockFault(
                 f"the tool (radius {abs(self._radius):g} mm) does not fit into an arc of radius {abs(first):g} mm.",
                 letter="g",
             )
         turn = 1j if ccw else -1j
-        return Side(
+        return OffsetMove(
             motion,
             start - first / abs(first) * inward,
             end - last / abs(last) * inward,
@@ -159,28 +159,28 @@ class Compensation:
             end,
         )
 
-    def _enter(self, side: Side, start: complex) -> None:
+    def _enter(self, side: OffsetMove, start: complex) -> None:
         """Make a side the way in: from where the tool is to beside the move's end."""
         side.leads_in = True
         u, v, _ = self._plane.axes
         here = complex(self.place[u], self.place[v])
         if side.centre is None:
             if abs(side.corner - start) <= abs(self._radius) + SLACK:
-                raise Fault(
+                raise BlockFault(
                     "the first move under cutter compensation must be longer than the tool's radius.", letter="g"
                 )
         else:
             radial, way = side.arriving * 1j, side.end - here
             across = (way * radial.conjugate()).real
             if abs(way) < SLACK or abs(across) < SLACK:
-                raise Fault(
+                raise BlockFault(
                     "this arc cannot lead the tool to beside its end; begin cutter compensation with a line.",
                     letter="g",
                 )
             side.centre = side.end - radial * abs(way) ** 2 / (2 * across)
             side.start = here
 
-    def _join(self, before: Side, side: Side, columns: Columns) -> None:
+    def _join(self, before: OffsetMove, side: OffsetMove, columns: MotionColumns) -> None:
         """Join a side to the one before: round an outer corner, or cut off at an inner one."""
         bend = cmath.phase(side.leaving / before.arriving)
         back = abs(bend) > math.pi - SMOOTH
@@ -197,18 +197,18 @@ class Compensation:
                 motion.end = self._placed(meeting, motion.end)
             side.start = meeting
 
-    def _between(self, before: Side, side: Side) -> bool:
+    def _between(self, before: OffsetMove, side: OffsetMove) -> bool:
         """Tell whether a turn straight back is an inner corner: between a line and the outside of an arc, where the
         tool would have to go round the arc to get to the line's other side.
         """
         arc = before if side.centre is None else side
         return arc.centre is not None and self._outside(arc)
 
-    def _outside(self, arc: Side) -> bool:
+    def _outside(self, arc: OffsetMove) -> bool:
         """Tell whether the tool runs round an arc rather than within it."""
         return arc.ccw == (self._radius < 0)
 
-    def _roll(self, side: Side, corner: complex, columns: Columns) -> None:
+    def _roll(self, side: OffsetMove, corner: complex, columns: MotionColumns) -> None:
         """Go round an outer corner; straight if the next move is a rapid."""
         start = self._place
         end = self._placed(side.start, start)
@@ -221,7 +221,7 @@ class Compensation:
             )
         self._place = end
 
-    def _meeting(self, before: Side, side: Side) -> complex:
+    def _meeting(self, before: OffsetMove, side: OffsetMove) -> complex:
         """Return where two offset curves meet at an inner corner.
 
         As LinuxCNC has it: an arc must reach so far, and whether a line is turned round by that `flush` tells, when its
@@ -234,7 +234,7 @@ class Compensation:
             points = points[:1] if near == (before.centre is None) else points[-1:]
         points = [point for point in points if _on(before, point) and _on(side, point)]
         if not points:
-            raise Fault(_NO_ROOM, letter="g")
+            raise BlockFault(_NO_ROOM, letter="g")
         return min(points, key=lambda point: abs(point - before.corner))
 
     def _placed(self, point: complex, like: Place) -> Place:
@@ -249,18 +249,18 @@ class Compensation:
         return self._placed(complex(place[u], place[v]), height)
 
 
-def _on(side: Side, point: complex) -> bool:
+def _on(side: OffsetMove, point: complex) -> bool:
     """Tell whether a point is on an offset arc; any is on a line, whose ends both move."""
     return side.centre is None or -SLACK <= side.fraction(point) <= 1 + SLACK
 
 
-def _along(one: Side, other: Side, point: complex) -> float:
+def _along(one: OffsetMove, other: OffsetMove, point: complex) -> float:
     """Return how far along the line among two sides a point lies."""
     line = one if one.centre is None else other
     return ((point - line.start) * line.leaving.conjugate()).real
 
 
-def _intersections(one: Side, other: Side) -> list[complex]:
+def _intersections(one: OffsetMove, other: OffsetMove) -> list[complex]:
     """Return where the line or circle of one side meets that of another."""
     if one.centre is None and other.centre is None:
         a, b = one.leaving, other.leaving

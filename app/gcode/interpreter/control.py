@@ -9,13 +9,13 @@ from dataclasses import replace
 from ...model.motion import MotionKind, Nurbs
 from ...model.part import Units
 from .block import Block
-from .codes import AXES, Group
-from .columns import Columns, Motion
+from .block_fault import BlockFault
+from .codes import AXES, ModalGroup
+from .columns import Motion, MotionColumns
 from .compensation import Compensation
 from .cycles import Cycle
-from .dialect import HABITS, Dialect
-from .fault import Fault
-from .offsets import OFFSETS, Offsets, Place
+from .dialect import DIALECT_RULES, Dialect
+from .offsets import OFFSETS, Place, WorkOffsets
 from .options import ReadOptions, ToolOffset
 from .parameters import Key, Parameters
 from .program import Event, EventKind, FeedMode, ModalState
@@ -36,7 +36,7 @@ class Control:
     """A control that runs a program.
 
     Attributes:
-        options, habits: how to read.
+        options, rules: how to read.
         modal: what is in force. motion: the G word that bare axis words obey, "G80" = none.
         feed: mm/min, mm a revolution or 1/min, by the feed mode; NaN = not said.
         at: the controlled point, mm, table coordinates.
@@ -52,18 +52,18 @@ class Control:
         compensation: G41 or G42, None = G40. stray: where the tool itself is when that is not where the program takes
             it to be, after G40.
         line: 1-based, of the block that is running. unrolled: blocks that were done again.
-        asked: parameters that the machine tells, or that nobody has set, and the line that read each first.
+        requested: parameters that the machine tells, or that nobody has set, and the line that read each first.
         columns, splines, events, homeward, warnings: what comes out; a warning is a text, its letter and its line.
     """
 
     def __init__(self, options: ReadOptions) -> None:
         """Stand at the start, as a control does when it is switched on."""
-        self.options, self.habits = options, HABITS[options.dialect]
+        self.options, self.rules = options, DIALECT_RULES[options.dialect]
         self.modal = ModalState(retract_to_r=options.dialect is Dialect.LINUXCNC)
         self.motion = "G80" if options.dialect is Dialect.LINUXCNC else "G0"
         self.feed = math.nan
         self.at: Place = options.start
-        self.offsets = Offsets(local_is_set_here=options.dialect is Dialect.LINUXCNC)
+        self.offsets = WorkOffsets(local_is_set_here=options.dialect is Dialect.LINUXCNC)
         self.tool_table: dict[int, ToolOffset] = dict(options.tool_table)
         self.selected = 0
         self.homes: dict[str, Place] = {"G28": (0.0, 0.0, 0.0), "G30": (0.0, 0.0, 0.0)}
@@ -76,13 +76,13 @@ class Control:
         self.stray: Place | None = None
         self.last_offset = (0.0, 0.0)
         self.line = self.unrolled = 0
-        self.columns = Columns()
+        self.columns = MotionColumns()
         self.splines: dict[int, Nurbs] = {}
         self.events: list[Event] = []
         self.homeward: list[int] = []
         self.warnings: dict[str, tuple[str, int]] = {}
-        self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.habits.fanuc_flow else 30)
-        self.asked: dict[Key, int] = {}
+        self.parameters = Parameters(self.own_parameter, local_numbers=33 if self.rules.fanuc_flow else 30)
+        self.requested: dict[Key, int] = {}
         self._states: dict[ModalState, int] = {}
         self._last: tuple[ModalState | None, int] = (None, 0)
 
@@ -95,7 +95,7 @@ class Control:
         """Return the millimetres of a unit of the block's F; only LinuxCNC takes it in the units before the block's
         own.
         """
-        code = block.codes.get(Group.UNITS)
+        code = block.codes.get(ModalGroup.UNITS)
         if code is None or self.options.dialect is Dialect.LINUXCNC:
             return self.unit
         return Units.INCH.value if code == "G20" else Units.MM.value
@@ -103,7 +103,7 @@ class Control:
     @property
     def least(self) -> float:
         """Length units that a length without a decimal point counts in."""
-        return self.habits.least_inch if self.modal.units is Units.INCH else self.habits.least_mm
+        return self.rules.least_inch if self.modal.units is Units.INCH else self.rules.least_mm
 
     @property
     def states(self) -> tuple[ModalState, ...]:
@@ -164,7 +164,7 @@ class Control:
 
     def _check_place(self, place: list[float]) -> None:
         if not all(abs(value) < 1e9 for value in place):
-            raise Fault("the motion ends more than 1000 km away; check the numbers.")
+            raise BlockFault("the motion ends more than 1000 km away; check the numbers.")
 
     def note_known(self, block: Block, absolute: bool | None = None) -> None:
         """Note that the motion to come sets the axes of the block's words, or moves them from where the reading began.
@@ -216,7 +216,9 @@ class Control:
             Fault: the program has made more motions than the reader takes.
         """
         if self.columns.count >= self.options.limits.motions:
-            raise Fault(f"the program makes more than {self.options.limits.motions} motions; the reader stops here.")
+            raise BlockFault(
+                f"the program makes more than {self.options.limits.motions} motions; the reader stops here."
+            )
         motion = Motion(kind, self.stray or self.at, end, feed, self.line, self.state(), self.modal.plane)
         if arc is not None:
             motion.centre, motion.turns = arc
@@ -245,7 +247,7 @@ class Control:
             Fault: the program has not said it.
         """
         if math.isnan(self.feed):
-            raise Fault("a feed motion needs a feed rate; write F before it or with it.", letter="f")
+            raise BlockFault("a feed motion needs a feed rate; write F before it or with it.", letter="f")
         if self.modal.feed_mode is FeedMode.INVERSE_TIME:
             return self.feed * length
         if self.modal.feed_mode is FeedMode.PER_REVOLUTION:
@@ -260,7 +262,7 @@ class Control:
         """
         self.unrolled += blocks
         if self.unrolled > self.options.limits.looped_blocks:
-            raise Fault(
+            raise BlockFault(
                 f"loops, calls and cycles repeat more than {self.options.limits.looped_blocks} blocks; the reader "
                 "stops here."
             )
@@ -277,7 +279,7 @@ class Control:
             Fault: there are more than anybody needs.
         """
         if len(self.events) >= MOST_EVENTS:
-            raise Fault(
+            raise BlockFault(
                 f"the program stops, dwells and changes tools more than {MOST_EVENTS} times; the reader stops here."
             )
         self.events.append(Event(kind, self.row, self.line, value))
@@ -288,14 +290,14 @@ class Control:
         if (axis is not None and self.known[axis] < 0) or (
             axis is None and isinstance(key, int) and key not in _OF_THE_PROGRAM
         ):
-            self.asked.setdefault(key, self.line)
+            self.requested.setdefault(key, self.line)
         if isinstance(key, str):
             return self._named(key) if key.startswith("_") else None
         if key < 5001:
             return None
         if 5420 <= key <= 5422:
             return self.program_place[key - 5420] / self.unit
-        if self.habits.fanuc_flow and 5001 <= key <= 5003:
+        if self.rules.fanuc_flow and 5001 <= key <= 5003:
             return self.program_place[key - 5001] / self.unit
         if key == 5220:
             return self._offset_number()

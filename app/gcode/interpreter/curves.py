@@ -9,10 +9,10 @@ import numpy as np
 from ...geometry.arcs.nurbs import flattened
 from ...model.motion import MotionKind, Nurbs
 from .block import Block
-from .codes import AXES, Group
+from .block_fault import BlockFault
+from .codes import AXES, ModalGroup
 from .control import Control
 from .expression import whole
-from .fault import Fault
 from .offsets import replaced
 from .program import FeedMode
 from .splines import OpenFanucNurbs, OpenNurbs, check_plane, cubic, first_offset, quadratic, second_offset
@@ -27,9 +27,9 @@ def move_along_curve(control: Control, block: Block) -> None:
     Raises:
         Fault: the control has no such word, or a word of the curve is missing or has no sense.
     """
-    code, family = control.motion, control.habits.splines
+    code, family = control.motion, control.rules.splines
     if family != ("G6.2" if code == "G6.2" else "G5"):
-        raise Fault(f"{control.habits.title} draws no curve with {code}.", letter="g")
+        raise BlockFault(f"{control.rules.title} draws no curve with {code}.", letter="g")
     if code in ("G5", "G5.1"):
         _one_block(control, block, code)
     elif code == "G5.2":
@@ -51,7 +51,7 @@ def _one_block(control: Control, block: Block, code: str) -> None:
     check_plane(control.modal.plane)
     end = _end(control, block)
     if end[2] != control.program_place[2]:
-        raise Fault(f"{code} stays in its plane; Z cannot change with it.", letter="z")
+        raise BlockFault(f"{code} stays in its plane; Z cannot change with it.", letter="z")
     i, j = control.length(block, "i"), control.length(block, "j")
     if code == "G5":
         first = first_offset(i, j, control.last_offset)
@@ -60,7 +60,7 @@ def _one_block(control: Control, block: Block, code: str) -> None:
         control.last_offset = second
     else:
         if i is None and j is None:
-            raise Fault("G5.1 needs its control point, I and J.", letter="g")
+            raise BlockFault("G5.1 needs its control point, I and J.", letter="g")
         curve = quadratic(control.program_place, end, (i or 0.0, j or 0.0))
     _drive(control, curve)
 
@@ -90,14 +90,14 @@ def _control_point(control: Control, block: Block) -> None:
 
 def _close(control: Control, block: Block) -> None:
     if not isinstance(control.curve, OpenNurbs):
-        raise Fault("G5.3 ends a curve, and none was begun with G5.2.", letter="g")
+        raise BlockFault("G5.3 ends a curve, and none was begun with G5.2.", letter="g")
     curve, control.curve = control.curve.closed(), None
     control.motion = "G80"
     _drive(control, curve)
 
 
 def _fanuc_point(control: Control, block: Block) -> None:
-    if Group.MOTION in block.codes or not isinstance(control.curve, OpenFanucNurbs):
+    if ModalGroup.MOTION in block.codes or not isinstance(control.curve, OpenFanucNurbs):
         drop_curve(control)
         order = block.get("p")
         control.curve = OpenFanucNurbs(control.program_place, None if order is None else whole(order, "P of G6.2"))

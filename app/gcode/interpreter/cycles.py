@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ...model.motion import MotionKind, Plane
-from .fault import Fault
+from .block_fault import BlockFault
 
 Point = tuple[float, float, float]
 
@@ -78,7 +78,7 @@ class Cycle:
     fanuc: bool = False
 
 
-class Move(NamedTuple):
+class CycleMove(NamedTuple):
     """A straight motion.
 
     Attributes:
@@ -109,7 +109,7 @@ class Stop(NamedTuple):
     """The program waits for the operator."""
 
 
-Step = Move | Dwell | Spindle | Stop
+Step = CycleMove | Dwell | Spindle | Stop
 
 
 def with_sticky(cycle: Cycle, before: Cycle | None) -> Cycle:
@@ -174,13 +174,13 @@ def cycle_steps(cycle: Cycle, position: Point, initial: float) -> Iterator[Step]
     if not cycle.absolute:
         r, depth = initial + r, initial + r + depth
     if r < depth:
-        raise Fault(
+        raise BlockFault(
             f"R at {r:g} lies below the bottom of the hole at {_normal(cycle)} {depth:g}; a cycle bores from R "
             "downwards.",
             "R",
         )
     if cycle.code in _PECKS and r - depth > MOST_PECKS * _known(cycle.peck, "Q"):
-        raise Fault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
+        raise BlockFault(f"more than {MOST_PECKS:,} pecks for one hole; Q is too small.", "Q")
     return _steps(cycle, position, initial, (r, depth))
 
 
@@ -191,7 +191,7 @@ def _normal(cycle: Cycle) -> str:
 def _known(value: float | None, letter: str) -> float:
     """Return the value of a word that the cycle cannot do without."""
     if value is None:
-        raise Fault(f"the cycle has no {letter} word, and none stays from the block before.", letter)
+        raise BlockFault(f"the cycle has no {letter} word, and none stays from the block before.", letter)
     return value
 
 
@@ -200,13 +200,13 @@ def _check_words(cycle: Cycle) -> None:
     _known(cycle.depth, _normal(cycle))
     _known(cycle.r, "R")
     if cycle.repeats < 0 or (cycle.repeats == 0 and not cycle.fanuc):
-        raise Fault(f"a cycle cannot be repeated {cycle.repeats} times; L counts from 1.", "L")
+        raise BlockFault(f"a cycle cannot be repeated {cycle.repeats} times; L counts from 1.", "L")
     if cycle.code in _NEEDS_DWELL and not cycle.fanuc:
         _known(cycle.dwell, "P")
     if cycle.dwell is not None and cycle.dwell < 0:
-        raise Fault("a dwell cannot be negative.", "P")
+        raise BlockFault("a dwell cannot be negative.", "P")
     if cycle.code in _PECKS and _known(cycle.peck, "Q") <= 0:
-        raise Fault("the depth of a peck must be above 0.", "Q")
+        raise BlockFault("the depth of a peck must be above 0.", "Q")
     if cycle.code == "G87":
         for letter, value in zip("IJK", cycle.shift, strict=True):
             _known(value, letter)
@@ -216,9 +216,9 @@ def _check_spindle(cycle: Cycle) -> None:
     """Refuse a cycle that needs another spindle; Fanuc's tapping cycles start it themselves."""
     needed = _TAPS.get(cycle.code, 0)
     if needed and cycle.spindle != needed and not cycle.fanuc:
-        raise Fault(f"{cycle.code} needs the spindle turning {_WAYS[needed]}, and it {_turns(cycle)}.")
+        raise BlockFault(f"{cycle.code} needs the spindle turning {_WAYS[needed]}, and it {_turns(cycle)}.")
     if cycle.code in _TURNING and not cycle.spindle:
-        raise Fault(f"{cycle.code} needs a turning spindle (M3 or M4), and it stands.")
+        raise BlockFault(f"{cycle.code} needs a turning spindle (M3 or M4), and it stands.")
 
 
 def _turns(cycle: Cycle) -> str:
@@ -232,18 +232,18 @@ class _Hole:
         self.cycle, self.first, self.second = cycle, first, second
         self.r, self.bottom, self.clear = heights
 
-    def move(self, kind: MotionKind, height: float, shift: tuple[float, float] = (0.0, 0.0)) -> Move:
+    def move(self, kind: MotionKind, height: float, shift: tuple[float, float] = (0.0, 0.0)) -> CycleMove:
         """Return the motion to a height over the hole, or beside it by `shift` in the plane."""
         meant = _point(self.cycle.plane, self.first + shift[0], self.second + shift[1], height)
-        return Move(kind, meant, meant)
+        return CycleMove(kind, meant, meant)
 
-    def rapid(self, height: float) -> Move:
+    def rapid(self, height: float) -> CycleMove:
         return self.move(MotionKind.RAPID, height)
 
-    def feed(self, height: float) -> Move:
+    def feed(self, height: float) -> CycleMove:
         return self.move(MotionKind.LINE, height)
 
-    def tap(self, height: float) -> Move:
+    def tap(self, height: float) -> CycleMove:
         """Return a feed of a tapping cycle."""
         if not taps_astray(self.cycle):
             return self.feed(height)

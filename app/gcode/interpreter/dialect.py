@@ -20,7 +20,7 @@ class Dialect(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Habits:
+class DialectRules:
     """What a dialect does its own way.
 
     Attributes:
@@ -107,10 +107,10 @@ _LINUXCNC_LACKS = frozenset(
     }
 )
 
-HABITS: dict[Dialect, Habits] = {
-    Dialect.LINUXCNC: Habits("LinuxCNC", calls=9, longest_line=252, missing=_LINUXCNC_LACKS),
-    Dialect.GRBL: Habits("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
-    Dialect.FANUC: Habits(
+DIALECT_RULES: dict[Dialect, DialectRules] = {
+    Dialect.LINUXCNC: DialectRules("LinuxCNC", calls=9, longest_line=252, missing=_LINUXCNC_LACKS),
+    Dialect.GRBL: DialectRules("grbl", ngc_flow=False, tool_changes=False, splines="", missing=_GRBL_LACKS),
+    Dialect.FANUC: DialectRules(
         "Fanuc",
         ngc_flow=False,
         fanuc_flow=True,
@@ -120,7 +120,7 @@ HABITS: dict[Dialect, Habits] = {
         length_from_tool=False,
         splines="G6.2",
     ),
-    Dialect.HAAS: Habits(
+    Dialect.HAAS: DialectRules(
         "Haas",
         ngc_flow=False,
         fanuc_flow=True,
@@ -130,5 +130,5 @@ HABITS: dict[Dialect, Habits] = {
         length_from_tool=False,
         splines="",
     ),
-    Dialect.MACH3: Habits("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),
+    Dialect.MACH3: DialectRules("Mach3", length_from_tool=False, splines="", ngc_flow=False, fanuc_flow=True),
 }

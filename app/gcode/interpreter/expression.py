@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 
-from .fault import Fault
+from .block_fault import BlockFault
 from .parameters import Key, Parameters
 
 Value = float | Callable[[Parameters], float]
@@ -44,14 +44,14 @@ _RANK = {
 
 def _divided(a: float, b: float) -> float:
     if b == 0:
-        raise Fault("the expression divides by zero.")
+        raise BlockFault("the expression divides by zero.")
     return a / b
 
 
 def _modulo(a: float, b: float) -> float:
     """The remainder with the sign of the divisor's size: never negative, as in NGC."""
     if b == 0:
-        raise Fault("the expression divides by zero in MOD.")
+        raise BlockFault("the expression divides by zero in MOD.")
     return math.fmod(a, b) + (abs(b) if math.fmod(a, b) < 0 else 0.0)
 
 
@@ -105,7 +105,7 @@ def whole(value: float, what: str) -> int:
         Fault: it is none.
     """
     if abs(value - round(value)) > ALIKE:
-        raise Fault(f"{what} is {value:g}; it must be a whole number.")
+        raise BlockFault(f"{what} is {value:g}; it must be a whole number.")
     return round(value)
 
 
@@ -116,11 +116,11 @@ def _computed(function: Callable[..., float], *arguments: float) -> float:
     except (ValueError, OverflowError, ZeroDivisionError, TypeError):
         value = math.nan
     if not math.isfinite(value):
-        raise Fault("the expression has no value: " + ", ".join(f"{a:g}" for a in arguments) + " is out of range.")
+        raise BlockFault("the expression has no value: " + ", ".join(f"{a:g}" for a in arguments) + " is out of range.")
     return value
 
 
-class Values:
+class ValueReader:
     """Reads values out of a block.
 
     Attributes:
@@ -246,10 +246,10 @@ class Values:
             raise self._fault("the number is too large")
         return value
 
-    def _fault(self, text: str) -> Fault:
+    def _fault(self, text: str) -> BlockFault:
         """Return a fault here; a negative column is an index of the code, which the reader turns into a column."""
         found = self._peek()
-        return Fault(
+        return BlockFault(
             f"{text}, found {found!r}." if found else f"{text}, found the end of the line.", column=-1 - self.at
         )
 

@@ -6,15 +6,15 @@ import math
 
 from ...model.part import Units
 from .block import Block
-from .codes import Group
+from .block_fault import BlockFault
+from .codes import ModalGroup
 from .control import Control
 from .dialect import Dialect
-from .fault import Fault
 from .program import FeedMode
 
 
 def _set_mode(control: Control, block: Block) -> None:
-    code = block.codes[Group.FEED]
+    code = block.codes[ModalGroup.FEED]
     mode = FeedMode(code)
     if mode is not control.modal.feed_mode or control.options.dialect is Dialect.LINUXCNC:
         control.change(feed_mode=mode)
@@ -27,7 +27,7 @@ def set_feed(control: Control, block: Block) -> None:
     Raises:
         Fault: the feed is less than 0.
     """
-    if Group.FEED in block.codes:
+    if ModalGroup.FEED in block.codes:
         _set_mode(control, block)
     value = block.get("f")
     inverse = control.modal.feed_mode is FeedMode.INVERSE_TIME
@@ -35,7 +35,7 @@ def set_feed(control: Control, block: Block) -> None:
         control.feed = math.nan if inverse else control.feed
         return
     if value < 0:
-        raise Fault(f"the feed rate is {value:g}; it must be greater than 0.", letter="f")
+        raise BlockFault(f"the feed rate is {value:g}; it must be greater than 0.", letter="f")
     control.feed = value * (1.0 if inverse else control.feed_unit(block)) or math.nan
     _warn_of_units(control, block, value)
 
@@ -44,7 +44,7 @@ def _warn_of_units(control: Control, block: Block, value: float) -> None:
     """Tell of an F that LinuxCNC takes in the units before those of its own block: 25 times as fast, or as slow, as it
     reads.
     """
-    said = {"G20": Units.INCH, "G21": Units.MM}.get(block.codes.get(Group.UNITS, ""))
+    said = {"G20": Units.INCH, "G21": Units.MM}.get(block.codes.get(ModalGroup.UNITS, ""))
     if said is None or said is control.modal.units or control.options.dialect is not Dialect.LINUXCNC or not value:
         return
     if control.modal.feed_mode is not FeedMode.INVERSE_TIME:

@@ -7,13 +7,13 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
+from .block_fault import BlockFault
 from .control import Control
-from .endless import never_ends
-from .expression import Value, Values, evaluated, whole
-from .fault import Fault
+from .endless_loops import never_ends
+from .expression import Value, ValueReader, evaluated, whole
 from .labels import Labels
 from .parameters import Key
-from .places import KEYWORDS, Cursor, Places, Statement, label_of
+from .places import KEYWORDS, Cursor, JumpTargets, Statement, label_of
 
 MOST_KEPT = 10_000
 """Lines of loops and subroutines that are kept as they were understood."""
@@ -38,7 +38,7 @@ class Loop:
 
 
 @dataclass(slots=True)
-class Frame:
+class CallFrame:
     """A subroutine that is running, or the program itself.
 
     Attributes:
@@ -69,11 +69,11 @@ class Flow:
         frames: the program, and the subroutines within one another.
     """
 
-    def __init__(self, places: Places, control: Control) -> None:
+    def __init__(self, places: JumpTargets, control: Control) -> None:
         """Begin at the first line."""
         self.places, self._control = places, control
         self.next = self.here = Cursor(0, 1)
-        self.frames = [Frame()]
+        self.frames = [CallFrame()]
         self._labels = Labels()
         self._seen: dict[int, tuple[object, ...]] = {}
         self._statements: dict[int, tuple[Statement, int]] = {}
@@ -86,7 +86,7 @@ class Flow:
         """Whether a subroutine or a loop is running."""
         return len(self.frames) > 1 or bool(self.frames[0].loops)
 
-    def first_value(self, values: Values) -> Value:
+    def first_value(self, values: ValueReader) -> Value:
         """Return the first value that is read of the line that is running: parsed once, however often the line is done.
 
         Args:
@@ -115,15 +115,17 @@ class Flow:
         """
         if self.here.offset in self._may_end:
             return
-        nested = self._control.habits.fanuc_flow
+        nested = self._control.rules.fanuc_flow
         try:
             endless = never_ends(
                 self.places.code(condition, nested), self.places.codes_between(begin, self.here, nested)
             )
-        except Fault:  # a comment without end, where the program may never come to
+        except BlockFault:  # a comment without end, where the program may never come to
             endless = False
         if endless:
-            raise Fault("this goes on for ever: nothing in the loop changes whether it repeats, and nothing leaves it.")
+            raise BlockFault(
+                "this goes on for ever: nothing in the loop changes whether it repeats, and nothing leaves it."
+            )
         self._may_end.add(self.here.offset)
 
     def jump(self, to: Cursor) -> None:
@@ -137,7 +139,7 @@ class Flow:
             counters = [[frame.left, *(loop.left for loop in frame.loops.values())] for frame in self.frames]
             now = (control.parameters.changes, control.at, control.modal, control.motion, repr(control.feed), counters)
             if self._seen.get(to.offset) == now:
-                raise Fault("this goes on for ever: nothing changes from one pass to the next.")
+                raise BlockFault("this goes on for ever: nothing changes from one pass to the next.")
             self._seen[to.offset] = now
         self.next = to
 
@@ -150,10 +152,10 @@ class Flow:
             count: how often, >= 1.
         """
         label, begin = place
-        deepest = min(self._control.options.limits.calls, self._control.habits.calls)
+        deepest = min(self._control.options.limits.calls, self._control.rules.calls)
         if len(self.frames) > deepest:
-            raise Fault(f"subroutines call one another more than {deepest} deep.")
-        self.frames.append(Frame(label, begin, self.next, count - 1, arguments is not None))
+            raise BlockFault(f"subroutines call one another more than {deepest} deep.")
+        self.frames.append(CallFrame(label, begin, self.next, count - 1, arguments is not None))
         if arguments is not None:
             self._control.parameters.enter(arguments)
         self.next = begin
@@ -182,7 +184,7 @@ class Flow:
         Raises:
             Fault: it is not one, or what belongs to it is missing.
         """
-        values = Values(code, self._control.options.limits.nesting)
+        values = ValueReader(code, self._control.options.limits.nesting)
         known = self._statements.get(self.here.offset)
         if known is not None:
             statement, values.at = known
@@ -194,7 +196,7 @@ class Flow:
             keyword = _KEYWORD.match(code, values.at)
             if keyword is None:
                 if values.at < len(code):
-                    raise Fault(
+                    raise BlockFault(
                         "behind an O word stands sub, call, if, while, do, repeat or one of their partners.",
                         column=-1 - values.at,
                     )
@@ -204,23 +206,23 @@ class Flow:
                 self._statements[self.here.offset] = statement, values.at
         _ACTS[statement.keyword](self, statement, values)
 
-    def _label(self, values: Values) -> str:
+    def _label(self, values: ValueReader) -> str:
         written = _LABEL.match(values.code, values.at)
         if written is not None:
             values.at = written.end()
             return label_of(written[0])
         return str(whole(evaluated(values.value(), self._control.parameters), "the number of an O word"))
 
-    def _condition(self, values: Values) -> float:
+    def _condition(self, values: ValueReader) -> float:
         """Return what a condition or a count is."""
         if values.code[values.at : values.at + 1] != "[":
-            raise Fault("expected [ with a condition.", column=-1 - values.at)
+            raise BlockFault("expected [ with a condition.", column=-1 - values.at)
         written = values.code[values.at :]
         value = self._conditions.get(written)
         if value is None:
             value = values.value()
             if values.at < len(values.code):
-                raise Fault("expected nothing more behind the condition.", column=-1 - values.at)
+                raise BlockFault("expected nothing more behind the condition.", column=-1 - values.at)
             if len(self._conditions) < MOST_KEPT:
                 self._conditions[written] = value
         return evaluated(value, self._control.parameters)
@@ -229,21 +231,23 @@ class Flow:
         """Return the statement further down that belongs to one."""
         found = self.places.next_of(statement.label, keywords, statement.at.offset)
         if found is None:
-            raise Fault(f"O{statement.label} {statement.keyword} has no {' or '.join(keywords)} with the same number.")
+            raise BlockFault(
+                f"O{statement.label} {statement.keyword} has no {' or '.join(keywords)} with the same number."
+            )
         return found
 
-    def _sub(self, statement: Statement, values: Values) -> None:
+    def _sub(self, statement: Statement, values: ValueReader) -> None:
         """Pass over a subroutine that nobody calls here."""
         end = self._partner(statement, "endsub")
         self._labels.meet_subroutine(statement, self.places.subroutine_between(statement.at.offset, end.at.offset))
         self.next = self.places.after(end.at)
 
-    def _endsub(self, statement: Statement, values: Values) -> None:
+    def _endsub(self, statement: Statement, values: ValueReader) -> None:
         frame = self.frames[-1]
         if len(self.frames) == 1:
-            raise Fault(f"O{statement.label} {statement.keyword} ends a subroutine that is not running.")
+            raise BlockFault(f"O{statement.label} {statement.keyword} ends a subroutine that is not running.")
         if not frame.called:
-            raise Fault(f"O{frame.label} is called by M98, so M99 must end it, not {statement.keyword}.")
+            raise BlockFault(f"O{frame.label} is called by M98, so M99 must end it, not {statement.keyword}.")
         control = self._control
         has_value = values.at < len(values.code)
         value = self._condition(values) if has_value else 0.0
@@ -251,21 +255,21 @@ class Flow:
         control.parameters.set("_value", value)
         control.parameters.set("_value_returned", float(has_value))
 
-    def _call(self, statement: Statement, values: Values) -> None:
+    def _call(self, statement: Statement, values: ValueReader) -> None:
         parameters = self._control.parameters
         given: list[float] = []
         while values.at < len(values.code):
             if values.code[values.at] != "[" or len(given) == 30:
-                raise Fault("expected up to 30 arguments in brackets.", column=-1 - values.at)
+                raise BlockFault("expected up to 30 arguments in brackets.", column=-1 - values.at)
             given.append(evaluated(values.value(), parameters))
         found = self.places.subroutine(statement.label)
         if found is None:
-            raise Fault(
+            raise BlockFault(
                 f"there is no subroutine O{statement.label} in this file; a file of its own beside the program is not "
                 "read, so put it into this one."
             )
         if found.keyword != "sub":
-            raise Fault(
+            raise BlockFault(
                 f"O{statement.label} is a subroutine of M98, for it has no sub; call it with M98 P{statement.label}."
             )
         found = self._labels.call_subroutine(found)
@@ -275,7 +279,7 @@ class Flow:
         self.call((statement.label, self.places.after(found.at)), arguments, 1)
         self.frames[-1].called = True
 
-    def _if(self, statement: Statement, values: Values) -> None:
+    def _if(self, statement: Statement, values: ValueReader) -> None:
         self._labels.define(statement, self.frames[-1].label)
         branch, holds = statement, self._condition(values) != 0
         while not holds:
@@ -289,26 +293,26 @@ class Flow:
     def _condition_at(self, statement: Statement) -> float:
         """Return the condition of a statement on another line."""
         self.here, self._control.line = statement.at, statement.at.line
-        code = self.places.code(statement.at, self._control.habits.fanuc_flow)
-        values = Values(code, self._control.options.limits.nesting)
+        code = self.places.code(statement.at, self._control.rules.fanuc_flow)
+        values = ValueReader(code, self._control.options.limits.nesting)
         keyword = re.compile(statement.keyword).search(code)
         values.at = keyword.end() if keyword else len(code)
         return self._condition(values)
 
-    def _else(self, statement: Statement, values: Values) -> None:
+    def _else(self, statement: Statement, values: ValueReader) -> None:
         """Come to the end of a branch that was taken."""
         self._labels.need_if(statement, self.frames[-1].label)
         self.next = self.places.after(self._partner(statement, "endif").at)
 
-    def _endif(self, statement: Statement, values: Values) -> None:
+    def _endif(self, statement: Statement, values: ValueReader) -> None:
         """Go on."""
         self._labels.need_if(statement, self.frames[-1].label)
 
-    def _do(self, statement: Statement, values: Values) -> None:
+    def _do(self, statement: Statement, values: ValueReader) -> None:
         self._labels.begin_do(statement, self.frames[-1].label)
         self.frames[-1].loops[statement.label] = Loop(statement)
 
-    def _while(self, statement: Statement, values: Values) -> None:
+    def _while(self, statement: Statement, values: ValueReader) -> None:
         loops = self.frames[-1].loops
         open_loop = loops.get(statement.label)
         holds = self._condition(values) != 0
@@ -327,7 +331,7 @@ class Flow:
             loops.pop(statement.label, None)
             self._pass_over(statement, "endwhile")
 
-    def _repeat(self, statement: Statement, values: Values) -> None:
+    def _repeat(self, statement: Statement, values: ValueReader) -> None:
         self._labels.define(statement, self.frames[-1].label)
         count = self._condition(values)
         if count >= 0.5:
@@ -343,11 +347,11 @@ class Flow:
             self._labels.need_if(end, self.frames[-1].label)
         self.next = self.places.after(end.at)
 
-    def _end_loop(self, statement: Statement, values: Values) -> None:
+    def _end_loop(self, statement: Statement, values: ValueReader) -> None:
         """Come to endwhile or endrepeat."""
         loop = self._open(statement)
         if _ENDS[loop.begin.keyword] != statement.keyword:
-            raise Fault(f"O{statement.label} {statement.keyword} ends no loop that is running.")
+            raise BlockFault(f"O{statement.label} {statement.keyword} ends no loop that is running.")
         if loop.begin.keyword == "while":
             self.check_end(loop.begin.at, loop.begin.at)
         self._next_pass(loop)
@@ -366,10 +370,10 @@ class Flow:
         del self.frames[-1].loops[loop.begin.label]
         self.next = self.places.after(self._partner(loop.begin, _ENDS[loop.begin.keyword]).at)
 
-    def _break(self, statement: Statement, values: Values) -> None:
+    def _break(self, statement: Statement, values: ValueReader) -> None:
         self._end(self._open(statement))
 
-    def _continue(self, statement: Statement, values: Values) -> None:
+    def _continue(self, statement: Statement, values: ValueReader) -> None:
         loop = self._open(statement)
         if loop.begin.keyword == "do":
             self.next = self._partner(loop.begin, "while").at
@@ -379,7 +383,7 @@ class Flow:
     def _open(self, statement: Statement) -> Loop:
         loop = self.frames[-1].loops.get(statement.label)
         if loop is None:
-            raise Fault(f"O{statement.label} {statement.keyword} belongs to no loop that is running.")
+            raise BlockFault(f"O{statement.label} {statement.keyword} belongs to no loop that is running.")
         return loop
 
 

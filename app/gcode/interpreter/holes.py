@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .block import Block
 from .control import Control
-from .cycles import Cycle, Dwell, Move, Spindle, Stop, cycle_steps, taps_astray, with_sticky
+from .cycles import Cycle, CycleMove, Dwell, Spindle, Stop, cycle_steps, taps_astray, with_sticky
 from .expression import whole
 from .offsets import Place
 from .program import EventKind
@@ -27,7 +27,7 @@ def bore(control: Control, block: Block) -> None:
             f"LinuxCNC (2.9) feeds {cycle.code} along the wrong axes in G18 and G19; it is shown as it would move.", "g"
         )
     for step in cycle_steps(cycle, place, control.initial):
-        if isinstance(step, Move):
+        if isinstance(step, CycleMove):
             control.unroll()
             _move(control, step)
         elif isinstance(step, Dwell):
@@ -46,7 +46,7 @@ def _program_place(control: Control) -> Place:
     return (x, y, z)
 
 
-def _move(control: Control, step: Move) -> None:
+def _move(control: Control, step: CycleMove) -> None:
     """Do a step; where the control goes astray it believes that it stands where it was meant to."""
     end = _table(control, step.target)
     feed = control.feed_along(1.0) if step.kind else 0.0
@@ -65,12 +65,12 @@ def _cycle(control: Control, block: Block) -> Cycle:
     u, v, w = control.modal.plane.axes
     words = [_length(control, block, letter) for letter in "xyz"]
     repeats = block.get("l")
-    fanuc = control.habits.fanuc_flow
+    fanuc = control.rules.fanuc_flow
     if repeats is None and fanuc and control.motion != "G87":
         repeats = block.get("k")
     dwell = block.get("p")
     if dwell is not None:
-        dwell *= control.habits.dwell_unit_s if "p" in block.whole else control.habits.dwell_unit_with_point_s
+        dwell *= control.rules.dwell_unit_s if "p" in block.whole else control.rules.dwell_unit_with_point_s
     return Cycle(
         code=control.motion,
         plane=control.modal.plane,

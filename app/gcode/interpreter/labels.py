@@ -4,7 +4,7 @@ place.
 
 from __future__ import annotations
 
-from .fault import Fault
+from .block_fault import BlockFault
 from .places import Statement
 
 
@@ -32,7 +32,7 @@ class Labels:
         """
         first = self._defined.setdefault(_key(statement.label, where), statement)
         if first.at.line != statement.at.line:
-            raise Fault(
+            raise BlockFault(
                 f"O{statement.label} is the label of what begins in line {first.at.line} already; LinuxCNC takes each "
                 "once, so use another."
             )
@@ -49,7 +49,7 @@ class Labels:
         """
         first = self._defined[_key(begin.label, where)]
         if first is not begin and first.at.line != begin.at.line:
-            raise Fault(
+            raise BlockFault(
                 f"O{begin.label} is the label of what begins in line {first.at.line} already, so this while in line "
                 f"{line} belongs to that; use another."
             )
@@ -62,9 +62,9 @@ class Labels:
         """
         first = self._defined.get(_key(statement.label, where))
         if first is None:
-            raise Fault(f"O{statement.label} {statement.keyword} belongs to no if.")
+            raise BlockFault(f"O{statement.label} {statement.keyword} belongs to no if.")
         if first.keyword != "if":
-            raise Fault(
+            raise BlockFault(
                 f"O{statement.label} {statement.keyword} belongs to no if: line {first.at.line} has {first.keyword}."
             )
 
@@ -80,15 +80,17 @@ class Labels:
         """
         first = self._subroutines.setdefault(statement.label, statement)
         if first.at.line != statement.at.line:
-            raise Fault(f"the subroutine O{statement.label} is in line {first.at.line} already; use another label.")
+            raise BlockFault(
+                f"the subroutine O{statement.label} is in line {first.at.line} already; use another label."
+            )
         if statement.label in self._met:
-            raise Fault(
+            raise BlockFault(
                 f"the program comes to the subroutine O{statement.label} again; it must stand before its first call, "
                 "and in nothing that is repeated."
             )
         self._met.add(statement.label)
         if inner is not None:
-            raise Fault(
+            raise BlockFault(
                 f"the subroutine O{inner.label} begins in line {inner.at.line} within another, O{statement.label}; put "
                 "it before."
             )

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .columns import Columns
+from .columns import MotionColumns
 
 _PORTION = 8192
 LONGEST = 1000
@@ -18,7 +18,7 @@ LONGEST = 1000
 
 
 @dataclass(slots=True)
-class Plain:
+class LaneState:
     """What is in force for plain blocks; the lane changes position, motion, feed and known.
 
     Feeds are per minute and nothing is rotated whenever the lane is called.
@@ -52,7 +52,7 @@ class Plain:
 
 
 def plain_blocks(
-    data: NDArray[np.uint8], at: tuple[int, int], plain: Plain, columns: Columns, most_lines: int
+    data: NDArray[np.uint8], at: tuple[int, int], plain: LaneState, columns: MotionColumns, most_lines: int
 ) -> tuple[int, int]:
     """Do the plain lines that begin at a place of the text; return the place of the first line that is not done.
 

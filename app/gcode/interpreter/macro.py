@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 
 from .block import Block
-from .codes import Group
+from .block_fault import BlockFault
+from .codes import ModalGroup
 from .control import Control
-from .expression import Values, evaluated, whole
-from .fault import Fault
+from .expression import ValueReader, evaluated, whole
 from .flow import Flow
 from .places import Cursor
 
@@ -32,7 +32,7 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
     begun = _WORDS.match(code)
     assert begun is not None
     word = begun[1] or begun[2]
-    values = Values(code, control.options.limits.nesting)
+    values = ValueReader(code, control.options.limits.nesting)
     values.at = begun.end()
     if word == "goto":
         _goto(flow, control, values)
@@ -41,7 +41,7 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
         _end(flow, code[values.at :])
         return len(code)
     if code[values.at : values.at + 1] != "[":
-        raise Fault(f"expected [ with a condition behind {word.upper()}.", column=-1 - values.at)
+        raise BlockFault(f"expected [ with a condition behind {word.upper()}.", column=-1 - values.at)
     holds = evaluated(flow.first_value(values), control.parameters) != 0
     if word == "while":
         _while(flow, code[values.at :], holds)
@@ -49,19 +49,19 @@ def obey_macro(flow: Flow, control: Control, code: str) -> int:
     return _if(flow, control, values, holds)
 
 
-def _if(flow: Flow, control: Control, values: Values, holds: bool) -> int:
+def _if(flow: Flow, control: Control, values: ValueReader, holds: bool) -> int:
     code = values.code
     if code.startswith("then", values.at):
         return values.at + 4 if holds else len(code)
     if not code.startswith("goto", values.at):
-        raise Fault("expected GOTO or THEN behind the condition.", column=-1 - values.at)
+        raise BlockFault("expected GOTO or THEN behind the condition.", column=-1 - values.at)
     values.at += 4
     if holds:
         _goto(flow, control, values)
     return len(code)
 
 
-def _goto(flow: Flow, control: Control, values: Values) -> None:
+def _goto(flow: Flow, control: Control, values: ValueReader) -> None:
     go_to(flow, whole(evaluated(values.value(), control.parameters), "the number behind GOTO"))
 
 
@@ -73,17 +73,17 @@ def go_to(flow: Flow, number: int) -> None:
     """
     to = flow.places.number(number, flow.here.offset)
     if to is None:
-        raise Fault(f"there is no block N{number} to go to.")
+        raise BlockFault(f"there is no block N{number} to go to.")
     flow.jump(to)
 
 
 def _while(flow: Flow, rest: str, holds: bool) -> None:
     number = _DO.fullmatch(rest)
     if number is None:
-        raise Fault("expected DO 1, DO 2 or DO 3 behind the condition.")
+        raise BlockFault("expected DO 1, DO 2 or DO 3 behind the condition.")
     end = flow.places.loop_end(int(number[1]), flow.here.offset)
     if end is None:
-        raise Fault(f"the loop DO {number[1]} has no END {number[1]}.")
+        raise BlockFault(f"the loop DO {number[1]} has no END {number[1]}.")
     if holds:
         flow.frames[-1].ends[end.offset] = flow.here
     else:
@@ -94,7 +94,7 @@ def _while(flow: Flow, rest: str, holds: bool) -> None:
 def _end(flow: Flow, rest: str) -> None:
     begin = flow.frames[-1].ends.get(flow.here.offset)
     if begin is None:
-        raise Fault(f"END {rest.upper()} ends no loop that is running.")
+        raise BlockFault(f"END {rest.upper()} ends no loop that is running.")
     flow.check_end(begin, begin)
     flow.jump(begin)
 
@@ -105,19 +105,19 @@ def call_or_return(flow: Flow, control: Control, block: Block) -> bool:
     Raises:
         Fault: what is called is missing.
     """
-    code = block.codes.get(Group.CALL)
+    code = block.codes.get(ModalGroup.CALL)
     if code is None:
         return True
     if code == "M99":
         if flow.frames[-1].label or len(flow.frames) > 1:
             if flow.frames[-1].called:
-                raise Fault(
+                raise BlockFault(
                     f"O{flow.frames[-1].label} is called by an O word, so endsub or return must end it, not M99.",
                     letter="m",
                 )
             back = block.get("p")
             flow.leave()
-            if back is not None and control.habits.fanuc_flow:
+            if back is not None and control.rules.fanuc_flow:
                 go_to(flow, whole(back, "P of M99"))
             return True
         if block.has("p"):
@@ -134,10 +134,10 @@ def _called(control: Control, block: Block, code: str) -> tuple[int, int]:
     """Return which subroutine is called and how often; Fanuc writes both in P too: four digits of number."""
     number = whole(block.need("p", code), f"P of {code}")
     count = whole(block.values.get("l", 1.0), f"L of {code}")
-    if code == "M98" and control.habits.fanuc_flow and not block.has("l") and number > 9999:
+    if code == "M98" and control.rules.fanuc_flow and not block.has("l") and number > 9999:
         number, count = number % 10_000, number // 10_000
     if not 0 <= count <= MOST_CALLS:
-        raise Fault(f"a subroutine cannot be called {count} times; use 1 to {MOST_CALLS}.", letter="l")
+        raise BlockFault(f"a subroutine cannot be called {count} times; use 1 to {MOST_CALLS}.", letter="l")
     return number, count
 
 
@@ -145,9 +145,9 @@ def _goal(flow: Flow, control: Control, code: str, number: int) -> tuple[str, Cu
     if code == "M97":
         to = flow.places.number(number, -1)
         if to is None:
-            raise Fault(f"there is no block N{number} to call.", letter="p")
+            raise BlockFault(f"there is no block N{number} to call.", letter="p")
         return f"N{number}", to
-    return subroutine(flow, number, plain=control.habits.ngc_flow)
+    return subroutine(flow, number, plain=control.rules.ngc_flow)
 
 
 def subroutine(flow: Flow, number: int, plain: bool = False) -> tuple[str, Cursor]:
@@ -161,10 +161,10 @@ def subroutine(flow: Flow, number: int, plain: bool = False) -> tuple[str, Curso
     """
     found = flow.places.subroutine(str(number))
     if found is None:
-        raise Fault(
+        raise BlockFault(
             f"there is no subroutine O{number} in this file; a file of its own is not read, so put it into this one.",
             letter="p",
         )
     if plain and found.keyword == "sub":
-        raise Fault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
+        raise BlockFault(f"O{number} begins with sub, so O{number} call must call it, not M98.", letter="p")
     return str(number), flow.places.after(found.at)

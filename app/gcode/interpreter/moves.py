@@ -11,13 +11,13 @@ from ...model.motion import MotionKind, Plane
 from ...model.part import Units
 from .arc_kernels import centre_by_radius, radii
 from .block import Block
-from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, Group
+from .block_fault import BlockFault
+from .codes import AXES, CYCLES, ROTARY, WITHOUT_AXES, ModalGroup
 from .control import Control
 from .curves import drop_curve, move_along_curve
 from .dialect import Dialect
 from .expression import whole
-from .fault import Fault
-from .foreign import warn_of_rotary
+from .foreign_codes import warn_of_rotary
 from .holes import bore
 from .offsets import Place, replaced, taken
 from .program import FeedMode
@@ -46,14 +46,14 @@ def move(control: Control, block: Block) -> None:
     Raises:
         Fault: the motion cannot be done as it is written.
     """
-    once = block.codes.get(Group.ONCE)
-    code = block.codes.get(Group.MOTION)
+    once = block.codes.get(ModalGroup.ONCE)
+    code = block.codes.get(ModalGroup.MOTION)
     axes = block.has(AXES + ROTARY)
     if once in ("G28", "G30"):
-        if code is not None and control.habits.fanuc_flow:
+        if code is not None and control.rules.fanuc_flow:
             control.motion = code
         elif code is not None and axes:
-            raise Fault(f"{once} and {code} in one block both want its axis words; write them in two.", letter="g")
+            raise BlockFault(f"{once} and {code} in one block both want its axis words; write them in two.", letter="g")
         _go_home(control, block, once)
         return
     if once is not None and once not in WITHOUT_AXES:
@@ -76,15 +76,15 @@ def move(control: Control, block: Block) -> None:
     if control.motion not in CURVES:
         drop_curve(control)
     if control.compensation is not None and control.motion in CYCLES:
-        raise Fault("a canned cycle cannot be while cutter compensation is on; write G40 before.", letter="g")
+        raise BlockFault("a canned cycle cannot be while cutter compensation is on; write G40 before.", letter="g")
     _MOTIONS[control.motion](control, block)
 
 
 def _check_once(control: Control, once: str | None) -> None:
     if once == "G53" and control.motion not in ("G0", "G1"):
-        raise Fault("G53 goes with G0 and G1 only.", letter="g")
+        raise BlockFault("G53 goes with G0 and G1 only.", letter="g")
     if once == "G53" and not control.modal.absolute:
-        raise Fault("G53 goes with G90 only: the machine's zero is no increment.", letter="g")
+        raise BlockFault("G53 goes with G90 only: the machine's zero is no increment.", letter="g")
 
 
 def _go_home(control: Control, block: Block, code: str) -> None:
@@ -95,7 +95,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
     named = [axis for axis, letter in enumerate(AXES) if letter in block.values]
     by_way = control.target(block)
     control.note_known(block, absolute=True)
-    if by_way != control.at or not control.habits.fanuc_flow:
+    if by_way != control.at or not control.rules.fanuc_flow:
         control.move(MotionKind.RAPID, by_way)
     home = control.offsets.to_program(taken(control.homes[code], control.offsets.tool))
     goal = control.program_place
@@ -107,7 +107,7 @@ def _go_home(control: Control, block: Block, code: str) -> None:
 
 def _target(control: Control, block: Block) -> Place:
     """Return where the axis words lead; under G53 they count from the machine's zero."""
-    if block.codes.get(Group.ONCE) != "G53":
+    if block.codes.get(ModalGroup.ONCE) != "G53":
         control.note_known(block)
         return control.target(block)
     control.homeward.append(control.row)
@@ -134,24 +134,24 @@ def _line(control: Control, block: Block) -> None:
 
 
 def _no_motion(control: Control, block: Block) -> None:
-    if control.habits.fanuc_flow:  # what was in force before the cycle is in force again
+    if control.rules.fanuc_flow:  # what was in force before the cycle is in force again
         control.motion = control.before_cycle if control.before_cycle in ("G0", "G1") else "G0"
         (_rapid if control.motion == "G0" else _line)(control, block)
         return
     if block.has(AXES + ROTARY):
         letter = next(letter for letter in AXES + ROTARY if letter in block.values)
-        raise Fault("there are axis words, but no G code that uses them is in force.", letter=letter)
+        raise BlockFault("there are axis words, but no G code that uses them is in force.", letter=letter)
 
 
 def _arc(control: Control, block: Block) -> None:
     code = control.motion
     if control.stray is not None:
-        raise Fault("the move just after cutter compensation (G40) must be straight, not an arc.", letter="g")
+        raise BlockFault("the move just after cutter compensation (G40) must be straight, not an arc.", letter="g")
     u, v, w = control.modal.plane.axes
     if not block.has(AXES + ROTARY + "ijkr"):
-        raise Fault(f"{code} needs its end or its centre.", letter="g")
+        raise BlockFault(f"{code} needs its end or its centre.", letter="g")
     if control.offsets.rotation != 0.0 and control.modal.plane is not Plane.XY:
-        raise Fault(
+        raise BlockFault(
             f"{code} in another plane than X Y is not followed while the work offset is turned (R of its table row).",
             letter="g",
         )
@@ -160,7 +160,7 @@ def _arc(control: Control, block: Block) -> None:
     centre = _centre_by_r(control, block, end) if block.has("r") else _centre_by_ijk(control, block)
     turns = whole(block.get("p") or 1.0, "P of an arc") if block.has("p") else 1
     if not 1 <= turns <= MOST_TURNS:
-        raise Fault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
+        raise BlockFault(f"the arc has P{turns} turns; use 1 to {MOST_TURNS}.", letter="p")
     _check_radii(control, end, centre)
     start = control.at
     sweep = _sweep((start[u] - centre[u], start[v] - centre[v]), (end[u] - centre[u], end[v] - centre[v]), code == "G3")
@@ -179,11 +179,11 @@ def _sweep(first: tuple[float, float], last: tuple[float, float], ccw: bool) -> 
 def _check_arc_words(block: Block, foreign: str, code: str) -> None:
     """Refuse words that contradict one another."""
     if block.has("r") and block.has("ijk"):
-        raise Fault(f"{code} has both a radius and a centre; write one of them.", letter="r")
+        raise BlockFault(f"{code} has both a radius and a centre; write one of them.", letter="r")
     if not block.has("rijk"):
-        raise Fault(f"{code} needs a radius R or a centre I, J, K.", letter="g")
+        raise BlockFault(f"{code} needs a radius R or a centre I, J, K.", letter="g")
     if block.has(foreign):
-        raise Fault(
+        raise BlockFault(
             f"{foreign.upper()} is no coordinate of this plane's arcs; choose the plane, or leave it out.",
             letter=foreign,
         )
@@ -193,12 +193,12 @@ def _centre_by_r(control: Control, block: Block, end: Place) -> Place:
     u, v, w = control.modal.plane.axes
     start, radius = control.at, control.length(block, "r") or 0.0
     if (start[u], start[v]) == (end[u], end[v]):
-        raise Fault("an arc with a radius R cannot end where it starts; write its centre.", letter="r")
+        raise BlockFault("an arc with a radius R cannot end where it starts; write its centre.", letter="r")
     turn = 1.0 if control.motion == "G3" else -1.0
     a, b = centre_by_radius(start[u], start[v], end[u], end[v], radius, turn, RADIUS_SLACK_MM)
     if math.isnan(a):
         half = math.hypot(end[u] - start[u], end[v] - start[v]) / 2
-        raise Fault(
+        raise BlockFault(
             f"the radius {abs(radius):g} mm is too small to reach the end, which is {2 * half:.6g} mm away.", letter="r"
         )
     return _placed((u, a), (v, b), (w, start[w]))
@@ -211,7 +211,7 @@ def _centre_by_ijk(control: Control, block: Block) -> Place:
     if control.modal.arc_absolute:
         for axis, word in zip((u, v), words, strict=True):
             if word is None:
-                raise Fault(f"with absolute centres (G90.1) an arc needs {'IJK'[axis]} too.", letter="g")
+                raise BlockFault(f"with absolute centres (G90.1) an arc needs {'IJK'[axis]} too.", letter="g")
         if control.offsets.rotation == 0.0:
             shift = control.modal.shift
             return _placed((u, (words[0] or 0.0) + shift[u]), (v, (words[1] or 0.0) + shift[v]), (w, start[w]))
@@ -241,11 +241,13 @@ def _check_radii(control: Control, end: Place, centre: Place) -> None:
     u, v, _ = control.modal.plane.axes
     first, last = radii(control.at[u], control.at[v], end[u], end[v], centre[u], centre[v])
     if first < LEAST_RADIUS_MM or last < LEAST_RADIUS_MM:
-        raise Fault(f"the arc has no radius (start {first:.4g} mm, end {last:.4g} mm from its centre).", letter="ijk")
+        raise BlockFault(
+            f"the arc has no radius (start {first:.4g} mm, end {last:.4g} mm from its centre).", letter="ijk"
+        )
     some, most = _mismatch(control)
     off = abs(first - last)
     if (off > some and off > RELATIVE_MISMATCH * max(first, last)) or off > most:
-        raise Fault(
+        raise BlockFault(
             f"the arc does not end on its circle: its radius is {first:.4f} mm at the start and {last:.4f} mm at the "
             "end.",
             "ijk",
@@ -270,9 +272,9 @@ def _mismatch(control: Control) -> tuple[float, float]:
 def _probe(control: Control, block: Block) -> None:
     """Take the way to a probe's goal as fed all along: where it will stop nobody knows."""
     if not block.has(AXES + ROTARY):
-        raise Fault(f"{control.motion} needs axis words: where to look for the work.", letter="g")
+        raise BlockFault(f"{control.motion} needs axis words: where to look for the work.", letter="g")
     if block.has(AXES) and not block.has(ROTARY) and math.dist(control.at, control.target(block)) == 0.0:
-        raise Fault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
+        raise BlockFault(f"{control.motion} begins where it ends, so it can probe nothing.", letter="g")
     control.warn(f"{control.motion} stops where the probe touches; it is shown up to its end.", "g")
     _line(control, block)
 
@@ -281,12 +283,12 @@ def _thread(control: Control, block: Block) -> None:
     """Feed in step with the spindle; G33.1 comes back the same way."""
     pitch = block.get("k")
     if pitch is None or pitch <= 0:
-        raise Fault(
+        raise BlockFault(
             f"{control.motion} needs the way of a revolution, K greater than 0.",
             letter="k" if pitch is not None else "g",
         )
     if control.modal.speed <= 0 or not control.modal.spindle:
-        raise Fault(f"{control.motion} needs a turning spindle (S and M3 or M4 before).", letter="g")
+        raise BlockFault(f"{control.motion} needs a turning spindle (S and M3 or M4 before).", letter="g")
     start, end, feed = control.at, _target(control, block), pitch * control.unit * control.modal.speed
     control.move(MotionKind.LINE, end, feed)
     if control.motion == "G33.1":
@@ -295,7 +297,7 @@ def _thread(control: Control, block: Block) -> None:
 
 def _cycle(control: Control, block: Block) -> None:
     if control.modal.feed_mode is FeedMode.INVERSE_TIME:
-        raise Fault("a canned cycle cannot be fed in inverse time (G93).", letter="g")
+        raise BlockFault("a canned cycle cannot be fed in inverse time (G93).", letter="g")
     bore(control, block)
 
 

@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from .notes_own import MARK, Notes, own_notes
-from .notes_stock import Box, bounds_of, box_of
+from .notes_stock import StockBoxNote, bounds_of, box_of
 from .notes_tool import tool_of
 from .notes_words import MOST_BYTES, Comments, ProgramUnits
+from .own_header import MARK, ProgramNotes, own_notes
 from .program import StockNote, ToolNote
-from .text import Text
+from .text import ProgramBuffer
 
 MOST_TOOLS = 500
 
@@ -27,10 +27,10 @@ _TOGETHER = 10
 _BOUNDS_AROUND = 200
 
 
-def notes(data: bytes) -> Notes:
+def notes(data: bytes) -> ProgramNotes:
     """Return the tools and the stock that comments tell of, in the order of the text.
 
-    Our own header is believed alone (`notes_own`); else what CAM systems and people write: "(T1 D=6. CR=0. - ZMIN=-5. -
+    Our own header is believed alone (`own_header`); else what CAM systems and people say: "(T1 D=6. CR=0. - ZMIN=-5. -
     flat end mill)", "(TOOL 2 - 6MM BALL ENDMILL)", ";tool_radius = 3.0", '(Assumes 4"x4"x2" finished stock)'. A comment
     that names no number belongs to the T word beside or below it. Lengths without a unit are in the units of the
     program near them.
@@ -38,22 +38,22 @@ def notes(data: bytes) -> Notes:
     Args:
         data: the file's bytes; any encoding, any line ends.
     """
-    text = Text(data[:MOST_BYTES])
+    text = ProgramBuffer(data[:MOST_BYTES])
     comments = Comments(text.data, text.data.lower(), text.encoding)
     if comments.lower.find(MARK) >= 0:
         return own_notes(comments)
     if not any(mark in comments.data for mark in (b"(", b";")):
-        return Notes()
+        return ProgramNotes()
     units = ProgramUnits(comments)
-    return Notes(_tools(comments, units), _stock(comments, units))
+    return ProgramNotes(_tools(comments, units), _stock(comments, units))
 
 
 def _tools(comments: Comments, units: ProgramUnits) -> tuple[ToolNote, ...]:
     """Return a note a tool number: the first that tells a diameter, with what others near it add."""
-    told: dict[int, list[ToolNote]] = {}
+    noted: dict[int, list[ToolNote]] = {}
     for note in sorted(_told(comments, units), key=lambda note: note.line):
-        told.setdefault(note.number, []).append(note)
-    merged = [note for same in told.values() if (note := _merged(same)).diameter > 0.0]
+        noted.setdefault(note.number, []).append(note)
+    merged = [note for same in noted.values() if (note := _merged(same)).diameter > 0.0]
     return tuple(sorted(merged, key=lambda note: note.line)[:MOST_TOOLS])
 
 
@@ -113,15 +113,15 @@ def _number_near(comments: Comments, at: int) -> int:
 
 def _stock(comments: Comments, units: ProgramUnits) -> StockNote | None:
     """Return the box, put together from what comments tell in the order of the text."""
-    box, first = Box(), -1
+    box, first = StockBoxNote(), -1
     for at, text in sorted(comments.texts(_STOCK_WORDS)):
         more = box_of(text if any(c.isdigit() for c in text) else _next_line(comments, at), units.mm_at(at))
-        first = at if first < 0 and more.told() else first
+        first = at if first < 0 and more.is_known() else first
         box = box.merged(more)
-    if not box.told():
+    if not box.is_known():
         first = comments.lower.find(b"minx")
         box = bounds_of(comments.text(max(0, first - _BOUNDS_AROUND), first + _BOUNDS_AROUND)) if first >= 0 else box
-    return box.note(comments.line(first)) if box.told() else None
+    return box.note(comments.line(first)) if box.is_known() else None
 
 
 def _next_line(comments: Comments, at: int) -> str:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...model.operation import OPERATION_KINDS
 from .program import EventKind, NcProgram
-from .text import Text
+from .text import ProgramBuffer
 
 _NUMBER = re.compile(rb"\d{1,9}:")
 _OPENS = (b"(", b";")
@@ -29,7 +29,7 @@ def contour_motions(data: bytes, program: NcProgram) -> NDArray[np.bool_]:
     if not len(program.motions):
         return np.zeros(0, bool)
     begins = {event.line: False for event in program.events if event.kind is EventKind.TOOL_CHANGE}
-    begins |= _operations(Text(data).data)
+    begins |= _operations(ProgramBuffer(data).data)
     if not any(begins.values()):
         return np.zeros(len(program.motions), bool)
     lines = sorted(begins)

@@ -28,20 +28,20 @@ def _unknown() -> Three:
 
 
 @dataclass
-class Box:
+class StockBoxNote:
     """A box as far as it is told, mm: corners and size, NaN where they are not."""
 
     low: Three = field(default_factory=_unknown)
     high: Three = field(default_factory=_unknown)
     size: Three = field(default_factory=_unknown)
 
-    def told(self) -> bool:
+    def is_known(self) -> bool:
         """Whether anything is."""
         return any(not math.isnan(value) for value in (*self.low, *self.high, *self.size))
 
-    def merged(self, other: Box) -> Box:
+    def merged(self, other: StockBoxNote) -> StockBoxNote:
         """Return the box with what another tells beside it."""
-        return Box(
+        return StockBoxNote(
             *(
                 [b if math.isnan(a) else a for a, b in zip(mine, theirs, strict=True)]
                 for mine, theirs in ((self.low, other.low), (self.high, other.high), (self.size, other.size))
@@ -58,7 +58,7 @@ class Box:
         return StockNote((low[0], low[1], low[2]), (high[0], high[1], high[2]), (size[0], size[1], size[2]), line)
 
 
-def box_of(text: str, program_mm: float) -> Box:
+def box_of(text: str, program_mm: float) -> StockBoxNote:
     """Return what a comment about the stock tells.
 
     Args:
@@ -67,16 +67,16 @@ def box_of(text: str, program_mm: float) -> Box:
     """
     top = _TOP.search(text)
     if top:
-        return Box(high=[math.nan, math.nan, _signed(top.groups(), program_mm)])
+        return StockBoxNote(high=[math.nan, math.nan, _signed(top.groups(), program_mm)])
     size = _SIZE.search(text)
     if size:
-        return Box(size=_sizes(size.groups(), program_mm))
+        return StockBoxNote(size=_sizes(size.groups(), program_mm))
     return _by_axes(text, program_mm)
 
 
-def bounds_of(text: str) -> Box:
+def bounds_of(text: str) -> StockBoxNote:
     """Return the box of PyCAM's settings: minx = ..., maxz = ..., in mm."""
-    box = Box()
+    box = StockBoxNote()
     for end, axis, *number in _BOUND.findall(text):
         (box.low if end.lower() == "min" else box.high)["xyz".index(axis.lower())] = _signed(number, 1.0)
     return box
@@ -95,7 +95,7 @@ def _sizes(groups: tuple[str | None, ...], program_mm: float) -> Three:
     return [abs(_signed((*groups[k : k + 2], groups[k + 2] or last), program_mm)) for k in (0, 3, 6)]
 
 
-def _by_axes(text: str, program_mm: float) -> Box:
+def _by_axes(text: str, program_mm: float) -> StockBoxNote:
     """Return the box by X, Y, Z words: ranges or two of each are corners; one of each is a size, unless one is <= 0."""
     values: list[Three] = [[], [], []]
     for match in _AXIS.finditer(text):
@@ -105,8 +105,8 @@ def _by_axes(text: str, program_mm: float) -> Box:
         if found[5] is not None:
             values[axis].append(_signed(found[4:7], program_mm))
     if not all(values):
-        return Box()
+        return StockBoxNote()
     if all(len(of_axis) >= 2 for of_axis in values):
-        return Box(low=[min(of_axis) for of_axis in values], high=[max(of_axis) for of_axis in values])
+        return StockBoxNote(low=[min(of_axis) for of_axis in values], high=[max(of_axis) for of_axis in values])
     firsts = [of_axis[0] for of_axis in values]
-    return Box(size=firsts) if min(firsts) > 0 else Box(low=firsts)
+    return StockBoxNote(size=firsts) if min(firsts) > 0 else StockBoxNote(low=firsts)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from .fault import Fault
+from .block_fault import BlockFault
 
 Place = tuple[float, float, float]
 
@@ -20,7 +20,7 @@ OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 
 
 @dataclass(slots=True)
-class Offsets:
+class WorkOffsets:
     """Every offset that is set.
 
     Attributes:
@@ -132,4 +132,4 @@ def offset_name(number: int, extended: bool = False) -> str:
         return f"G54.1 P{number}"
     if not extended and 1 <= number <= len(OFFSETS):
         return OFFSETS[number - 1]
-    raise Fault(f"there is no work offset P{number}; use 1 to {300 if extended else len(OFFSETS)}.", letter="p")
+    raise BlockFault(f"there is no work offset P{number}; use 1 to {300 if extended else len(OFFSETS)}.", letter="p")

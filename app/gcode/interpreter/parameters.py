@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...model.motion import Floats
-from .fault import Fault
+from .block_fault import BlockFault
 
 Key = int | str
 System = Callable[[Key], float | None]
@@ -65,9 +65,9 @@ class Parameters:
         if value is not None:
             return value
         if isinstance(key, str):
-            raise Fault(f"the parameter #<{key}> has no value here; set it before.")
+            raise BlockFault(f"the parameter #<{key}> has no value here; set it before.")
         if not 0 <= key <= LARGEST:
-            raise Fault(f"there is no parameter #{key}; use 1 to {LARGEST}.")
+            raise BlockFault(f"there is no parameter #{key}; use 1 to {LARGEST}.")
         return 0.0
 
     def exists(self, key: str) -> bool:
@@ -81,9 +81,9 @@ class Parameters:
             Fault: the control's own cannot be set; the number is out of range; there are too many.
         """
         if isinstance(key, int) and not 0 < key <= LARGEST:
-            raise Fault(f"there is no parameter #{key} to set; use 1 to {LARGEST}.")
+            raise BlockFault(f"there is no parameter #{key} to set; use 1 to {LARGEST}.")
         if isinstance(key, str) and self._system(key) is not None:
-            raise Fault(f"#<{key}> is the control's own and cannot be set.")
+            raise BlockFault(f"#<{key}> is the control's own and cannot be set.")
         if isinstance(key, int) and key <= PLAIN:
             if self.plain[key] != value:
                 self.changes += 1
@@ -94,7 +94,7 @@ class Parameters:
             self.changes += 1
             place[key] = value
             if len(place) > MOST:
-                raise Fault(f"the program sets more than {MOST} parameters; the reader stops here.")
+                raise BlockFault(f"the program sets more than {MOST} parameters; the reader stops here.")
 
     def values(self) -> tuple[tuple[Key, float], ...]:
         """Return every parameter that the program has set and can use here."""

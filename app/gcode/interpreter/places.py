@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .fault import Fault
-from .text import Text, code_of
+from .block_fault import BlockFault
+from .text import ProgramBuffer, code_of
 
 KEYWORDS = (
     "sub",
@@ -65,10 +65,10 @@ class Statement:
     keyword: str
 
 
-class Places:
+class JumpTargets:
     """Finds places of a text; each index is made when it is first asked."""
 
-    def __init__(self, text: Text) -> None:
+    def __init__(self, text: ProgramBuffer) -> None:
         """Look into a text."""
         self._text, self._end = text, len(text.data)
         self._by_label: dict[str, list[Statement]] | None = None
@@ -184,7 +184,7 @@ class Places:
         data, line, counted = self._text.data, 1, 0
         for index, match in enumerate(pattern.finditer(data, 0, self._end)):
             if index >= MOST_PLACES:
-                raise Fault(f"the program has more than {MOST_PLACES} places to go on at; the reader stops here.")
+                raise BlockFault(f"the program has more than {MOST_PLACES} places to go on at; the reader stops here.")
             line += data.count(b"\n", counted, match.start())
             counted = match.start()
             yield match, line

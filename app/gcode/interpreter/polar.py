@@ -7,9 +7,9 @@ from __future__ import annotations
 import math
 
 from .block import POLAR, Block
-from .codes import Group
+from .block_fault import BlockFault
+from .codes import ModalGroup
 from .control import Control
-from .fault import Fault
 
 RADIUS, ANGLE = "@", "^"
 AT_ORIGIN_MM = 1e-9
@@ -25,10 +25,10 @@ def check_polar(control: Control, block: Block) -> None:
         return
     letter = RADIUS if block.has(RADIUS) else ANGLE
     if block.has("xy"):
-        raise Fault("polar coordinates and X or Y in one block contradict one another.", letter=letter)
-    once = block.codes.get(Group.ONCE)
-    if once not in (None, "G4") or block.codes.get(Group.MOTION, control.motion) == "G80":
-        raise Fault("polar coordinates go with a motion only.", letter=letter)
+        raise BlockFault("polar coordinates and X or Y in one block contradict one another.", letter=letter)
+    once = block.codes.get(ModalGroup.ONCE)
+    if once not in (None, "G4") or block.codes.get(ModalGroup.MOTION, control.motion) == "G80":
+        raise BlockFault("polar coordinates go with a motion only.", letter=letter)
 
 
 def turn_polar_into_axes(control: Control, block: Block) -> None:
@@ -57,7 +57,7 @@ def _place(control: Control, block: Block) -> tuple[float, float]:
     radius, angle = math.hypot(x, y), math.atan2(y, x)
     said, turned = block.get(RADIUS), block.get(ANGLE)
     if turned is None and radius < AT_ORIGIN_MM:
-        raise Fault("at the zero the angle (^) must be said.", letter=RADIUS)
+        raise BlockFault("at the zero the angle (^) must be said.", letter=RADIUS)
     rest = 0.0 if control.modal.absolute else 1.0
     radius = radius if said is None else rest * radius + said * control.unit
     angle = angle if turned is None else rest * angle + math.radians(turned)

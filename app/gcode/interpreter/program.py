@@ -97,7 +97,7 @@ class Severity(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class ProgramProblem:
     """Something in the text that the control would refuse, or that the reader cannot follow.
 
     Attributes:
@@ -113,7 +113,7 @@ class Problem:
     text: str
     severity: Severity = Severity.ERROR
 
-    def told(self, file: str) -> str:
+    def message(self, file: str) -> str:
         """Return the problem with its place: "part.ngc:12:7: G41: ...".
 
         Args:
@@ -178,8 +178,8 @@ class OperationNote:
         Raises:
             ParameterError: the values make none.
         """
-        told = dict(self.values)
-        return built(self.kind, {"stepdown": told.get("depth", 2.0), **told})
+        noted = dict(self.values)
+        return built(self.kind, {"stepdown": noted.get("depth", 2.0), **noted})
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,13 +239,13 @@ class NcProgram:
     states: tuple[ModalState, ...] = (ModalState(),)
     events: tuple[Event, ...] = ()
     homeward: tuple[int, ...] = ()
-    problems: tuple[Problem, ...] = ()
+    problems: tuple[ProgramProblem, ...] = ()
     tools: tuple[ToolNote, ...] = ()
     stock: StockNote | None = None
     line_count: int = 0
     header: HeaderNote | None = None
 
     @property
-    def error(self) -> Problem | None:
+    def error(self) -> ProgramProblem | None:
         """The error that ended the reading, if there was one."""
         return next((problem for problem in self.problems if problem.severity is Severity.ERROR), None)

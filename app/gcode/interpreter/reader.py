@@ -6,24 +6,24 @@ from ...core.memory import ask, fewer
 from ...core.progress import NO_PROGRESS, Progress
 from .options import ReadOptions
 from .program import NcProgram
-from .steps import Step
+from .steps import BlockStep
 
 DEFAULT = ReadOptions()
 
 
 def read_steps(
     data: bytes, options: ReadOptions, progress: Progress = NO_PROGRESS
-) -> tuple[NcProgram, tuple[Step, ...]]:
+) -> tuple[NcProgram, tuple[BlockStep, ...]]:
     """Return what a control does with a program, and every block that it did, in the order of doing.
 
     Several times slower than `read_program`, which does plain lines at once.
 
     Args, errors: as `read_program`.
     """
-    from .run import Run  # compiled code: loaded where it is used
+    from .run import InterpreterRun  # compiled code: loaded where it is used
 
-    steps: list[Step] = []
-    program = Run(data, options, progress, steps.append).read()
+    steps: list[BlockStep] = []
+    program = InterpreterRun(data, options, progress, steps.append).read()
     return program, tuple(steps)
 
 
@@ -44,7 +44,7 @@ def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress
     Raises:
         MemoryShortError: it has more lines than there is memory for. Cancelled: the job was asked to stop.
     """
-    from .run import Run  # compiled code: loaded where it is used
+    from .run import InterpreterRun  # compiled code: loaded where it is used
 
     lines = data.count(b"\n") + 1
     ask(
@@ -52,4 +52,4 @@ def read_program(data: bytes, options: ReadOptions = DEFAULT, progress: Progress
         f"A program of {lines:,} lines",
         f"cut it in parts of at most {fewer(lines, LINE_BYTES * lines)} lines",
     )
-    return Run(data, options, progress).read()
+    return InterpreterRun(data, options, progress).read()

@@ -6,24 +6,24 @@ import re
 
 from ...core.errors import MOST_QUOTED, shortened
 from ...core.progress import Progress
-from .block import SLASH, Block, Parsed, block_of, parse
-from .codes import CYCLES, TAKES, Group
+from .block import SLASH, Block, ParsedLine, block_of, parse
+from .block_fault import BlockFault
+from .codes import CYCLES, TAKES, ModalGroup
 from .control import Control
 from .dialect import Dialect
-from .fault import Fault
+from .fast_lane import FastLane
 from .flow import MOST_KEPT, Flow
-from .foreign import adapt, call_macro, is_leader, warn_of_numbers
+from .foreign_codes import adapt, call_macro, is_leader, warn_of_numbers
 from .macro import call_or_return, is_macro, obey_macro
 from .moves import move
 from .notes import notes
 from .options import ReadOptions
-from .places import Cursor, Places
+from .places import Cursor, JumpTargets
 from .polar import check_polar, turn_polar_into_axes
-from .program import EventKind, NcProgram, Problem, Severity
-from .quick import QuickLane
+from .program import EventKind, NcProgram, ProgramProblem, Severity
 from .settings import before_motion, set_once
-from .steps import Step, Watch
-from .text import Text, code_of, column_of
+from .steps import BlockStep, Watch
+from .text import ProgramBuffer, code_of, column_of
 
 LINES_A_STEP = 20_000
 """Lines between two looks at whether the job was cancelled."""
@@ -50,7 +50,7 @@ _COMPUTED = re.compile(r"[#\[]")
 _ENDS = ("M2", "M30")
 
 
-class Run:
+class InterpreterRun:
     """One reading of a program.
 
     Attributes:
@@ -59,15 +59,15 @@ class Run:
 
     def __init__(self, data: bytes, options: ReadOptions, progress: Progress, watch: Watch | None = None) -> None:
         """Stand before the first line; with a watch every block is done by itself, and told to it."""
-        self._text, self._options, self._progress = Text(data), options, progress
+        self._text, self._options, self._progress = ProgramBuffer(data), options, progress
         self._control = Control(options)
-        self._habits = self._control.habits
-        self._not_quick = _NOT_QUICK_IN_MACRO_B if self._habits.fanuc_flow else _NOT_QUICK
-        self._flow = Flow(Places(self._text), self._control)
-        self._longest = min(options.limits.line_length, self._habits.longest_line - self._text.dropped)
-        self._quick = QuickLane(self._control, self._text.data, self._longest)
-        self._kept: dict[int, Parsed | str] = {}
-        self._problems: list[Problem] = []
+        self._rules = self._control.rules
+        self._not_quick = _NOT_QUICK_IN_MACRO_B if self._rules.fanuc_flow else _NOT_QUICK
+        self._flow = Flow(JumpTargets(self._text), self._control)
+        self._longest = min(options.limits.line_length, self._rules.longest_line - self._text.dropped)
+        self._quick = FastLane(self._control, self._text.data, self._longest)
+        self._kept: dict[int, ParsedLine | str] = {}
+        self._problems: list[ProgramProblem] = []
         self._furthest, self._told, self._again = -1, 0, False
         self._stop = len(self._text.data) + 1
         self._watch, self._opened = watch, False
@@ -104,19 +104,21 @@ class Run:
                 self._miss_end()
             if self._control.compensation is not None and not self.stopped:
                 self._control.compensation.flush(self._control.columns)
-        except Fault as fault:
+        except BlockFault as fault:
             self._problems.append(self._located(fault, Severity.ERROR))
         except RecursionError:
-            self._problems.append(self._located(Fault("the block is too long or too deep to be read."), Severity.ERROR))
+            self._problems.append(
+                self._located(BlockFault("the block is too long or too deep to be read."), Severity.ERROR)
+            )
         control = self._control
         if control.compensation is not None:
             control.compensation.spill(control.columns)
         self._warn_of_start()
         warnings = [
-            Problem(line, 0, letter.upper(), text, Severity.WARNING)
+            ProgramProblem(line, 0, letter.upper(), text, Severity.WARNING)
             for text, (letter, line) in control.warnings.items()
         ]
-        told = notes(self._text.data)
+        noted = notes(self._text.data)
         motions = control.columns.motions(control.splines, control.known_from())
         # a block that fails has named its way, and not gone it
         homeward = tuple(row for row in control.homeward if row < len(motions))
@@ -126,10 +128,10 @@ class Run:
             tuple(control.events),
             homeward,
             (*warnings, *self._problems),
-            told.tools,
-            told.stock,
+            noted.tools,
+            noted.stock,
             self._text.line_count,
-            told.header,
+            noted.header,
         )
 
     def _miss_end(self) -> None:
@@ -155,7 +157,7 @@ class Run:
         it.
         """
         data = self._text.data
-        found = _LEADER.match(data) or (_PERCENT.search(data, 0, LEADER) if self._habits.fanuc_flow else None)
+        found = _LEADER.match(data) or (_PERCENT.search(data, 0, LEADER) if self._rules.fanuc_flow else None)
         if found is not None and is_leader(data[: found.start()]):
             offset = self._text.line_end(found.end()) + 1
             self._flow.next = Cursor(offset, data.count(b"\n", 0, offset) + 1)
@@ -209,7 +211,7 @@ class Run:
         line = self._kept.get(at.offset)
         if line is None:
             return False
-        return isinstance(line, str) or (self._habits.fanuc_flow and _COMPUTED.search(line.code) is not None)
+        return isinstance(line, str) or (self._rules.fanuc_flow and _COMPUTED.search(line.code) is not None)
 
     def _obey(self, at: Cursor) -> bool:
         """Do a line of any kind; False at the end of the program."""
@@ -218,7 +220,7 @@ class Run:
             line = self._understood(at)
             if (self._flow.nested or self._again) and len(self._kept) < MOST_KEPT:
                 self._kept[at.offset] = line
-        if isinstance(line, Parsed):
+        if isinstance(line, ParsedLine):
             return self._done(line)
         if not line or line.startswith("%"):
             if line:
@@ -238,18 +240,20 @@ class Run:
             found = flow.places.too_long(behind, flow.next.offset, self._longest)
             if found is not None:
                 flow.here = found
-                raise Fault(f"the line is longer than {self._longest} characters.")
+                raise BlockFault(f"the line is longer than {self._longest} characters.")
 
-    def _done(self, parsed: Parsed) -> bool:
+    def _done(self, parsed: ParsedLine) -> bool:
         """Do a line's block; False at the end of the program."""
         control, block = self._control, block_of(parsed, self._control.parameters)
         if self._watch is None:
             return self._execute(block)
         line, before, row, said = control.line, control.modal, control.row, block.copy()
         goes_on = self._execute(block)
-        asked, control.asked = tuple(control.asked.items()), {}
+        asked, control.requested = tuple(control.requested.items()), {}
         self._watch(
-            Step(line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked)
+            BlockStep(
+                line, parsed, said, (before, control.modal), control.motion, control.feed, (row, control.row), asked
+            )
         )
         return goes_on
 
@@ -257,16 +261,16 @@ class Run:
         """Refuse a per cent sign that ends nothing, as LinuxCNC does."""
         alone = self._text.line(at.offset).strip() == "%"
         if self._options.dialect is Dialect.LINUXCNC and not (self._opened and alone):
-            raise Fault(
+            raise BlockFault(
                 "a per cent sign ends a program that begins with one, alone in its line; take it out.",
                 column=-1,
                 word="%",
             )
 
-    def _understood(self, at: Cursor) -> Parsed | str:
+    def _understood(self, at: Cursor) -> ParsedLine | str:
         """Return a line in words, or its code: "" where there is nothing to do, or what begins with % or is a jump."""
         if self._text.line_end(at.offset) - at.offset > self._longest:
-            raise Fault(f"the line is longer than {self._longest} characters.")
+            raise BlockFault(f"the line is longer than {self._longest} characters.")
         code = code_of(self._text.line(at.offset), nested=self._options.dialect is not Dialect.LINUXCNC)
         if self._options.block_delete and SLASH.match(code) is not None:
             self._control.warn("blocks that begin with a slash are left out.", "/")
@@ -276,23 +280,23 @@ class Run:
             return ""
         if not code:
             return ""
-        if code.startswith("%") or _O_WORD.match(code) is not None or (self._habits.fanuc_flow and is_macro(code)):
+        if code.startswith("%") or _O_WORD.match(code) is not None or (self._rules.fanuc_flow and is_macro(code)):
             return code
         return self._parse(code)
 
-    def _parse(self, code: str, begin: int = 0) -> Parsed:
-        habits = self._habits
-        return parse(code, self._options.limits.nesting, free=habits.fanuc_flow, polar=habits.ngc_flow, begin=begin)
+    def _parse(self, code: str, begin: int = 0) -> ParsedLine:
+        rules = self._rules
+        return parse(code, self._options.limits.nesting, free=rules.fanuc_flow, polar=rules.ngc_flow, begin=begin)
 
-    def _jump(self, code: str) -> Parsed | None:
+    def _jump(self, code: str) -> ParsedLine | None:
         """Obey a line that is a jump; return what is left of it to obey, with its place in the line."""
-        if self._habits.fanuc_flow and is_macro(code):
+        if self._rules.fanuc_flow and is_macro(code):
             begin = obey_macro(self._flow, self._control, code)
             return self._parse(code, begin) if begin < len(code) else None
-        if self._habits.ngc_flow:
+        if self._rules.ngc_flow:
             self._flow.obey(code)
-        elif not self._habits.fanuc_flow:
-            raise Fault(f"{self._habits.title} knows no O words.", column=-1)
+        elif not self._rules.fanuc_flow:
+            raise BlockFault(f"{self._rules.title} knows no O words.", column=-1)
         else:
             code = _PROGRAM_NUMBER.sub(r"\1n", code, count=1)  # a number, and so as long that columns stay
             return self._parse(code)
@@ -301,18 +305,18 @@ class Run:
     def _execute(self, block: Block) -> bool:
         """Do a block; False at the end of the program."""
         control = self._control
-        if self._habits.fanuc_flow:
+        if self._rules.fanuc_flow:
             adapt(control, block)
         self._check_codes(block)
         check_polar(control, block)
-        if block.codes.get(Group.ONCE) == "G65":
+        if block.codes.get(ModalGroup.ONCE) == "G65":
             call_macro(self._flow, control, block)
             return True
         before_motion(control, block)
         set_once(control, block)
         turn_polar_into_axes(control, block)
         move(control, block)
-        stop = block.codes.get(Group.STOP)
+        stop = block.codes.get(ModalGroup.STOP)
         if stop in _ENDS:
             control.event(EventKind.END)
             return False
@@ -326,30 +330,30 @@ class Run:
 
     def _check_codes(self, block: Block) -> None:
         """Refuse, or pass over, what the control does not know."""
-        title, strict = self._habits.title, self._options.dialect in (Dialect.LINUXCNC, Dialect.GRBL)
+        title, strict = self._rules.title, self._options.dialect in (Dialect.LINUXCNC, Dialect.GRBL)
         for code in [*block.codes.values(), *block.coolant]:
-            if code in self._habits.missing:
-                raise Fault(f"{title} does not know {code}.", letter=code[0].lower())
+            if code in self._rules.missing:
+                raise BlockFault(f"{title} does not know {code}.", letter=code[0].lower())
         for code in block.unknown:
             own = code[0] == "M" and 100 <= float(code[1:]) < 200
             if (code[0] == "G" or strict) and not (own and self._options.dialect is Dialect.LINUXCNC):
-                raise Fault(f"{code} is not known.", letter=code[0].lower())
+                raise BlockFault(f"{code} is not known.", letter=code[0].lower())
             self._control.warn(f"{code} is the machine builder's own; what it does is not followed.", code[0].lower())
         unused = (
             "" if block.unknown or any(code in block.codes.values() for code in ("M98", "G65")) else self._unused(block)
         )
         if unused and strict:
-            raise Fault("no code in this block takes this word.", letter=unused)
+            raise BlockFault("no code in this block takes this word.", letter=unused)
         if unused:
             self._control.warn(f"{unused.upper()} stands in a block where no code takes it; it is passed over.", unused)
 
     def _unused(self, block: Block) -> str:
         """Return a letter that neither the block's codes nor the motion in force takes, or ""."""
-        letter, motion = block.unused(), block.codes.get(Group.MOTION, self._control.motion)
-        repeats = letter == "k" and self._habits.fanuc_flow and motion in CYCLES
+        letter, motion = block.unused(), block.codes.get(ModalGroup.MOTION, self._control.motion)
+        repeats = letter == "k" and self._rules.fanuc_flow and motion in CYCLES
         return "" if repeats or (letter and letter in TAKES.get(motion, "")) else letter
 
-    def _located(self, fault: Fault, severity: Severity) -> Problem:
+    def _located(self, fault: BlockFault, severity: Severity) -> ProgramProblem:
         """Return a fault with its place in the text."""
         at = self._flow.here
         line = self._text.line(at.offset)[: self._options.limits.line_length]
@@ -358,13 +362,15 @@ class Run:
             column, word = self._word(line, fault.letter.lower(), fault.text)
         elif column < 0:
             column = column_of(line, -1 - column)
-        return Problem(at.line, min(max(column, 0), len(line) + 1), word[:MOST_QUOTED], shortened(fault.text), severity)
+        return ProgramProblem(
+            at.line, min(max(column, 0), len(line) + 1), word[:MOST_QUOTED], shortened(fault.text), severity
+        )
 
     def _word(self, line: str, letters: str, text: str) -> tuple[int, str]:
         """Return column and spelling of the word that a fault is about: the one that its text names, else the first."""
         try:
             words = self._parse(code_of(line, nested=True).removeprefix("/")).words
-        except Fault:
+        except BlockFault:
             return 0, ""
         mine = [word for word in words if word.letter in letters]
         named = [

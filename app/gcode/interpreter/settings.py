@@ -9,11 +9,11 @@ from dataclasses import replace
 from ...model.motion import Plane
 from ...model.part import Units
 from .block import Block
-from .codes import Group
+from .block_fault import BlockFault
+from .codes import ModalGroup
 from .compensation import Compensation
 from .control import Control
 from .expression import whole
-from .fault import Fault
 from .feeds import set_feed
 from .offsets import ZERO, Place, added, offset_name, replaced, taken
 from .options import ToolOffset
@@ -30,7 +30,7 @@ def before_motion(control: Control, block: Block) -> None:
     Raises:
         Fault: a word is missing or out of range, or there is something that no milling machine can do.
     """
-    if control.compensation is not None and Group.RADIUS not in block.codes:
+    if control.compensation is not None and ModalGroup.RADIUS not in block.codes:
         _check_compensation(control, block)
     set_feed(control, block)
     _speed(control, block)
@@ -41,13 +41,13 @@ def before_motion(control: Control, block: Block) -> None:
 
 
 def _speed(control: Control, block: Block) -> None:
-    if Group.SPINDLE_MODE in block.codes:
-        control.change(constant_surface=block.codes[Group.SPINDLE_MODE] == "G96")
+    if ModalGroup.SPINDLE_MODE in block.codes:
+        control.change(constant_surface=block.codes[ModalGroup.SPINDLE_MODE] == "G96")
     value = block.values.get("s")
     if value is None:
         return
     if not 0 <= value < LARGEST_SPEED:
-        raise Fault(f"the spindle speed is {value:g}; it must be 0 or more.", letter="s")
+        raise BlockFault(f"the spindle speed is {value:g}; it must be 0 or more.", letter="s")
     if value != control.modal.speed:
         control.change(speed=value)
 
@@ -58,14 +58,14 @@ def _tool_word(control: Control, block: Block) -> None:
         return
     number = whole(value, "the tool number")
     if not 0 <= number < 10**8:
-        raise Fault(f"the tool number is {number}; it must be 0 or more.", letter="t")
+        raise BlockFault(f"the tool number is {number}; it must be 0 or more.", letter="t")
     control.selected = number
 
 
 def _tool_change(control: Control, block: Block) -> None:
-    code = block.codes[Group.TOOL]
-    if not control.habits.tool_changes:
-        raise Fault(f"{control.habits.title} changes no tools; write one file for each tool.", letter="m")
+    code = block.codes[ModalGroup.TOOL]
+    if not control.rules.tool_changes:
+        raise BlockFault(f"{control.rules.title} changes no tools; write one file for each tool.", letter="m")
     number = control.selected
     if code == "M61":
         number = whole(block.need("q", code), "the tool number")
@@ -74,7 +74,7 @@ def _tool_change(control: Control, block: Block) -> None:
 
 
 def _spindle(control: Control, block: Block) -> None:
-    code = block.codes[Group.SPINDLE]
+    code = block.codes[ModalGroup.SPINDLE]
     if code in ("M3", "M4", "M5"):
         control.change(spindle={"M3": 1, "M4": -1, "M5": 0}[code])
     elif code == "M19":
@@ -87,36 +87,36 @@ def _coolant(control: Control, block: Block) -> None:
 
 
 def _dwell(control: Control, block: Block) -> None:
-    if block.codes.get(Group.ONCE) != "G4":
+    if block.codes.get(ModalGroup.ONCE) != "G4":
         return
     letter = next((letter for letter in "pxu" if block.has(letter)), "")
-    if not letter or (letter != "p" and not control.habits.fanuc_flow):
-        raise Fault("G4 needs how long to wait; write P.", letter="g")
-    habits = control.habits
-    unit = habits.dwell_unit_s if letter in block.whole else habits.dwell_unit_with_point_s
+    if not letter or (letter != "p" and not control.rules.fanuc_flow):
+        raise BlockFault("G4 needs how long to wait; write P.", letter="g")
+    rules = control.rules
+    unit = rules.dwell_unit_s if letter in block.whole else rules.dwell_unit_with_point_s
     seconds = block.values.pop(letter) * unit
     if not 0 <= seconds <= LARGEST_DWELL_S:
-        raise Fault(f"the dwell is {seconds:g} s; it must be 0 or more.", letter=letter)
+        raise BlockFault(f"the dwell is {seconds:g} s; it must be 0 or more.", letter=letter)
     control.event(EventKind.DWELL, seconds)
 
 
 def _plane(control: Control, block: Block) -> None:
-    control.change(plane=PLANES[block.codes[Group.PLANE]])
+    control.change(plane=PLANES[block.codes[ModalGroup.PLANE]])
 
 
 def _units(control: Control, block: Block) -> None:
-    control.change(units=Units.INCH if block.codes[Group.UNITS] == "G20" else Units.MM)
+    control.change(units=Units.INCH if block.codes[ModalGroup.UNITS] == "G20" else Units.MM)
 
 
 def _radius(control: Control, block: Block) -> None:
-    code = block.codes[Group.RADIUS]
+    code = block.codes[ModalGroup.RADIUS]
     if code == "G40":
         control.end_compensation()
         return
     if control.compensation is not None:
-        raise Fault(f"{code}: cutter compensation is on already; write G40 before.", letter="g")
+        raise BlockFault(f"{code}: cutter compensation is on already; write G40 before.", letter="g")
     if control.modal.plane is Plane.YZ:
-        raise Fault(f"{code} works in the planes G17 and G18.", letter="g")
+        raise BlockFault(f"{code} works in the planes G17 and G18.", letter="g")
     radius = _cutter_diameter(control, block, code) / 2
     if radius:
         sign = 1 if code.startswith("G41") else -1
@@ -128,7 +128,7 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
     if code.endswith(".1"):
         value = control.length(block, "d")
         if value is None:
-            raise Fault(f"{code} needs a word D with the diameter.", letter="g")
+            raise BlockFault(f"{code} needs a word D with the diameter.", letter="g")
         return value
     number = whole(block.values.get("d", float(control.modal.tool)), "the D number")
     if number == 0:
@@ -136,7 +136,7 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
     row = control.tool_table.get(number)
     if row is None or not row.diameter:
         letter = "d" if block.has("d") else "g"
-        raise Fault(
+        raise BlockFault(
             f"{code} needs the diameter of tool {number}, which is in no tool table; read the program with one.", letter
         )
     return row.diameter
@@ -144,19 +144,21 @@ def _cutter_diameter(control: Control, block: Block, code: str) -> float:
 
 def _check_compensation(control: Control, block: Block) -> None:
     """Refuse what cannot be done while cutter compensation is on."""
-    for group in (Group.PLANE, Group.OFFSET, Group.LENGTH, Group.TOOL):
+    for group in (ModalGroup.PLANE, ModalGroup.OFFSET, ModalGroup.LENGTH, ModalGroup.TOOL):
         code = block.codes.get(group)
         if code not in (None, "G17", "G18", "G19") or (
             code is not None and PLANES.get(code) is not control.modal.plane
         ):
-            raise Fault(f"{code} cannot be while cutter compensation is on; write G40 before.", letter=code[0].lower())
-    once = block.codes.get(Group.ONCE)
+            raise BlockFault(
+                f"{code} cannot be while cutter compensation is on; write G40 before.", letter=code[0].lower()
+            )
+    once = block.codes.get(ModalGroup.ONCE)
     if once not in (None, "G4", "G9"):
-        raise Fault(f"{once} cannot be while cutter compensation is on; write G40 before.", letter="g")
+        raise BlockFault(f"{once} cannot be while cutter compensation is on; write G40 before.", letter="g")
 
 
 def _length(control: Control, block: Block) -> None:
-    code = block.codes[Group.LENGTH]
+    code = block.codes[ModalGroup.LENGTH]
     number, tool = 0, ZERO
     if code == "G43.1":
         tool = _replaced_by_words(control, block, control.offsets.tool)
@@ -178,12 +180,12 @@ def _length_number(control: Control, block: Block, code: str) -> int:
     """Return the H number that a G43 means."""
     value = block.get("h")
     if value is None:
-        if not control.habits.length_from_tool:
-            raise Fault(f"{code} needs a word H on a {control.habits.title} control.", letter="g")
+        if not control.rules.length_from_tool:
+            raise BlockFault(f"{code} needs a word H on a {control.rules.title} control.", letter="g")
         return control.modal.tool
     number = whole(value, "the H number")
     if number < 0:
-        raise Fault(f"the H number is {number}; it must be 0 or more.", letter="h")
+        raise BlockFault(f"the H number is {number}; it must be 0 or more.", letter="h")
     return number
 
 
@@ -192,7 +194,7 @@ def _table_offset(control: Control, number: int) -> Place:
         return ZERO
     row = control.tool_table.get(number)
     if row is None:
-        raise Fault(f"tool {number} is not in the tool table.", letter="h")
+        raise BlockFault(f"tool {number} is not in the tool table.", letter="h")
     return row.offset
 
 
@@ -203,18 +205,18 @@ def _replaced_by_words(control: Control, block: Block, place: Place) -> Place:
 
 
 def _work_offset(control: Control, block: Block) -> None:
-    code = block.codes[Group.OFFSET]
+    code = block.codes[ModalGroup.OFFSET]
     control.offsets.name = code
     if code == "G54.1":
         number = block.values.pop("p", None)
         if number is None:
-            raise Fault("G54.1 needs a word P.", letter="g")
+            raise BlockFault("G54.1 needs a word P.", letter="g")
         control.offsets.name = offset_name(whole(number, "P of G54.1"), extended=True)
     control.offsets_changed()
 
 
 def _path(control: Control, block: Block) -> None:
-    code = block.codes[Group.PATH]
+    code = block.codes[ModalGroup.PATH]
     words, tolerance = [code], 0.0 if code != "G64" else None
     if code == "G64":
         if block.has("r"):
@@ -228,15 +230,15 @@ def _path(control: Control, block: Block) -> None:
 
 
 def _distance(control: Control, block: Block) -> None:
-    control.change(absolute=block.codes[Group.DISTANCE] == "G90")
+    control.change(absolute=block.codes[ModalGroup.DISTANCE] == "G90")
 
 
 def _arc_distance(control: Control, block: Block) -> None:
-    control.change(arc_absolute=block.codes[Group.ARC_DISTANCE] == "G90.1")
+    control.change(arc_absolute=block.codes[ModalGroup.ARC_DISTANCE] == "G90.1")
 
 
 def _return_level(control: Control, block: Block) -> None:
-    control.change(retract_to_r=block.codes[Group.RETURN] == "G99")
+    control.change(retract_to_r=block.codes[ModalGroup.RETURN] == "G99")
 
 
 def _refused(control: Control, block: Block) -> None:
@@ -244,28 +246,28 @@ def _refused(control: Control, block: Block) -> None:
     refused = {"G7": "the diameter mode of lathes", "G16": "polar coordinates", "G51": "scaling", "G68": "rotation"}
     for code in block.codes.values():
         if code in refused:
-            raise Fault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
+            raise BlockFault(f"{refused[code]} ({code}) is not followed; the reader stops here.", letter="g")
 
 
-_STEPS: tuple[tuple[Group, Callable[[Control, Block], None]], ...] = (
-    (Group.TOOL, _tool_change),
-    (Group.SPINDLE, _spindle),
-    (Group.COOLANT, _coolant),
-    (Group.ONCE, _dwell),
-    (Group.PLANE, _plane),
-    (Group.UNITS, _units),
-    (Group.RADIUS, _radius),
-    (Group.LENGTH, _length),
-    (Group.OFFSET, _work_offset),
-    (Group.PATH, _path),
-    (Group.DISTANCE, _distance),
-    (Group.ARC_DISTANCE, _arc_distance),
-    (Group.RETURN, _return_level),
-    (Group.ONCE, _refused),
-    (Group.LATHE, _refused),
-    (Group.POLAR, _refused),
-    (Group.SCALING, _refused),
-    (Group.TURNING, _refused),
+_STEPS: tuple[tuple[ModalGroup, Callable[[Control, Block], None]], ...] = (
+    (ModalGroup.TOOL, _tool_change),
+    (ModalGroup.SPINDLE, _spindle),
+    (ModalGroup.COOLANT, _coolant),
+    (ModalGroup.ONCE, _dwell),
+    (ModalGroup.PLANE, _plane),
+    (ModalGroup.UNITS, _units),
+    (ModalGroup.RADIUS, _radius),
+    (ModalGroup.LENGTH, _length),
+    (ModalGroup.OFFSET, _work_offset),
+    (ModalGroup.PATH, _path),
+    (ModalGroup.DISTANCE, _distance),
+    (ModalGroup.ARC_DISTANCE, _arc_distance),
+    (ModalGroup.RETURN, _return_level),
+    (ModalGroup.ONCE, _refused),
+    (ModalGroup.LATHE, _refused),
+    (ModalGroup.POLAR, _refused),
+    (ModalGroup.SCALING, _refused),
+    (ModalGroup.TURNING, _refused),
 )
 """What each group does, in the order in which a control does it."""
 
@@ -276,7 +278,7 @@ def set_once(control: Control, block: Block) -> None:
     Raises:
         Fault: a word is missing or out of range.
     """
-    code = block.codes.get(Group.ONCE)
+    code = block.codes.get(ModalGroup.ONCE)
     act = _ONCE.get(code or "")
     if code is None or act is None:
         return
@@ -295,7 +297,7 @@ def _set_local(control: Control, block: Block) -> None:
 
 def _call_here(control: Control, block: Block) -> None:
     if not block.has("xyz"):
-        if control.habits.fanuc_flow and block.has("s"):
+        if control.rules.fanuc_flow and block.has("s"):
             return
         _need_axes(block, "G92")
     for axis, value in control.axis_words(block):
@@ -304,7 +306,7 @@ def _call_here(control: Control, block: Block) -> None:
 
 def _need_axes(block: Block, code: str) -> None:
     if not block.has("xyzabcuvw"):
-        raise Fault(f"{code} needs axis words.", letter="g")
+        raise BlockFault(f"{code} needs axis words.", letter="g")
 
 
 def _forget_here(control: Control, block: Block) -> None:
@@ -334,17 +336,17 @@ def _set_table(control: Control, block: Block) -> None:
         _set_work(control, block, kind, number)
     elif kind in (1, 10, 11, 12, 13):
         _set_tool(control, block, kind, number)
-    elif not control.habits.fanuc_flow:
-        raise Fault(f"G10 L{kind} is not known; expected L1, L2, L10, L11 or L20.", letter="l")
+    elif not control.rules.fanuc_flow:
+        raise BlockFault(f"G10 L{kind} is not known; expected L1, L2, L10, L11 or L20.", letter="l")
 
 
 def _set_work(control: Control, block: Block, kind: int, number: int) -> None:
     offsets = control.offsets
     values = dict(control.axis_words(block))
-    if number == 0 and control.habits.fanuc_flow:
+    if number == 0 and control.rules.fanuc_flow:
         offsets.common = _replaced_by_words(control, block, offsets.common)
         return
-    extended = kind == 20 and control.habits.fanuc_flow
+    extended = kind == 20 and control.rules.fanuc_flow
     name = offsets.name if number == 0 else offset_name(number, extended)
     if kind == 20 and not extended:
         offsets.call_work(name, control.at, values)
@@ -352,7 +354,7 @@ def _set_work(control: Control, block: Block, kind: int, number: int) -> None:
     place = offsets.work.get(name, ZERO)
     for axis, value in values.items():
         place = replaced(
-            place, axis, value if control.modal.absolute or not control.habits.fanuc_flow else place[axis] + value
+            place, axis, value if control.modal.absolute or not control.rules.fanuc_flow else place[axis] + value
         )
     offsets.work[name] = place
     if block.has("r"):
@@ -363,9 +365,9 @@ def _set_tool(control: Control, block: Block, kind: int, number: int) -> None:
     """Obey G10 L1 (LinuxCNC's row), or Fanuc's L10 to L13 (length, its wear, radius, its wear; wear is added)."""
     before = control.tool_table.get(number, ToolOffset())
     radius = control.length(block, "r")
-    if control.habits.fanuc_flow:
+    if control.rules.fanuc_flow:
         if radius is None:
-            raise Fault("G10 needs a word R with the tool's value.", letter="g")
+            raise BlockFault("G10 needs a word R with the tool's value.", letter="g")
         if kind in (10, 11):
             z = radius + (before.offset[2] if kind == 11 else 0.0)
             control.tool_table[number] = replace(before, offset=replaced(before.offset, 2, z))

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...model.motion import Nurbs, Plane
-from .fault import Fault
+from .block_fault import BlockFault
 
 Point = tuple[float, float, float]
 Offset = tuple[float, float]
@@ -33,7 +33,7 @@ def check_plane(plane: Plane) -> None:
         Fault: the plane is another one.
     """
     if plane is not Plane.XY:
-        raise Fault("splines lie in the XY plane; G17 was expected before.")
+        raise BlockFault("splines lie in the XY plane; G17 was expected before.")
 
 
 def cubic(start: Point, end: Point, first: Offset, second: Offset) -> Nurbs:
@@ -82,7 +82,7 @@ def second_offset(p: float | None, q: float | None) -> Offset:
 def _both(one: float | None, other: float | None, letters: str) -> Offset:
     if one is None or other is None:
         missing = letters[0] if one is None else letters[1]
-        raise Fault(f"the spline has no {missing} word; {letters[0]} and {letters[1]} go together.", missing)
+        raise BlockFault(f"the spline has no {missing} word; {letters[0]} and {letters[1]} go together.", missing)
     return one, other
 
 
@@ -103,13 +103,13 @@ def _clamped(points: Sequence[Point], weights: Sequence[float], order: int) -> N
 
 def _checked_weight(weight: float, letter: str) -> float:
     if not WEIGHTS[0] <= weight <= WEIGHTS[1]:
-        raise Fault(f"a weight of {weight:g}; expected one from {WEIGHTS[0]:g} to {WEIGHTS[1]:g}.", letter)
+        raise BlockFault(f"a weight of {weight:g}; expected one from {WEIGHTS[0]:g} to {WEIGHTS[1]:g}.", letter)
     return weight
 
 
 def _checked_order(order: int, letter: str) -> int:
     if order > MOST_ORDER:
-        raise Fault(f"a spline of order {order}; orders up to {MOST_ORDER} are read.", letter)
+        raise BlockFault(f"a spline of order {order}; orders up to {MOST_ORDER} are read.", letter)
     return order
 
 
@@ -142,9 +142,9 @@ class OpenNurbs:
             self._weights[0] = 1.0 if weight is None else _checked_weight(weight, "P")
             return
         if x is None or y is None:
-            raise Fault("a control point of a spline needs both X and Y.", "X" if x is None else "Y")
+            raise BlockFault("a control point of a spline needs both X and Y.", "X" if x is None else "Y")
         if weight is None:
-            raise Fault("the control point has no weight; a P word above 0 was expected.", "P")
+            raise BlockFault("the control point has no weight; a P word above 0 was expected.", "P")
         self._points.append((x, y, self._points[0][2]))
         self._weights.append(_checked_weight(weight, "P"))
 
@@ -155,7 +155,9 @@ class OpenNurbs:
             Fault: there are fewer control points than the order.
         """
         if len(self._points) < self._order:
-            raise Fault(f"a spline of order {self._order} needs as many control points, and has {len(self._points)}.")
+            raise BlockFault(
+                f"a spline of order {self._order} needs as many control points, and has {len(self._points)}."
+            )
         return _clamped(self._points, self._weights, self._order)
 
 
@@ -175,7 +177,7 @@ class OpenFanucNurbs:
         """
         self._start, self._order = start, _checked_order(4 if order is None else order, "P")
         if self._order < 2:
-            raise Fault(f"a spline of order {self._order}; P counts from 2.", "P")
+            raise BlockFault(f"a spline of order {self._order}; P counts from 2.", "P")
         self._points: list[Point] = []
         self._weights: list[float] = []
         self._knots: list[float] = []
@@ -203,9 +205,9 @@ class OpenFanucNurbs:
                 alone, or the first point is not where the tool stands.
         """
         if knot is None:
-            raise Fault("every block of the spline needs a knot (K).", "K")
+            raise BlockFault("every block of the spline needs a knot (K).", "K")
         if not math.isfinite(knot) or (self._knots and knot < self._knots[-1]):
-            raise Fault(f"the knots of a spline never fall; {knot:g} comes after {self._knots[-1]:g}.", "K")
+            raise BlockFault(f"the knots of a spline never fall; {knot:g} comes after {self._knots[-1]:g}.", "K")
         if point is None and not self._knots:
             point = self._start
         if point is not None:
@@ -214,9 +216,9 @@ class OpenFanucNurbs:
 
     def _take(self, point: Point, weight: float) -> None:
         if len(self._knots) > len(self._points):
-            raise Fault("a control point comes after blocks with a knot alone, which end the spline.")
+            raise BlockFault("a control point comes after blocks with a knot alone, which end the spline.")
         if not self._points and math.dist(point, self._start) > NEAR_ENOUGH:
-            raise Fault("the first control point of the spline is not where the tool is.")
+            raise BlockFault("the first control point of the spline is not where the tool is.")
         self._points.append(point)
         self._weights.append(weight)
 
@@ -229,18 +231,18 @@ class OpenFanucNurbs:
         """
         count, order = len(self._points), self._order
         if not self.complete or count < order:
-            raise Fault(
+            raise BlockFault(
                 f"the spline of order {order} has {count} control points and {len(self._knots)} knots; expected "
                 f"{order} points or more, and {order} knots more than points."
             )
         knots = np.array(self._knots)
         if knots[0] != knots[order - 1] or knots[-1] != knots[count]:
-            raise Fault(
+            raise BlockFault(
                 f"the first {order} knots of the spline, and the last {order}, must be alike: it begins and ends at a "
                 "point.",
                 "K",
             )
         if np.any(knots[1:count] == knots[order : count + order - 1]):
-            raise Fault(f"a knot comes more than {order - 1} times within the spline, which would break it.", "K")
+            raise BlockFault(f"a knot comes more than {order - 1} times within the spline, which would break it.", "K")
         points = [self._start, *self._points[1:]]
         return Nurbs(np.array(points), np.array(self._weights), knots, order - 1)

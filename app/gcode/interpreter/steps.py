@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .block import Block, Parsed
+from .block import Block, ParsedLine
 from .parameters import Key
 from .program import ModalState
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class BlockStep:
     """A block that was done.
 
     Attributes:
@@ -21,18 +21,18 @@ class Step:
         motion: the G word that bare axis words obey behind it.
         feed: behind it, mm/min, mm a revolution or 1/min, by the feed mode; NaN = not said.
         rows: the first motion that it made, and the one behind its last.
-        asked: parameters whose values the machine tells, and the lines that read them, since the block before.
+        requested: parameters whose values the machine tells, and the lines that read them, since the block before.
     """
 
     line: int
-    parsed: Parsed
+    parsed: ParsedLine
     block: Block
     states: tuple[ModalState, ModalState]
     motion: str
     feed: float
     rows: tuple[int, int]
-    asked: tuple[tuple[Key, int], ...] = ()
+    requested: tuple[tuple[Key, int], ...] = ()
 
 
-Watch = Callable[[Step], None]
+Watch = Callable[[BlockStep], None]
 """Told of each block when it is done."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 import re
 
-from .fault import Fault
+from .block_fault import BlockFault
 
 _BLANKS = {ord(c): None for c in " \t\v\f\x00\ufeff"}
 """What a control skips everywhere; NUL and DEL were the leader of paper tapes."""
@@ -13,7 +13,7 @@ _BLANKS = {ord(c): None for c in " \t\v\f\x00\ufeff"}
 _NOT_CODE = re.compile(r"\([^()]*\)|;.*|[ \t\v\f\x00\ufeff]+")
 
 
-class Text:
+class ProgramBuffer:
     """A program in memory.
 
     Attributes:
@@ -84,7 +84,9 @@ def _without_brackets(line: str, nested: bool) -> str:
             break
         if c == "(":
             if depth and not nested:
-                raise Fault("a comment begins within another; close the first with ) before.", column=i + 1, word="(")
+                raise BlockFault(
+                    "a comment begins within another; close the first with ) before.", column=i + 1, word="("
+                )
             begun = begun if depth else i
             depth += 1
         if depth:
@@ -92,7 +94,7 @@ def _without_brackets(line: str, nested: bool) -> str:
         if c == ")" and depth:
             depth -= 1
     if depth:
-        raise Fault("the comment has no end; close it with ).", column=begun + 1, word="(")
+        raise BlockFault("the comment has no end; close it with ).", column=begun + 1, word="(")
     return "".join(kept)
 
 

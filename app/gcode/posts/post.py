@@ -135,7 +135,7 @@ class Arcs:
 
 
 @dataclass(frozen=True, slots=True)
-class Blending:
+class BlendingWords:
     """How the control may round corners.
 
     Attributes:
@@ -254,7 +254,7 @@ class Post:
     comments: CommentRules
     numbers: Numbers
     arcs: Arcs
-    blending: Blending
+    blending: BlendingWords
     spindle: SpindleRules
     coolant: CoolantWords
     program: ProgramLines

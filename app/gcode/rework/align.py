@@ -27,7 +27,7 @@ FIRST_STEP = 64
 
 
 @dataclass(frozen=True)
-class Table:
+class AlignmentTable:
     """Rows to be aligned.
 
     Attributes:
@@ -52,7 +52,7 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class MatchedRun:
     """`count` rows of a from row `a` on that are the rows of b from row `b` on."""
 
     a: int
@@ -77,7 +77,9 @@ class _Range:
         return self.a0 >= self.a1 or self.b0 >= self.b1
 
 
-def align(a: Table, b: Table, tolerance: float, progress: Progress = NO_PROGRESS) -> tuple[Run, ...]:
+def align(
+    a: AlignmentTable, b: AlignmentTable, tolerance: float, progress: Progress = NO_PROGRESS
+) -> tuple[MatchedRun, ...]:
     """Return the rows that are the same in both tables, in order; runs never touch on both sides.
 
     Args:
@@ -91,12 +93,12 @@ def align(a: Table, b: Table, tolerance: float, progress: Progress = NO_PROGRESS
     return tuple(_joined(sorted(_Aligner(a, b, tolerance).runs(progress), key=lambda run: run.a)))
 
 
-def _joined(runs: list[Run]) -> Iterator[Run]:
+def _joined(runs: list[MatchedRun]) -> Iterator[MatchedRun]:
     """Yield runs with those that follow each other on both sides made one."""
-    current: Run | None = None
+    current: MatchedRun | None = None
     for run in runs:
         if current is not None and (run.a, run.b) == (current.a + current.count, current.b + current.count):
-            current = Run(current.a, current.b, current.count + run.count)
+            current = MatchedRun(current.a, current.b, current.count + run.count)
             continue
         if current is not None:
             yield current
@@ -108,12 +110,12 @@ def _joined(runs: list[Run]) -> Iterator[Run]:
 class _Aligner:
     """Two tables, and their keys on two grids: what a border of the one parts lies within a cell of the other."""
 
-    def __init__(self, a: Table, b: Table, tolerance: float) -> None:
+    def __init__(self, a: AlignmentTable, b: AlignmentTable, tolerance: float) -> None:
         self._a, self._b, self._tolerance = a, b, tolerance
         grid = GRID * tolerance
         self._keys = [(a.keys(grid, shift), b.keys(grid, shift)) for shift in (0.0, 0.5)]
 
-    def runs(self, progress: Progress) -> Iterator[Run]:
+    def runs(self, progress: Progress) -> Iterator[MatchedRun]:
         """Yield every run, in no order."""
         waiting = [_Range(0, len(self._a), 0, len(self._b))]
         while waiting:
@@ -124,9 +126,9 @@ class _Aligner:
             tail = self._along(left.a1 - 1, left.b1 - 1, min(left.a1 - left.a0, left.b1 - left.b0), -1)
             left = _Range(left.a0, left.a1 - tail, left.b0, left.b1 - tail, rows.level)
             if head:
-                yield Run(rows.a0, rows.b0, head)
+                yield MatchedRun(rows.a0, rows.b0, head)
             if tail:
-                yield Run(left.a1, left.b1, tail)
+                yield MatchedRun(left.a1, left.b1, tail)
             if not left.empty and left.level < DEEPEST:
                 waiting += self._parted(left)
 

@@ -18,9 +18,9 @@ from ...core import tolerances
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import lengths
-from ..checks.path_distance import Farthest, Paths, Polyline, farthest, leash
+from ..checks.path_distance import LargestDistance, Polyline, PolylinePaths, farthest, leash
 from ..interpreter.program import EventKind, ModalState, NcProgram
-from .align import Run, Table, align
+from .align import AlignmentTable, MatchedRun, align
 
 FEED = 0.1
 """mm/min; feeds that differ by less are the same: F words have one decimal."""
@@ -52,7 +52,7 @@ class DifferenceKind(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Span:
+class ProgramSpan:
     """A stretch of one program.
 
     Attributes:
@@ -68,7 +68,7 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class ProgramDifference:
     """One stretch in which the programs differ.
 
     Attributes:
@@ -79,15 +79,15 @@ class Difference:
     """
 
     kind: DifferenceKind
-    a: Span
-    b: Span
+    a: ProgramSpan
+    b: ProgramSpan
     distance: float = 0.0
     place: tuple[float, float, float] | None = None
     text: str = ""
 
 
 @dataclass(frozen=True)
-class Differences:
+class ProgramDifferences:
     """What comparing two programs gives.
 
     Attributes:
@@ -96,8 +96,8 @@ class Differences:
         tolerance: what counted as the same, mm.
     """
 
-    items: tuple[Difference, ...]
-    runs: tuple[Run, ...]
+    items: tuple[ProgramDifference, ...]
+    runs: tuple[MatchedRun, ...]
     tolerance: float
 
     @property
@@ -113,7 +113,7 @@ class Differences:
 
 def compare(
     a: NcProgram, b: NcProgram, tolerance: float = tolerances.LEVEL, progress: Progress = NO_PROGRESS
-) -> Differences:
+) -> ProgramDifferences:
     """Return what differs between two programs.
 
     Args:
@@ -128,7 +128,7 @@ def compare(
     return _Comparison(a, b, tolerance).differences(runs, progress.part(0.5, 1.0))
 
 
-def _table(motions: Motions, tolerance: float) -> Table:
+def _table(motions: Motions, tolerance: float) -> AlignmentTable:
     """Return what must be alike of motions that are the same."""
     curves = np.zeros(len(motions), np.int64)
     for row, spline in motions.splines.items():
@@ -137,14 +137,14 @@ def _table(motions: Motions, tolerance: float) -> Table:
         )
     round_ = (motions.kind == MotionKind.ARC_CW) | (motions.kind == MotionKind.ARC_CCW)
     numbers = np.hstack([motions.start, motions.end, np.nan_to_num(motions.centre)])
-    return Table(
+    return AlignmentTable(
         numbers,
         np.column_stack([motions.kind, np.where(round_, motions.plane, 0), motions.turns, curves]).astype(np.int64),
     )
 
 
 @dataclass(frozen=True)
-class _Side:
+class _ComparedProgram:
     """One program, with what the comparison asks of it again and again.
 
     Attributes:
@@ -153,25 +153,25 @@ class _Side:
     """
 
     program: NcProgram
-    paths: Paths
+    paths: PolylinePaths
     length: Floats
     events: dict[int, Pauses]
 
     @staticmethod
-    def of(program: NcProgram, chord: float) -> _Side:
+    def of(program: NcProgram, chord: float) -> _ComparedProgram:
         events: dict[int, Pauses] = {}
         for event in program.events:
             if event.kind not in (EventKind.TOOL_CHANGE, EventKind.END):
                 events[event.before] = (*events.get(event.before, ()), (event.kind, round(event.value, TIME_DIGITS)))
-        return _Side(program, Paths(program.motions, chord), lengths(program.motions), events)
+        return _ComparedProgram(program, PolylinePaths(program.motions, chord), lengths(program.motions), events)
 
-    def span(self, first: int, stop: int) -> Span:
+    def span(self, first: int, stop: int) -> ProgramSpan:
         """Return where motions stand in the text."""
         line = self.program.motions.line
         if stop > first:
-            return Span(first, stop, int(line[first:stop].min()), int(line[first:stop].max()))
+            return ProgramSpan(first, stop, int(line[first:stop].min()), int(line[first:stop].max()))
         before = int(line[first - 1]) if first else 1
-        return Span(first, stop, before, before)
+        return ProgramSpan(first, stop, before, before)
 
     def stretches(self, first: int, stop: int) -> list[tuple[bool, int, int]]:
         """Return the stretches of rapids (True) and of other motions that move between two motions."""
@@ -207,11 +207,11 @@ class _Comparison:
 
     def __init__(self, a: NcProgram, b: NcProgram, tolerance: float) -> None:
         self._tolerance = tolerance
-        self._a, self._b = (_Side.of(program, tolerance * CHORD) for program in (a, b))
+        self._a, self._b = (_ComparedProgram.of(program, tolerance * CHORD) for program in (a, b))
 
-    def differences(self, runs: tuple[Run, ...], progress: Progress) -> Differences:
+    def differences(self, runs: tuple[MatchedRun, ...], progress: Progress) -> ProgramDifferences:
         """Return everything that differs, given the motions that are the same."""
-        items: list[Difference] = []
+        items: list[ProgramDifference] = []
         pairs = [np.stack([run.a + np.arange(run.count), run.b + np.arange(run.count)]) for run in runs]
         size = (len(self._a.length), len(self._b.length))
         edges = chain([(0, 0)], *(((run.a, run.b), (run.a + run.count, run.b + run.count)) for run in runs), [size])
@@ -224,9 +224,11 @@ class _Comparison:
         gaps = list(items)
         items += self._changes(np.concatenate(pairs, axis=1)) if pairs else []
         items += self._pauses(runs, gaps)
-        return Differences(tuple(sorted(items, key=lambda item: (item.a.first, item.b.first))), runs, self._tolerance)
+        return ProgramDifferences(
+            tuple(sorted(items, key=lambda item: (item.a.first, item.b.first))), runs, self._tolerance
+        )
 
-    def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> tuple[Difference, list[Rows]]:
+    def _gap(self, before: tuple[int, int], after: tuple[int, int]) -> tuple[ProgramDifference, list[Rows]]:
         """Return what a stretch that could not be aligned is, and pairs of motions that run along the same path in
         it.
         """
@@ -248,15 +250,15 @@ class _Comparison:
         if longest > self._tolerance:
             return self._apart(spans, whole=False), []
         counts = f"{spans[0].stop - spans[0].first} and {spans[1].stop - spans[1].first} motions"
-        item = Difference(DifferenceKind.SAME_PATH, *spans, longest, None, f"the same path in {counts}")
+        item = ProgramDifference(DifferenceKind.SAME_PATH, *spans, longest, None, f"the same path in {counts}")
         return item, [_side_by_side(*each) for each in lines]
 
-    def _leash(self, spans: tuple[Span, Span]) -> float:
+    def _leash(self, spans: tuple[ProgramSpan, ProgramSpan]) -> float:
         return leash(
             *(side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True))
         )
 
-    def _telling(self, side: _Side, parts: list[tuple[bool, int, int]]) -> list[tuple[bool, int, int]]:
+    def _telling(self, side: _ComparedProgram, parts: list[tuple[bool, int, int]]) -> list[tuple[bool, int, int]]:
         """Return stretches without those that are all within the tolerance of where they begin; what follows one
         another is one.
         """
@@ -267,37 +269,37 @@ class _Comparison:
                 found[-1:] = [(rapid, found[-1][1], stop)] if joins else [*found[-1:], (rapid, first, stop)]
         return found
 
-    def _one_sided(self, spans: tuple[Span, Span], in_a: bool, in_b: bool) -> Difference:
+    def _one_sided(self, spans: tuple[ProgramSpan, ProgramSpan], in_a: bool, in_b: bool) -> ProgramDifference:
         """Return what a stretch is of which one program has nothing."""
         if not in_a and not in_b:
-            return Difference(DifferenceKind.SAME_PATH, *spans, text="motions that do not move")
+            return ProgramDifference(DifferenceKind.SAME_PATH, *spans, text="motions that do not move")
         kind, side, span = (
             (DifferenceKind.MISSING, self._a, spans[0]) if in_a else (DifferenceKind.EXTRA, self._b, spans[1])
         )
         away = self._away(side, span, (self._a if side is self._b else self._b).place(spans[1 if in_a else 0].first))
         if away <= self._tolerance:
-            return Difference(
+            return ProgramDifference(
                 DifferenceKind.SAME_PATH, *spans, away, None, "motions that stay within the tolerance of a place"
             )
         length = float(side.length[span.first : span.stop].sum())
         x, y, z = side.program.motions.end[span.stop - 1].tolist()
         text = f"{span.stop - span.first} motions, {length:.3f} mm, only in the {'first' if in_a else 'second'}"
-        return Difference(kind, *spans, 0.0, (x, y, z), text)
+        return ProgramDifference(kind, *spans, 0.0, (x, y, z), text)
 
     @staticmethod
-    def _away(side: _Side, span: Span, place: Floats | None) -> float:
+    def _away(side: _ComparedProgram, span: ProgramSpan, place: Floats | None) -> float:
         """Return how far a stretch of one program goes from the place where the other stands meanwhile, mm."""
         points = side.paths.polyline(span.first, span.stop).points
         return float(np.linalg.norm(points - (points[0] if place is None else place), axis=1).max())
 
-    def _apart(self, spans: tuple[Span, Span], whole: bool) -> Difference:
+    def _apart(self, spans: tuple[ProgramSpan, ProgramSpan], whole: bool) -> ProgramDifference:
         """Return how far two paths are apart; `whole`: they do not rapid and feed at the same places."""
         lines = [
             side.paths.polyline(span.first, span.stop) for side, span in zip((self._a, self._b), spans, strict=True)
         ]
-        found: Farthest = farthest(lines[0], lines[1])
+        found: LargestDistance = farthest(lines[0], lines[1])
         if whole and leash(lines[0], lines[1]) <= self._tolerance:
-            return Difference(
+            return ProgramDifference(
                 DifferenceKind.RAPID,
                 *spans,
                 found.distance,
@@ -305,7 +307,7 @@ class _Comparison:
                 "the same path, but rapid in one and fed in the other",
             )
         text = f"{found.distance:.3f} mm apart at X {found.a[0]:.3f} Y {found.a[1]:.3f} Z {found.a[2]:.3f}"
-        return Difference(
+        return ProgramDifference(
             DifferenceKind.PATH,
             *spans,
             found.distance,
@@ -313,29 +315,31 @@ class _Comparison:
             text if found.distance > self._tolerance else "the same places in another order or sense",
         )
 
-    def _changes(self, pairs: Rows) -> Iterator[Difference]:
+    def _changes(self, pairs: Rows) -> Iterator[ProgramDifference]:
         """Yield where motions along the same path have another feed, or something else in force."""
         pairs = pairs[:, np.argsort(pairs[0], kind="stable")]
         a, b = self._a.program, self._b.program
         feeds = a.motions.feed[pairs[0]], b.motions.feed[pairs[1]]
         differ = ~(np.abs(feeds[0] - feeds[1]) <= FEED) & ~(np.isnan(feeds[0]) & np.isnan(feeds[1]))
         yield from self._grouped(DifferenceKind.FEED, pairs, differ & (a.motions.kind[pairs[0]] != MotionKind.RAPID))
-        for kind, told in _IN_FORCE.items():
+        for kind, reported in _IN_FORCE.items():
             names: dict[str, int] = {}
             codes = [
-                np.array([names.setdefault(told(state), len(names)) for state in side.states])[side.motions.state[rows]]
+                np.array([names.setdefault(reported(state), len(names)) for state in side.states])[
+                    side.motions.state[rows]
+                ]
                 for side, rows in zip((a, b), pairs, strict=True)
             ]
             yield from self._grouped(kind, pairs, codes[0] != codes[1])
 
-    def _grouped(self, kind: DifferenceKind, pairs: Rows, differ: NDArray[np.bool_]) -> Iterator[Difference]:
+    def _grouped(self, kind: DifferenceKind, pairs: Rows, differ: NDArray[np.bool_]) -> Iterator[ProgramDifference]:
         """Yield one difference for each group of neighbours that differ."""
         edges = np.flatnonzero(np.diff(np.concatenate([[0], differ.astype(np.int8), [0]])))
         for first, stop in edges.reshape(-1, 2).tolist():
             rows_a, rows_b = pairs[:, first:stop]
             text = self._told(kind, int(rows_a[0]), int(rows_b[0]))
             spans = self._a.span(int(rows_a[0]), int(rows_a[-1]) + 1), self._b.span(int(rows_b[0]), int(rows_b[-1]) + 1)
-            yield Difference(kind, *spans, text=text)
+            yield ProgramDifference(kind, *spans, text=text)
 
     def _told(self, kind: DifferenceKind, a: int, b: int) -> str:
         """Return what the first motions of a group have."""
@@ -345,13 +349,13 @@ class _Comparison:
             first, second = _IN_FORCE[kind](self._a.state(a)), _IN_FORCE[kind](self._b.state(b))
         return f"{first} in the first, {second} in the second"
 
-    def _pauses(self, runs: tuple[Run, ...], gaps: list[Difference]) -> Iterator[Difference]:
+    def _pauses(self, runs: tuple[MatchedRun, ...], gaps: list[ProgramDifference]) -> Iterator[ProgramDifference]:
         """Yield dwells and stops that only one program has, or has elsewhere: before motions that are the same, or
         along the same path.
         """
         if not self._a.events and not self._b.events:
             return
-        size = Run(len(self._a.length), len(self._b.length), 1)
+        size = MatchedRun(len(self._a.length), len(self._b.length), 1)
         along = {(gap.a.stop, gap.b.stop): gap for gap in gaps if gap.kind is DifferenceKind.SAME_PATH}
         for gap in along.values():
             yield from self._unlike((gap.a.first, gap.a.stop), (gap.b.first, gap.b.stop))
@@ -361,15 +365,15 @@ class _Comparison:
             for ahead in sorted(row for row in rows if skipped <= row < run.count):
                 yield from self._unlike((run.a + ahead,) * 2, (run.b + ahead,) * 2)
 
-    def _unlike(self, in_a: tuple[int, int], in_b: tuple[int, int]) -> Iterator[Difference]:
+    def _unlike(self, in_a: tuple[int, int], in_b: tuple[int, int]) -> Iterator[ProgramDifference]:
         """Yield what differs of the dwells and stops before the motions of two stretches, ends included."""
         (places_a, events_a), (places_b, events_b) = self._a.pauses(*in_a), self._b.pauses(*in_b)
         spans = self._a.span(*in_a), self._b.span(*in_b)
         if events_a != events_b:
             text = f"{_pause(events_a)} in the first, {_pause(events_b)} in the second"
-            yield Difference(DifferenceKind.PAUSE, *spans, text=text)
+            yield ProgramDifference(DifferenceKind.PAUSE, *spans, text=text)
         elif any(self._elsewhere(*each) for each in zip(places_a, places_b, strict=True)):
-            yield Difference(DifferenceKind.PAUSE, *spans, text=f"{_pause(events_a)} at another place")
+            yield ProgramDifference(DifferenceKind.PAUSE, *spans, text=f"{_pause(events_a)} at another place")
 
     def _elsewhere(self, one: Floats | None, other: Floats | None) -> bool:
         return one is not None and other is not None and float(np.linalg.norm(one - other)) > self._tolerance

@@ -24,7 +24,7 @@ SPINNING = ("{speed", "{dwell", "{coolant")
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class JobFrame:
     """What to go round.
 
     Attributes:
@@ -38,7 +38,7 @@ class Frame:
     tool: int = 0
 
 
-def frame_text(frame: Frame, job: Job, post: Post) -> str:
+def frame_text(frame: JobFrame, job: Job, post: Post) -> str:
     """Return the program, for the same control, units and work offset.
 
     Args:
@@ -51,28 +51,28 @@ def frame_text(frame: Frame, job: Job, post: Post) -> str:
     """
     if not all(math.isfinite(value) for value in (*frame.box.low[:2], *frame.box.high[:2], frame.clearance)):
         raise ParameterError("Nothing is cut in this program, so there is no box to go round; compute a path first.")
-    sheet, fields = Blocks(post, job.out_units), program_fields(job, post, blend_mm(job, post))
+    blocks, fields = Blocks(post, job.out_units), program_fields(job, post, blend_mm(job, post))
     digits, unit = post.digits(job.out_units), job.out_units.value
     z = round(frame.clearance / unit * 10**digits.Z)
-    _write(sheet, post.program.top, fields)
-    sheet.comment(f"Frame of {safe_name(job.part.name)}")
-    sheet.comment("Round the box of the cuts at clearance height, by rapids, the spindle off")
-    _write(sheet, post.program.start, fields)
-    _home(sheet, post, fields)
+    _write(blocks, post.program.top, fields)
+    blocks.comment(f"Frame of {safe_name(job.part.name)}")
+    blocks.comment("Round the box of the cuts at clearance height, by rapids, the spindle off")
+    _write(blocks, post.program.start, fields)
+    _home(blocks, post, fields)
     if frame.tool:
-        known = fields | {"tool": frame.tool, "preselect": "", "clearance": sheet.number(z, digits.Z)}
+        known = fields | {"tool": frame.tool, "preselect": "", "clearance": blocks.number(z, digits.Z)}
         for template in post.program.tool:
             if "{clearance" in template:
-                sheet.clearance(template.format(**known).strip(), z)
+                blocks.clearance(template.format(**known).strip(), z)
             elif not any(field in template for field in SPINNING):
-                sheet.block(template.format(**known).strip())
-    sheet.rapid_z(z)
+                blocks.block(template.format(**known).strip())
+    blocks.rapid_z(z)
     for x, y in _corners(frame.box):
         end: Position = (round(x / unit * 10**digits.X), round(y / unit * 10**digits.Y), z)
-        sheet.straight(MoveKind.RAPID, end)
-    _home(sheet, post, fields)
-    _write(sheet, post.program.end, fields)
-    return "\n".join(sheet.lines) + "\n"
+        blocks.straight(MoveKind.RAPID, end)
+    _home(blocks, post, fields)
+    _write(blocks, post.program.end, fields)
+    return "\n".join(blocks.lines) + "\n"
 
 
 def _corners(box: Extent) -> tuple[tuple[float, float], ...]:
@@ -81,11 +81,11 @@ def _corners(box: Extent) -> tuple[tuple[float, float], ...]:
     return ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))
 
 
-def _home(sheet: Blocks, post: Post, fields: Fields) -> None:
+def _home(blocks: Blocks, post: Post, fields: Fields) -> None:
     for template in post.program.home:
-        sheet.home(template.format(**fields).strip())
+        blocks.home(template.format(**fields).strip())
 
 
-def _write(sheet: Blocks, templates: tuple[str, ...], fields: Fields) -> None:
+def _write(blocks: Blocks, templates: tuple[str, ...], fields: Fields) -> None:
     for template in templates:
-        sheet.block(template.format(**fields).strip())
+        blocks.block(template.format(**fields).strip())

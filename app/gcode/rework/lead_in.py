@@ -12,7 +12,7 @@ from ...model.part import Units
 from ..interpreter.dialect import Dialect
 from ..interpreter.offsets import OFFSETS, ZERO, Place, added
 from ..interpreter.program import FeedMode
-from .standing import Axis, Standing
+from .control_state import AxisKnowledge, ControlState
 
 PLANES = ("G17", "G18", "G19")
 ARC_MODES = (Dialect.LINUXCNC, Dialect.GRBL, Dialect.MACH3)
@@ -43,20 +43,20 @@ class Approach:
     spin_up: float
 
 
-def lead_in(standing: Standing, approach: Approach) -> list[str]:
+def lead_in(state: ControlState, approach: Approach) -> list[str]:
     """Return the blocks, one a line."""
-    writer = _Writer(standing)
+    writer = _LeadInWriter(state)
     way = list(writer.way(approach))
     before = [*writer.modes(), *writer.parameters(), *writer.zeros(), *writer.up(), *writer.tool(approach)]
     return [block for block in (*before, *way, *writer.rest(way, approach.feed)) if block]
 
 
-class _Writer:
+class _LeadInWriter:
     """Writes words in the units that are in force at the line."""
 
-    def __init__(self, standing: Standing) -> None:
-        self._standing, self._control = standing, standing.control
-        self._modal, self._dialect = standing.control.modal, standing.control.options.dialect
+    def __init__(self, state: ControlState) -> None:
+        self._standing, self._control = state, state.control
+        self._modal, self._dialect = state.control.modal, state.control.options.dialect
 
     def _word(self, letter: str, value: float) -> str:
         """Return a word with a length in mm, with a decimal point and no more digits than it needs."""
@@ -68,7 +68,7 @@ class _Writer:
 
     def _known(self, *codes: str) -> str:
         """Return the codes that the dialect has."""
-        return " ".join(code for code in codes if code not in self._control.habits.missing)
+        return " ".join(code for code in codes if code not in self._control.rules.missing)
 
     def modes(self) -> Iterator[str]:
         """Yield what makes the blocks to come mean what they say."""
@@ -106,8 +106,8 @@ class _Writer:
 
     def tool(self, approach: Approach) -> Iterator[str]:
         """Yield tool, length, spindle and coolant."""
-        modal, habits = self._modal, self._control.habits
-        if modal.tool and habits.tool_changes:
+        modal, rules = self._modal, self._control.rules
+        if modal.tool and rules.tool_changes:
             yield f"T{modal.tool} M6"
         if modal.length_offset:
             length = f"G43 H{modal.length_offset}"
@@ -120,7 +120,7 @@ class _Writer:
 
     def _dwell(self, seconds: float) -> str:
         """Return P of G4: where whole numbers count milliseconds, without the point that a Fanuc refuses."""
-        unit = self._control.habits.dwell_unit_s
+        unit = self._control.rules.dwell_unit_s
         return _plain(seconds / unit, 3) if unit == 1.0 else f"{round(seconds / unit)}"
 
     @property
@@ -140,23 +140,23 @@ class _Writer:
         machine = added(self._control.at, self._control.offsets.tool)
         before = added(goal, extra)
         high = (before[0], before[1], approach.clearance + extra[2])
-        if not (axes[2] is Axis.WORK and self._length_moves):
+        if not (axes[2] is AxisKnowledge.WORK and self._length_moves):
             yield from self._to(high, machine, (2,))
         yield from self._to(before, machine, (0, 1))
         if extra != ZERO:
             yield f"G92 {self._words((goal[0], goal[1], approach.clearance))}"
-        if axes[2] is Axis.WORK:
+        if axes[2] is AxisKnowledge.WORK:
             yield from self._down(approach, goal[2])
 
     def _to(self, place: Place, machine: Place, some: tuple[int, ...]) -> Iterator[str]:
         """Yield the rapids of some axes to where they are, as each is known; homes before places."""
-        for kind in (Axis.HOME, Axis.SECOND_HOME, Axis.MACHINE, Axis.WORK):
+        for kind in (AxisKnowledge.HOME, AxisKnowledge.SECOND_HOME, AxisKnowledge.MACHINE, AxisKnowledge.WORK):
             mine = tuple(axis for axis in some if self._standing.axes[axis] is kind)
             if not mine:
                 continue
-            if kind is Axis.WORK:
+            if kind is AxisKnowledge.WORK:
                 yield f"G0 {self._words(place, mine)}"
-            elif kind is Axis.MACHINE:
+            elif kind is AxisKnowledge.MACHINE:
                 yield f"G53 G0 {self._words(machine, mine)}"
             else:
                 yield f"G91 {kind.value} {self._words(ZERO, mine)}"
@@ -190,7 +190,7 @@ class _Writer:
             yield modal.feed_mode.value
         if not math.isnan(control.feed) and modal.feed_mode is not FeedMode.INVERSE_TIME:
             yield f"F{_plain(control.feed / control.unit, 6)}"
-        if control.selected != modal.tool and control.habits.tool_changes:
+        if control.selected != modal.tool and control.rules.tool_changes:
             yield f"T{control.selected}"
         if not modal.absolute:
             yield "G91"

@@ -19,10 +19,10 @@ from ..interpreter.options import ReadOptions
 from ..interpreter.places import KEYWORDS, label_of
 from ..interpreter.program import ModalState, NcProgram
 from ..interpreter.reader import DEFAULT, read_program
-from ..interpreter.text import Text
+from ..interpreter.text import ProgramBuffer
 from ..timing.extent import extent
+from .control_state import ELSEWHERE, SAME, AxisKnowledge, ControlState, control_state_at
 from .lead_in import HOMEWARD, Approach, lead_in
-from .standing import ELSEWHERE, SAME, Axis, Standing, standing_at
 
 O_WORD = re.compile(rf"/?(?:n[0-9.]+)?o(<[^>]+>|[0-9]+)({'|'.join(sorted(KEYWORDS, key=len, reverse=True))})")
 OPENS = {"sub": "endsub", "if": "endif", "while": "endwhile", "repeat": "endrepeat", "do": "while"}
@@ -65,20 +65,20 @@ def restart(data: bytes, line: int, options: RestartOptions, progress: Progress 
         InputError: it cannot be safe from there; the text says why, and where it could.
         Cancelled: the job was asked to stop.
     """
-    text = Text(data)
+    text = ProgramBuffer(data)
     if not 1 <= line <= text.line_count:
         raise InputError(f"Line {line} is not there: the program has {text.line_count} lines.")
     whole = read_program(data, options.read, progress.part(0.0, 0.3))
-    standing = standing_at(data, line, options.read, progress.part(0.3, 0.6))
+    state = control_state_at(data, line, options.read, progress.part(0.3, 0.6))
     _check_structure(text, line)
-    head = [*_leader(text, line, standing.control), *_subroutines(text, line)]
+    head = [*_leader(text, line, state.control), *_subroutines(text, line)]
     tail = _tail(data, text, line)
     if b"#" not in tail:
-        standing = replace(standing, parameters=())
-    blocks = lead_in(standing, _approach(whole, standing, options))
+        state = replace(state, parameters=())
+    blocks = lead_in(state, _approach(whole, state, options))
     end = "\r\n" if b"\r\n" in data else "\n"
     made = end.join([*head, *blocks, ""]).encode(text.encoding, "replace") + tail
-    _check(made, (whole, line), standing, options, progress.part(0.6, 1.0))
+    _check(made, (whole, line), state, options, progress.part(0.6, 1.0))
     return made
 
 
@@ -90,7 +90,7 @@ def _offset(data: bytes, line: int) -> int:
     return at
 
 
-def _tail(data: bytes, text: Text, line: int) -> bytes:
+def _tail(data: bytes, text: ProgramBuffer, line: int) -> bytes:
     """Return the file's own bytes from a line on; of a file in UTF-16, the text's."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return text.data[_offset(text.data, line) :]
@@ -99,7 +99,7 @@ def _tail(data: bytes, text: Text, line: int) -> bytes:
     return own[next(islice(ends, line - 2, None)) :] if line > 1 else own
 
 
-def _check_structure(text: Text, line: int) -> None:
+def _check_structure(text: ProgramBuffer, line: int) -> None:
     """Refuse a line within a block of O words: what belongs to its beginning would be missing."""
     open_words: list[tuple[str, str]] = []
     for number, (label, keyword) in _o_words(text, line):
@@ -117,7 +117,7 @@ def _check_structure(text: Text, line: int) -> None:
             )
 
 
-def _o_words(text: Text, first: int) -> list[tuple[int, tuple[str, str]]]:
+def _o_words(text: ProgramBuffer, first: int) -> list[tuple[int, tuple[str, str]]]:
     """Return line, label and keyword of each O word from a line on."""
     begin = _offset(text.data, first)
     rest = text.data[begin:].decode(text.encoding).lower().split("\n")
@@ -125,25 +125,25 @@ def _o_words(text: Text, first: int) -> list[tuple[int, tuple[str, str]]]:
     return [(number, (label_of(match[1]), match[2])) for number, match in found if match is not None]
 
 
-def _leader(text: Text, line: int, control: Control) -> list[str]:
+def _leader(text: ProgramBuffer, line: int, control: Control) -> list[str]:
     """Return the lines that must stand first, and comments that say what this is."""
     lines = text.data.decode(text.encoding).split("\n")
     first = [number for number, each in enumerate(lines[:20], 1) if each.strip()][:2]
     begin = [number for number in first[:1] if lines[number - 1].strip().startswith("%")]
-    if control.habits.fanuc_flow:
+    if control.rules.fanuc_flow:
         begin += [number for number in first if re.match(r"\s*[oO:]\s*\d", lines[number - 1])]
     if begin and line <= begin[-1]:
         raise InputError(
             f"Line {line} is the program's beginning; run the whole program, or start at line {begin[-1] + 1}."
         )
     plain = re.sub(r"[^ -~]|[()%;]", " ", lines[line - 1])[:50].strip()
-    told = [f"(RESTART FROM LINE {line})", f"({plain or 'an empty line'})"]
+    reported = [f"(RESTART FROM LINE {line})", f"({plain or 'an empty line'})"]
     if control.options.dialect not in HOMEWARD:
-        told.append(STAND_CLEAR)
-    return [*(lines[number - 1].strip() for number in begin), *told]
+        reported.append(STAND_CLEAR)
+    return [*(lines[number - 1].strip() for number in begin), *reported]
 
 
-def _subroutines(text: Text, line: int) -> list[str]:
+def _subroutines(text: ProgramBuffer, line: int) -> list[str]:
     """Return the subroutines that are defined before a line, as they are written."""
     lines = text.data.decode(text.encoding).split("\n")
     found, begun = [], 0
@@ -156,9 +156,9 @@ def _subroutines(text: Text, line: int) -> list[str]:
     return found
 
 
-def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> Approach:
+def _approach(whole: NcProgram, state: ControlState, options: RestartOptions) -> Approach:
     """Return how high to travel and how to go down, program coordinates, mm."""
-    control, motions = standing.control, whole.motions
+    control, motions = state.control, whole.motions
     highest = extent(whole).high[2]  # not the machine's home: where that is, the program does not know
     clearance = options.clearance if options.clearance is not None else highest - control.modal.shift[2]
     ways = motions.end - motions.start
@@ -167,32 +167,32 @@ def _approach(whole: NcProgram, standing: Standing, options: RestartOptions) -> 
     slowest = motions.feed[down if down.any() else fed].min(initial=np.inf)
     feed = options.plunge_feed or (float(slowest) if np.isfinite(slowest) else 0.0)
     height = control.program_place[2]
-    if Axis.FREE in standing.axes and standing.axes[2] is Axis.WORK and height < clearance - SAME:
-        name = "XYZ"[standing.axes.index(Axis.FREE)]
+    if AxisKnowledge.FREE in state.axes and state.axes[2] is AxisKnowledge.WORK and height < clearance - SAME:
+        name = "XYZ"[state.axes.index(AxisKnowledge.FREE)]
         raise InputError(
             f"Where {name} is at this line the program does not say, and the tool would have to go down there; "
             f"start behind the first block that says {name}."
         )
-    clearance = float(np.fmax(clearance, height)) if standing.axes[2] is Axis.WORK else clearance
+    clearance = float(np.fmax(clearance, height)) if state.axes[2] is AxisKnowledge.WORK else clearance
     if control.options.dialect in HOMEWARD and control.modal.length_offset and not np.isfinite(clearance):
         raise InputError("The program says no height to which the tool could go with its length; say a clearance.")
     return Approach(clearance, options.approach, feed, options.spin_up)
 
 
 def _check(
-    made: bytes, original: tuple[NcProgram, int], standing: Standing, options: RestartOptions, progress: Progress
+    made: bytes, original: tuple[NcProgram, int], state: ControlState, options: RestartOptions, progress: Progress
 ) -> None:
     """Read the restart program, and refuse to give it out if it does not go on with the old one's motions."""
     whole, line = original
-    read = replace(options.read, start=ELSEWHERE) if Axis.FREE not in standing.axes else options.read
+    read = replace(options.read, start=ELSEWHERE) if AxisKnowledge.FREE not in state.axes else options.read
     again = read_program(made, read, progress)
-    first, count = standing.motions, len(whole.motions)
+    first, count = state.motions, len(whole.motions)
     skipped = len(again.motions) - (count - first)
     if (whole.error is None) != (again.error is None) or skipped < 0:
         behind = made.count(b"\n") - whole.line_count + (made[-1:] != b"\n")
-        told = f" at line {again.error.line - behind}: {again.error.text}" if again.error is not None else "."
+        reason = f" at line {again.error.line - behind}: {again.error.text}" if again.error is not None else "."
         raise InputError(
-            f"A restart from line {line} would not go on as the program does{told} Start at a line that says its own "
+            f"A restart from line {line} would not go on as the program does{reason} Start at a line that says its own "
             "G words, and that no later line jumps back over."
         )
     row = _first_other(whole, again, first, skipped)

@@ -6,15 +6,15 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ..interpreter.text import Text
-from .stretches import Stretch
+from ..interpreter.text import ProgramBuffer
+from .stretches import FeedStretch
 
 _HEAD = re.compile(r"\s*(?:%.*|[O:]\s*\d+.*|\(.*|;.*)?$", re.IGNORECASE)
 """Lines that notes go behind: the tape's mark, the program's number, its first comments."""
 
 
 @dataclass(frozen=True)
-class Rewritten:
+class RewrittenText:
     """The new text.
 
     Attributes:
@@ -27,8 +27,8 @@ class Rewritten:
 
 
 def rewrite(
-    data: bytes, stretches: Sequence[Stretch], blocks: Mapping[int, Sequence[str]], notes: Sequence[str]
-) -> Rewritten:
+    data: bytes, stretches: Sequence[FeedStretch], blocks: Mapping[int, Sequence[str]], notes: Sequence[str]
+) -> RewrittenText:
     """Return a program in which the lines of some stretches are replaced.
 
     Args:
@@ -37,7 +37,7 @@ def rewrite(
         blocks: the new lines of some of them, by index.
         notes: comment lines that are put behind the program's head.
     """
-    text = Text(data)
+    text = ProgramBuffer(data)
     old = text.data.decode(text.encoding).split("\n")[:-1]
     new: list[str] = []
     at, lines = 0, {}
@@ -54,4 +54,4 @@ def rewrite(
         at = stretch.last_line
     new += old[at:]
     end = "\r\n" if b"\r\n" in data else "\n"
-    return Rewritten(end.join([*new, ""]).encode(text.encoding if text.encoding != "ascii" else "ascii"), lines)
+    return RewrittenText(end.join([*new, ""]).encode(text.encoding if text.encoding != "ascii" else "ascii"), lines)

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, MotionKind, Motions
-from ..interpreter.fault import Fault
+from ..interpreter.block_fault import BlockFault
 from ..interpreter.program import FeedMode, NcProgram
-from ..interpreter.text import Text, code_of
+from ..interpreter.text import ProgramBuffer, code_of
 
 Flags = NDArray[np.bool_]
 
@@ -28,7 +28,7 @@ _MOTION = re.compile(r"g0?[0-3](?![\d.])")
 _JUMPS = re.compile(r"\bGOTO\b|\bM9[789]\b", re.IGNORECASE)
 
 
-class Left(Enum):
+class SkipReason(Enum):
     """Why a straight feed move is in no stretch."""
 
     ALONE = "no other feed move beside it"
@@ -39,7 +39,7 @@ class Left(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class FeedStretch:
     """Straight feed moves in a row.
 
     Attributes:
@@ -63,14 +63,14 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundStretches:
     """All stretches of a program, and how many straight feed moves are in none, by the reason."""
 
-    stretches: tuple[Stretch, ...]
-    left: dict[Left, int]
+    stretches: tuple[FeedStretch, ...]
+    left: dict[SkipReason, int]
 
 
-def find_stretches(program: NcProgram, text: Text, progress: Progress = NO_PROGRESS) -> Found:
+def find_stretches(program: NcProgram, text: ProgramBuffer, progress: Progress = NO_PROGRESS) -> FoundStretches:
     """Return the stretches of a program of two moves or more, in the order of the text.
 
     Args:
@@ -85,7 +85,7 @@ def find_stretches(program: NcProgram, text: Text, progress: Progress = NO_PROGR
     motions = program.motions
     spoken = _spoken(program, text)
     reasons = _reasons(program, spoken)
-    left = {reason: int(np.sum(reasons == k)) for k, reason in enumerate(Left)}
+    left = {reason: int(np.sum(reasons == k)) for k, reason in enumerate(SkipReason)}
     free = reasons == _FREE
     on = np.zeros(len(motions), np.bool_)
     on[1:] = free[1:] & free[:-1] & ~(spoken.feeds[1:, 0] >= 0) & _goes_on(motions, spoken.filled)
@@ -93,18 +93,18 @@ def find_stretches(program: NcProgram, text: Text, progress: Progress = NO_PROGR
     stop = np.append(first[1:], len(motions))
     behind = np.concatenate([[0], np.cumsum(free)])
     count = behind[stop] - behind[first]  # free moves up to the next first one all go on from it
-    left[Left.ALONE] += int(np.sum(count == 1))
+    left[SkipReason.ALONE] += int(np.sum(count == 1))
     progress.step(0.5)
     rows = zip(first[count > 1].tolist(), (first + count)[count > 1].tolist(), strict=True)
-    return Found(tuple(_stretch(motions, text, spoken, row, end) for row, end in rows), left)
+    return FoundStretches(tuple(_stretch(motions, text, spoken, row, end) for row, end in rows), left)
 
 
-def _stretch(motions: Motions, text: Text, spoken: _Spoken, first: int, stop: int) -> Stretch:
+def _stretch(motions: Motions, text: ProgramBuffer, spoken: _LineWords, first: int, stop: int) -> FeedStretch:
     points = np.vstack([motions.start[first : first + 1], motions.end[first:stop]])
     begin, end = spoken.feeds[first].tolist()
     feed = text.data[begin:end].decode() if begin >= 0 else ""
     lines = motions.line[[first, stop - 1]].tolist()
-    return Stretch(
+    return FeedStretch(
         first,
         stop,
         points,
@@ -116,12 +116,12 @@ def _stretch(motions: Motions, text: Text, spoken: _Spoken, first: int, stop: in
     )
 
 
-def _resumed(text: Text, begins: NDArray[np.int64], behind: int) -> bool:
+def _resumed(text: ProgramBuffer, begins: NDArray[np.int64], behind: int) -> bool:
     """Tell whether the first line behind some lines that is more than a comment is plain words, G0 to G3 among them."""
     for begin in begins[behind:-1].tolist():
         try:
             code = code_of(text.line(begin), nested=False)
-        except Fault:
+        except BlockFault:
             return False
         if code:
             return _PLAIN.fullmatch(code) is not None and _MOTION.search(code) is not None
@@ -143,7 +143,7 @@ def _goes_on(motions: Motions, filled: NDArray[np.int64]) -> Flags:
 
 
 @dataclass(frozen=True, eq=False)
-class _Spoken:
+class _LineWords:
     """What the lines of n motions say.
 
     Attributes:
@@ -163,7 +163,7 @@ class _Spoken:
     jumps: bool
 
 
-def _spoken(program: NcProgram, text: Text) -> _Spoken:
+def _spoken(program: NcProgram, text: ProgramBuffer) -> _LineWords:
     from . import stretch_kernels as kernels
 
     motions, states = program.motions, program.states
@@ -173,18 +173,20 @@ def _spoken(program: NcProgram, text: Text) -> _Spoken:
     rows = np.flatnonzero(motions.kind == MotionKind.LINE)
     plain, coded, numbered = (np.zeros(len(motions), np.bool_) for _ in range(3))
     feeds = np.full((len(motions), 2), -1, np.int64)
-    told = tuple(np.empty(len(rows), np.bool_) for _ in range(3))
+    reported = tuple(np.empty(len(rows), np.bool_) for _ in range(3))
     numbers = np.empty((len(rows), 2), np.int64)
     shifts = np.array([state.shift for state in states], np.float64).reshape(-1, 3)
     units = np.array([state.units.value for state in states], np.float64)
     lines, at = motions.line[rows].astype(np.int64) - 1, motions.state[rows].astype(np.int64)
-    kernels.read_moves(data, begins, lines, np.ascontiguousarray(motions.end[rows]), at, shifts, units, *told, numbers)
-    plain[rows], coded[rows], numbered[rows] = told
+    kernels.read_moves(
+        data, begins, lines, np.ascontiguousarray(motions.end[rows]), at, shifts, units, *reported, numbers
+    )
+    plain[rows], coded[rows], numbered[rows] = reported
     feeds[rows] = numbers
-    return _Spoken(begins, filled, plain, coded, numbered, feeds, _may_jump(text))
+    return _LineWords(begins, filled, plain, coded, numbered, feeds, _may_jump(text))
 
 
-def _may_jump(text: Text) -> bool:
+def _may_jump(text: ProgramBuffer) -> bool:
     """Tell whether the text has words that jump; the whole text is searched for them only where it has their
     letters.
     """
@@ -198,10 +200,10 @@ _FREE, _OTHER = -1, -2
 """Of a motion: nothing speaks against it; it is no straight feed move."""
 
 
-def _reasons(program: NcProgram, spoken: _Spoken) -> NDArray[np.int64]:
+def _reasons(program: NcProgram, spoken: _LineWords) -> NDArray[np.int64]:
     """Return for each motion the number of the reason why it can be in no stretch, or _FREE, or _OTHER."""
     motions, states = program.motions, program.states
-    count, number = len(motions), {reason: k for k, reason in enumerate(Left)}
+    count, number = len(motions), {reason: k for k, reason in enumerate(SkipReason)}
     line = motions.kind == MotionKind.LINE
     highest = np.maximum.accumulate(motions.line) if count else motions.line
     again = (np.bincount(motions.line)[motions.line] > 1) if count else np.zeros(0, np.bool_)
@@ -219,7 +221,13 @@ def _reasons(program: NcProgram, spoken: _Spoken) -> NDArray[np.int64]:
             ~(timed[motions.state] & (motions.feed > 0)),
             ~(straight[motions.state] & spoken.plain),
         ],
-        [_OTHER, number[Left.REPEATED], number[Left.UNKNOWN], number[Left.FEED], number[Left.WORDS]],
+        [
+            _OTHER,
+            number[SkipReason.REPEATED],
+            number[SkipReason.UNKNOWN],
+            number[SkipReason.FEED],
+            number[SkipReason.WORDS],
+        ],
         _FREE,
     )
     return reasons.astype(np.int64)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...model.machine import LinearAxis, Machine
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import reach
-from ..interpreter.program import NcProgram, Problem, Severity
+from ..interpreter.program import NcProgram, ProgramProblem, Severity
 
 ROUNDING = 1e-6
 """mm by which a motion may pass an end of the travel unreported."""
@@ -89,8 +89,8 @@ def nowhere_of(program: NcProgram) -> NDArray[np.bool_]:
     for home in program.homeward:
         for axis in range(3):
             row, height = home, motions.end[home, axis]
-            told = home == motions.known_from[axis] or (home > 0 and nowhere[home - 1, axis])
-            moved = told or height != motions.start[home, axis]
+            reported = home == motions.known_from[axis] or (home > 0 and nowhere[home - 1, axis])
+            moved = reported or height != motions.start[home, axis]
             while moved and row < len(motions) and motions.end[row, axis] == height and not nowhere[row, axis]:
                 nowhere[row, axis] = True
                 row += 1
@@ -106,7 +106,7 @@ def at_home(program: NcProgram) -> NDArray[np.bool_]:
     return nowhere_of(program) & (np.arange(len(program.motions))[:, None] >= program.motions.known_from)
 
 
-def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:
+def misfits(program: NcProgram, machine: Machine) -> tuple[ProgramProblem, ...]:
     """Return what of a program the machine cannot do, each with the first line that asks for it.
 
     The travel is held against the tool's tip: what the tool's length adds, only the control's tool table knows.
@@ -118,7 +118,7 @@ def misfits(program: NcProgram, machine: Machine) -> tuple[Problem, ...]:
     return (*_beyond_travel(program, machine), *_too_fast(program.motions, machine), *_wrong_speeds(program, machine))
 
 
-def _beyond_travel(program: NcProgram, machine: Machine) -> Iterator[Problem]:
+def _beyond_travel(program: NcProgram, machine: Machine) -> Iterator[ProgramProblem]:
     """Yield a problem for each axis whose travel the program leaves, or whose travel is less than the program's
     size.
     """
@@ -144,7 +144,7 @@ class _AxisReach:
     high: Floats
     line: NDArray[np.int32]
 
-    def too_long(self, axis: LinearAxis, machine: Machine) -> Iterator[Problem]:
+    def too_long(self, axis: LinearAxis, machine: Machine) -> Iterator[ProgramProblem]:
         """Yield the problem that no place of the work origin could help."""
         low, high = float(np.nanmin(self.low)), float(np.nanmax(self.high))
         if high - low > axis.travel + ROUNDING:
@@ -156,7 +156,7 @@ class _AxisReach:
                 f"and {machine.title} travels {axis.travel:g} mm there.",
             )
 
-    def outside(self, axis: LinearAxis, origin: float, machine: Machine) -> Iterator[Problem]:
+    def outside(self, axis: LinearAxis, origin: float, machine: Machine) -> Iterator[ProgramProblem]:
         """Yield the problem at each end of the travel."""
         for values, end, sign in ((self.low, axis.low, -1), (self.high, axis.high, 1)):
             beyond = sign * (values + origin - end)
@@ -172,7 +172,7 @@ class _AxisReach:
                 )
 
 
-def _too_fast(motions: Motions, machine: Machine) -> Iterator[Problem]:
+def _too_fast(motions: Motions, machine: Machine) -> Iterator[ProgramProblem]:
     """Yield the problem of feeds above the machine's largest."""
     over = np.flatnonzero((motions.kind != MotionKind.RAPID) & (motions.feed > machine.largest_feed * (1 + 1e-9)))
     if len(over):
@@ -185,16 +185,16 @@ def _too_fast(motions: Motions, machine: Machine) -> Iterator[Problem]:
         )
 
 
-def _wrong_speeds(program: NcProgram, machine: Machine) -> Iterator[Problem]:
+def _wrong_speeds(program: NcProgram, machine: Machine) -> Iterator[ProgramProblem]:
     """Yield a problem for each spindle speed out of the range, at the first motion that turns at it."""
-    told: set[float] = set()
+    reported: set[float] = set()
     states, first = np.unique(program.motions.state, return_index=True)
     for state_row, row in sorted(zip(states.tolist(), first.tolist(), strict=True), key=lambda pair: pair[1]):
         state = program.states[state_row]
         fits = machine.spindle.low <= state.speed <= machine.spindle.high
-        if state.spindle == 0 or state.constant_surface or fits or state.speed in told:
+        if state.spindle == 0 or state.constant_surface or fits or state.speed in reported:
             continue
-        told.add(state.speed)
+        reported.add(state.speed)
         yield _problem(
             int(program.motions.line[row]),
             "S",
@@ -203,5 +203,5 @@ def _wrong_speeds(program: NcProgram, machine: Machine) -> Iterator[Problem]:
         )
 
 
-def _problem(line: int, word: str, text: str) -> Problem:
-    return Problem(line, 0, word, text, Severity.WARNING)
+def _problem(line: int, word: str, text: str) -> ProgramProblem:
+    return ProgramProblem(line, 0, word, text, Severity.WARNING)

@@ -11,17 +11,17 @@ import numpy as np
 
 from ...model.motion import Floats, MotionKind, Motions
 from ...model.motion_path import ArcPaths, arc_paths
-from ..interpreter.codes import CYCLES, Group
-from ..interpreter.dialect import HABITS
+from ..interpreter.codes import CYCLES, ModalGroup
+from ..interpreter.dialect import DIALECT_RULES
 from ..interpreter.program import EventKind, NcProgram
-from ..interpreter.steps import Step
+from ..interpreter.steps import BlockStep
 from ..posts.post import ArcCentre
-from ..writer.arcs import ArcRules, MeantArc, written_pieces
-from ..writer.curve_blocks import Spelling, curve_blocks
+from ..writer.arcs import ArcRules, ReferenceArc, written_pieces
+from ..writer.curve_blocks import BlockFormat, curve_blocks
 from ..writer.grid import Position, counts, numeral
-from .allowed import TAPPING
 from .near_arcs import near_arcs
-from .sheet import Sheet
+from .translatable import TAPPING
+from .translated_text import TranslatedText
 
 LARGEST_RADIUS = 10_000.0
 """mm; flatter arcs of a spline are lines."""
@@ -31,11 +31,11 @@ _SAME = 1e-9
 """mm; heights that differ by less are the same."""
 
 
-class Mover:
+class MotionWriter:
     """Writes the motions of a program's blocks on a sheet."""
 
-    def __init__(self, sheet: Sheet, program: NcProgram) -> None:
-        self._sheet, self._program = sheet, program
+    def __init__(self, output: TranslatedText, program: NcProgram) -> None:
+        self._output, self._program = output, program
         self._motions: Motions = program.motions
         self._arcs: ArcPaths = arc_paths(program.motions)
         self._initial = self._feed = 0.0
@@ -45,15 +45,15 @@ class Mover:
 
     @property
     def _unit(self) -> float:
-        return self._sheet.modal.units.value
+        return self._output.modal.units.value
 
-    def write(self, step: Step) -> None:
+    def write(self, step: BlockStep) -> None:
         """Write what a block does beside its modes.
 
         Raises:
             InputError: it cannot be said.
         """
-        once = step.block.codes.get(Group.ONCE)
+        once = step.block.codes.get(ModalGroup.ONCE)
         if once in ("G28", "G30", "G53"):
             self._by_machine(step, once)
         elif once in ("G10", "G92"):
@@ -66,17 +66,17 @@ class Mover:
             for row in range(*step.rows):
                 self._row(step, row, self._letters(step, row))
 
-    def _letters(self, step: Step, row: int) -> str:
+    def _letters(self, step: BlockStep, row: int) -> str:
         """Return the axes that a block names, and those along which its motion goes without: cutter compensation has
         moved it.
         """
         start, end = self._place(row, self._motions.start[row]), self._place(row, self._motions.end[row])
         return "".join(letter for k, letter in enumerate("XYZ") if step.block.has(letter.lower()) or start[k] != end[k])
 
-    def _said(self, step: Step, letters: str) -> list[str]:
+    def _said(self, step: BlockStep, letters: str) -> list[str]:
         """Return length words of a block as they stand there."""
-        words, habits = [], HABITS[self._sheet.source.dialect]
-        least = habits.least_inch if self._unit != 1.0 else habits.least_mm
+        words, rules = [], DIALECT_RULES[self._output.source.dialect]
+        least = rules.least_inch if self._unit != 1.0 else rules.least_mm
         for letter in letters:
             value = step.block.get(letter.lower())
             if value is not None:
@@ -86,26 +86,26 @@ class Mover:
         return words
 
     def _digits(self, letter: str) -> int:
-        return int(getattr(self._sheet.post.digits(self._sheet.modal.units), letter))
+        return int(getattr(self._output.post.digits(self._output.modal.units), letter))
 
     def _numeral(self, count: int, digits: int) -> str:
-        return numeral(count, digits, self._sheet.post.words.trailing_zeros)
+        return numeral(count, digits, self._output.post.words.trailing_zeros)
 
-    def _by_machine(self, step: Step, once: str) -> None:
+    def _by_machine(self, step: BlockStep, once: str) -> None:
         """Write a way to a place of the machine."""
-        self._sheet.leave_cycle()
-        head = [once, self._sheet.post.words.motion[MotionKind.RAPID]] if once == "G53" else [once]
-        self._sheet.emit(" ".join([*head, *self._said(step, "XYZ")]))
-        self._sheet.motion = ""
+        self._output.leave_cycle()
+        head = [once, self._output.post.words.motion[MotionKind.RAPID]] if once == "G53" else [once]
+        self._output.emit(" ".join([*head, *self._said(step, "XYZ")]))
+        self._output.motion = ""
 
-    def _zero(self, step: Step, code: str) -> None:
+    def _zero(self, step: BlockStep, code: str) -> None:
         """Write what sets a zero; nothing where it stays as it is."""
         if not code:
             return
-        self._sheet.leave_cycle()
+        self._output.leave_cycle()
         table = [f"L2 P{round(step.block.values['p'])}"] if code == "G10" else []
-        self._sheet.emit(" ".join([code, *table, *self._said(step, "XYZ")]))
-        self._sheet.motion = ""
+        self._output.emit(" ".join([code, *table, *self._said(step, "XYZ")]))
+        self._output.motion = ""
 
     def _place(self, row: int, place: Floats) -> Position:
         """Return a place of a motion as counts of the last decimals, from the zero in force."""
@@ -114,7 +114,7 @@ class Mover:
         x, y, z = (counts(own[axis : axis + 1], self._digits("XYZ"[axis]))[0] for axis in range(3))
         return (x, y, z)
 
-    def _row(self, step: Step, row: int, letters: str) -> None:
+    def _row(self, step: BlockStep, row: int, letters: str) -> None:
         """Write one motion; of a line with the axes that are named."""
         self._feed = float(self._motions.feed[row])
         kind = MotionKind(self._motions.kind[row])
@@ -126,56 +126,56 @@ class Mover:
         else:
             self._spline(step, row)
 
-    def _straight(self, step: Step, kind: MotionKind, ends: tuple[Position, Position], letters: str) -> None:
+    def _straight(self, step: BlockStep, kind: MotionKind, ends: tuple[Position, Position], letters: str) -> None:
         words = {letter: self._axis(letter, *ends) for letter in letters}
-        length = self._sheet.taken_length() if "Z" in letters else ""
+        length = self._output.taken_length() if "Z" in letters else ""
         if words:
             self._block(step, kind, words, length)
 
     def _axis(self, letter: str, start: Position, end: Position) -> str:
         """Return the number of an axis word: where to, or under G91 how far."""
         axis = "XYZ".index(letter)
-        count = end[axis] if self._sheet.modal.absolute else end[axis] - start[axis]
+        count = end[axis] if self._output.modal.absolute else end[axis] - start[axis]
         return self._numeral(count, self._digits(letter))
 
-    def _block(self, step: Step, kind: MotionKind, words: dict[str, str], length: str = "") -> None:
-        sheet = self._sheet
-        sheet.leave_cycle()
-        motion = sheet.post.words.motion[kind]
-        head = [] if motion == sheet.motion and sheet.post.words.modal_motion and not length else [motion]
-        feed = "" if kind is MotionKind.RAPID else sheet.feed_word(step, self._feed)
+    def _block(self, step: BlockStep, kind: MotionKind, words: dict[str, str], length: str = "") -> None:
+        output = self._output
+        output.leave_cycle()
+        motion = output.post.words.motion[kind]
+        head = [] if motion == output.motion and output.post.words.modal_motion and not length else [motion]
+        feed = "" if kind is MotionKind.RAPID else output.feed_word(step, self._feed)
         body = [letter + words[letter] for letter in "XYZIJK" if letter in words]
-        sheet.emit(" ".join([*head, *([length] if length else []), *body, *([feed] if feed else [])]))
-        sheet.motion = motion
+        output.emit(" ".join([*head, *([length] if length else []), *body, *([feed] if feed else [])]))
+        output.motion = motion
 
-    def _spline(self, step: Step, row: int) -> None:
+    def _spline(self, step: BlockStep, row: int) -> None:
         """Write a spline as lines and arcs near it, whose end is the next block's start.
 
         Raises:
             InputError: it lies in no plane of the control, or the block is in force in another way.
         """
-        sheet, state = self._sheet, self._sheet.modal
-        feed = sheet.feed_word(step, self._feed)
-        own = replace(state, arc_absolute=sheet.post.arcs.centre is ArcCentre.ABSOLUTE)
-        largest = min(sheet.post.arcs.largest_radius_mm, LARGEST_RADIUS)
+        output, state = self._output, self._output.modal
+        feed = output.feed_word(step, self._feed)
+        own = replace(state, arc_absolute=output.post.arcs.centre is ArcCentre.ABSOLUTE)
+        largest = min(output.post.arcs.largest_radius_mm, LARGEST_RADIUS)
         motions = near_arcs(self._motions.splines[row], 10.0 ** -self._digits("X") * self._unit, largest)
         if not state.absolute:
-            sheet.emit("G90")
-        for block in curve_blocks(motions, Spelling(sheet.post, own, feed.removeprefix("F"), resumed=True)):
-            sheet.emit(block)
+            output.emit("G90")
+        for block in curve_blocks(motions, BlockFormat(output.post, own, feed.removeprefix("F"), resumed=True)):
+            output.emit(block)
         if not state.absolute:
-            sheet.emit("G91")
-        sheet.motion = ""
+            output.emit("G91")
+        output.motion = ""
 
-    def _arc(self, step: Step, row: int, start: Position, end: Position) -> None:
+    def _arc(self, step: BlockStep, row: int, start: Position, end: Position) -> None:
         """Write an arc or a helix: its centre anew, as the rounding of both ends allows."""
-        sheet, arcs = self._sheet, self._arcs
+        output, arcs = self._output, self._arcs
         k = int(np.searchsorted(arcs.rows, row))
         u, v, w = arcs.axes[k].tolist()
-        if sheet.waiting is not None and start[w] != end[w]:
-            raise sheet.source.refusal(step.line, f"the tool length cannot begin in an arc on {sheet.post.title}")
+        if output.waiting is not None and start[w] != end[w]:
+            raise output.source.refusal(step.line, f"the tool length cannot begin in an arc on {output.post.title}")
         shift = self._program.states[self._motions.state[row]].shift
-        meant = MeantArc(
+        meant = ReferenceArc(
             (complex(*arcs.centre[k]) - complex(shift[u], shift[v])) / self._unit,
             arcs.start_radius[k] / self._unit,
             arcs.end_radius[k] / self._unit,
@@ -202,24 +202,24 @@ class Mover:
 
     def _turn(
         self,
-        step: Step,
+        step: BlockStep,
         kind: MotionKind,
         ends: tuple[Position, Position],
         centre: tuple[tuple[int, int, int], tuple[int, int]],
     ) -> None:
         (u, v, w), offsets = centre
-        digits = self._sheet.post.digits(self._sheet.modal.units)
+        digits = self._output.post.digits(self._output.modal.units)
         words = {letter: self._axis(letter, *ends) for letter in ("XYZ"[u], "XYZ"[v])}
         if ends[0][w] != ends[1][w]:
             words["XYZ"[w]] = self._axis("XYZ"[w], *ends)
         for axis, offset in zip((u, v), offsets, strict=True):
-            if self._sheet.post.arcs.centre is ArcCentre.ABSOLUTE:
+            if self._output.post.arcs.centre is ArcCentre.ABSOLUTE:
                 offset += ends[0][axis] * 10 ** (digits.I - self._digits("XYZ"[axis]))
             words["IJK"[axis]] = self._numeral(offset, digits.I)
         self._block(step, kind, words)
 
     def _rules(self) -> ArcRules:
-        post, digits = self._sheet.post, self._sheet.post.digits(self._sheet.modal.units)
+        post, digits = self._output.post, self._output.post.digits(self._output.modal.units)
         arcs = post.arcs
         return ArcRules(
             digits.X,
@@ -231,83 +231,83 @@ class Mover:
             arcs.radius_mismatch_mm / self._unit,
         )
 
-    def _cycle(self, step: Step) -> None:
+    def _cycle(self, step: BlockStep) -> None:
         """Write a drilling cycle: as the control's own where that is surely the same, else move by move."""
         if step.motion in TAPPING:
             self._tap(step)
             return
         if self._drilled(step):
             return
-        self._sheet.leave_cycle()
+        self._output.leave_cycle()
         for row in range(*step.rows):
             self._wait(step, row)
-            self._sheet.spin(self._program.states[self._motions.state[row]].spindle)
+            self._output.spin(self._program.states[self._motions.state[row]].spindle)
             self._moved(step, row)
         self._wait(step, step.rows[1])
-        self._sheet.spin(step.states[1].spindle)
+        self._output.spin(step.states[1].spindle)
 
-    def _moved(self, step: Step, row: int) -> None:
+    def _moved(self, step: BlockStep, row: int) -> None:
         """Write one motion of a cycle, along the axes along which it goes."""
         moved = self._motions.end[row] != self._motions.start[row]
         self._row(step, row, "".join(letter for letter, moves in zip("XYZ", moved.tolist(), strict=True) if moves))
 
-    def _tap(self, step: Step) -> None:
+    def _tap(self, step: BlockStep) -> None:
         """Write a tapped hole as the control's own cycle, out to R; the ways before and behind it are moves.
 
         Raises:
             InputError: the way out at feed goes on beyond R.
         """
-        sheet, motions = self._sheet, self._motions
-        sheet.leave_cycle()
+        output, motions = self._output, self._motions
+        output.leave_cycle()
         lines = [row for row in range(*step.rows) if motions.kind[row] == MotionKind.LINE]
         alike = len(lines) == 2 and motions.start[lines[0], 2] == motions.end[lines[1], 2]
         if not alike:
-            raise sheet.source.refuse(
-                step, "g", step.motion, f"out of a tapped hole {sheet.post.title} goes at feed to R alone; use G99"
+            raise output.source.refuse(
+                step, "g", step.motion, f"out of a tapped hole {output.post.title} goes at feed to R alone; use G99"
             )
         for row in range(step.rows[0], lines[0]):
             self._moved(step, row)
         state = self._program.states[motions.state[lines[0]]]
-        sheet.spin(state.spindle)
+        output.spin(state.spindle)
         self._feed = float(motions.feed[lines[0]])
         (x, y, top), (_, _, bottom) = (self._place(lines[0], end[lines[0]]) for end in (motions.start, motions.end))
         values = (("X", x, "X"), ("Y", y, "Y"), ("Z", bottom, "Z"), ("R", top, "Z"))
         body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
-        sheet.emit(" ".join(["G99", step.motion, *body, sheet.feed_word(step, self._feed)]).strip())
-        sheet.emit("G80")
-        sheet.modal = replace(sheet.modal, spindle=step.states[1].spindle)
-        sheet.motion = ""
+        output.emit(" ".join(["G99", step.motion, *body, output.feed_word(step, self._feed)]).strip())
+        output.emit("G80")
+        output.modal = replace(output.modal, spindle=step.states[1].spindle)
+        output.motion = ""
         for row in range(lines[1] + 1, step.rows[1]):
             self._moved(step, row)
 
-    def _wait(self, step: Step, row: int) -> None:
+    def _wait(self, step: BlockStep, row: int) -> None:
         """Write the dwell that a cycle has before a motion."""
         seconds = self._dwells.get((step.line, row))
         if row > step.rows[0] and seconds is not None:
-            self._sheet.dwell(step, seconds)
+            self._output.dwell(step, seconds)
 
-    def _drilled(self, step: Step) -> bool:
+    def _drilled(self, step: BlockStep) -> bool:
         """Write a hole as the control's own drilling cycle; False where it is none that is surely the same."""
-        sheet, motions, words = self._sheet, self._motions, self._sheet.post.drilling
+        output, motions, words = self._output, self._motions, self._output.post.drilling
         state = step.states[1]
         lines = [row for row in range(*step.rows) if motions.kind[row] == MotionKind.LINE]
         plain = step.motion == words.drill == "G81" and state.absolute and not state.plane and not step.block.has("lk")
-        if not plain or len(lines) != 1 or sheet.waiting is not None:
+        if not plain or len(lines) != 1 or output.waiting is not None:
             return False
         row, first, last = lines[0], step.rows[0], step.rows[1] - 1
         high, r, clear = float(motions.start[first, 2]), float(motions.start[row, 2]), float(motions.end[last, 2])
-        initial = self._initial if sheet.cycle else high
+        initial = self._initial if output.cycle else high
         level = r if state.retract_to_r else initial
         if high < r - _SAME or abs(clear - level) > _SAME or last != row + 1:
             return False
         (_, _, top), (x, y, z) = self._place(row, motions.start[row]), self._place(row, motions.end[row])
         values = (("X", x, "X"), ("Y", y, "Y"), ("Z", z, "Z"), ("R", top, "Z"))
         body = [letter + self._numeral(count, self._digits(like)) for letter, count, like in values]
-        feed = sheet.feed_word(step, float(motions.feed[row]))
-        sheet.emit(
+        feed = output.feed_word(step, float(motions.feed[row]))
+        output.emit(
             " ".join(
                 [words.to_r if state.retract_to_r else words.to_initial, words.drill, *body, *([feed] if feed else [])]
             )
         )
-        sheet.cycle, sheet.motion, self._initial = words.drill, "", initial
+        output.cycle, output.motion, self._initial = words.drill, "", initial
         return True

@@ -13,21 +13,21 @@ from ...core.errors import InputError
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import MotionKind, Plane
 from ...model.part import Units
-from ..checks.elsewhere import elsewhere, read_elsewhere
+from ..checks.start_states import foreign_start, read_from_start
 from ..interpreter.block import SLASH
-from ..interpreter.codes import Group
-from ..interpreter.dialect import HABITS
+from ..interpreter.codes import ModalGroup
+from ..interpreter.dialect import DIALECT_RULES
 from ..interpreter.macro import is_macro
 from ..interpreter.options import PATIENT, ReadOptions
 from ..interpreter.program import NcProgram
 from ..interpreter.reader import read_program, read_steps
-from ..interpreter.steps import Step
-from ..interpreter.text import Text, code_of
+from ..interpreter.steps import BlockStep
+from ..interpreter.text import ProgramBuffer, code_of
 from ..posts.post import Post
-from ..rework.compare import Difference, DifferenceKind, compare
-from .allowed import NO_SWITCH, SPLINES, Source, check_step
-from .moves import Mover
-from .sheet import Sheet
+from ..rework.compare import DifferenceKind, ProgramDifference, compare
+from .moves import MotionWriter
+from .translatable import NO_SWITCH, SPLINES, TranslationSource, check_step
+from .translated_text import TranslatedText
 
 _STEPS = 2.0
 """So many steps of the last decimal may the written path be off: a place is half a step off along each axis, an arc all
@@ -48,7 +48,7 @@ _STALE = re.compile(
 
 
 @dataclass(frozen=True, eq=False)
-class Translated:
+class TranslatedProgram:
     """A program in another control's words.
 
     Attributes:
@@ -63,7 +63,9 @@ class Translated:
     rows: NDArray[np.int64]
 
 
-def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: Progress = NO_PROGRESS) -> Translated:
+def translated(
+    name: str, data: bytes, read: ReadOptions, post: Post, progress: Progress = NO_PROGRESS
+) -> TranslatedProgram:
     """Return a program in the words of a post, proven by reading it back as that post's control would.
 
     Comments stay, as the control takes them. Blocks that a switch may leave out keep their slash, and both positions of
@@ -81,13 +83,13 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
         InputError: something has no counterpart there; named with its line and word.
         Cancelled: the job was asked to stop.
     """
-    text = Text(data)
-    source = Source(name, tuple(text.data.decode(text.encoding).split("\n")), read.dialect, post)
+    text = ProgramBuffer(data)
+    source = TranslationSource(name, tuple(text.data.decode(text.encoding).split("\n")), read.dialect, post)
     optional = _optional(source)
     written = replace(read, block_delete=read.block_delete and not optional)
     program, steps = read_steps(data, written, progress.part(0.0, 0.3))
     if program.error is not None:
-        raise InputError(f"{program.error.told(name)} Mend it there; check tells more.")
+        raise InputError(f"{program.error.message(name)} Mend it there; check tells more.")
     made = _written(source, program, steps, (optional, progress.part(0.3, 0.5)))
     own = ReadOptions(post.dialect, block_delete=written.block_delete, limits=read.limits)
     after = read_program(made, own, progress.part(0.5, 0.6))
@@ -96,14 +98,14 @@ def translated(name: str, data: bytes, read: ReadOptions, post: Post, progress: 
         return done
     left_out = read_program(data, replace(read, block_delete=True), progress.part(0.8, 0.85))
     if left_out.error is not None:
-        raise InputError(f"{left_out.error.told(name)} That is so where the blocks with a slash are left out.")
+        raise InputError(f"{left_out.error.message(name)} That is so where the blocks with a slash are left out.")
     own = replace(own, block_delete=True)
     after = read_program(made, own, progress.part(0.85, 0.9))
     other = _proven(source, (left_out, after), made, (own, progress.part(0.9, 1.0)))
     return other if read.block_delete else done
 
 
-def _optional(source: Source) -> frozenset[int]:
+def _optional(source: TranslationSource) -> frozenset[int]:
     """Return the lines, 1-based, that a switch may leave out.
 
     Raises:
@@ -127,7 +129,7 @@ def _optional(source: Source) -> frozenset[int]:
 
 
 def _written(
-    source: Source, program: NcProgram, steps: tuple[Step, ...], how: tuple[frozenset[int], Progress]
+    source: TranslationSource, program: NcProgram, steps: tuple[BlockStep, ...], how: tuple[frozenset[int], Progress]
 ) -> bytes:
     """Return the text: every line of the first one in its order, or, where it jumps, every block in the order of
     doing; `how` is which lines may be left out, and the progress.
@@ -135,30 +137,30 @@ def _written(
     optional, progress = how
     jumps = _jumps(source, steps)
     units = program.states[0].units
-    sheet = Sheet(source, units if units is Units.INCH else Units.MM, _number(source))
-    sheet.comment(f"Hitofude for {source.post.title}, out of a program for {HABITS[source.dialect].title}")
+    output = TranslatedText(source, units if units is Units.INCH else Units.MM, _number(source))
+    output.comment(f"Hitofude for {source.post.title}, out of a program for {DIALECT_RULES[source.dialect].title}")
     for remark in _remarks(jumps, steps):
-        sheet.comment(remark)
-    writer = _Writer(source, sheet, Mover(sheet, program), jumps)
+        output.comment(remark)
+    writer = _Translator(source, output, MotionWriter(output, program), jumps)
     for k, step in enumerate(steps):
         if k % _LINES_A_STEP == 0:
             progress.step(k / len(steps), f"Writing for {source.post.title}")
         writer.pass_to(step.line)
         if k == 0:
-            sheet.begin()
-        sheet.choose(step.line in optional)
+            output.begin()
+        output.choose(step.line in optional)
         writer.write(step)
-    sheet.choose(False)
+    output.choose(False)
     writer.pass_rest(begun=bool(steps))
-    sheet.end()
-    return ("\n".join(sheet.lines) + "\n").encode("ascii", "replace")
+    output.end()
+    return ("\n".join(output.lines) + "\n").encode("ascii", "replace")
 
 
-class _Writer:
+class _Translator:
     """Writes block by block, and the comments of the lines that it comes to first."""
 
-    def __init__(self, source: Source, sheet: Sheet, mover: Mover, jumps: bool) -> None:
-        self._source, self._sheet, self._mover, self._jumps = source, sheet, mover, jumps
+    def __init__(self, source: TranslationSource, output: TranslatedText, mover: MotionWriter, jumps: bool) -> None:
+        self._source, self._output, self._mover, self._jumps = source, output, mover, jumps
         self._next = 1
 
     def pass_to(self, line: int) -> None:
@@ -168,18 +170,18 @@ class _Writer:
             self._comment(line)
             self._next = line + 1
 
-    def write(self, step: Step) -> None:
+    def write(self, step: BlockStep) -> None:
         """Write what a block does."""
         check_step(step, self._source)
-        self._sheet.modes(step)
+        self._output.modes(step)
         self._mover.write(step)
-        _stop(self._sheet, step)
+        _stop(self._output, step)
 
     def pass_rest(self, begun: bool) -> None:
         """Write the comments behind the last block; `begun`: there was one."""
         if not begun:
             self._pass(len(self._source.lines), ends=True)
-            self._sheet.begin()
+            self._output.begin()
         self._pass(len(self._source.lines) + 1, ends=True)
 
     def _pass(self, line: int, ends: bool) -> None:
@@ -190,10 +192,10 @@ class _Writer:
 
     def _comment(self, line: int) -> None:
         for comment in _comments(self._source.lines[line - 1]):
-            self._sheet.comment(comment)
+            self._output.comment(comment)
 
 
-def _jumps(source: Source, steps: tuple[Step, ...]) -> bool:
+def _jumps(source: TranslationSource, steps: tuple[BlockStep, ...]) -> bool:
     """Tell whether a program is done in another order than its lines stand in, or not all of it."""
     lines = [step.line for step in steps]
     if any(after <= before for before, after in pairwise(lines)):
@@ -202,15 +204,15 @@ def _jumps(source: Source, steps: tuple[Step, ...]) -> bool:
     return any(k not in done and _is_jump(source, k) for k in range(1, max(lines, default=0)))
 
 
-def _is_jump(source: Source, line: int) -> bool:
+def _is_jump(source: TranslationSource, line: int) -> bool:
     code = _code(source.lines[line - 1])
-    habits = HABITS[source.dialect]
+    rules = DIALECT_RULES[source.dialect]
     return bool(code) and (
-        (habits.ngc_flow and _O_WORD.match(code) is not None) or (habits.fanuc_flow and is_macro(code))
+        (rules.ngc_flow and _O_WORD.match(code) is not None) or (rules.fanuc_flow and is_macro(code))
     )
 
 
-def _remarks(jumps: bool, steps: tuple[Step, ...]) -> list[str]:
+def _remarks(jumps: bool, steps: tuple[BlockStep, ...]) -> list[str]:
     """Return what the head has to say of how the program was written anew."""
     computed = any(
         step.parsed.settings or any(not isinstance(word.value, float) for word in step.parsed.words) for step in steps
@@ -229,11 +231,11 @@ def _remarks(jumps: bool, steps: tuple[Step, ...]) -> list[str]:
     ]
 
 
-def _number(source: Source) -> int:
+def _number(source: TranslationSource) -> int:
     """Return the program's number: the first program's own, else the post's."""
     for line in source.lines[:20]:
         found = _NUMBER.match(_code(line))
-        if found and 0 < int(found[1]) < 10_000 and HABITS[source.dialect].fanuc_flow:
+        if found and 0 < int(found[1]) < 10_000 and DIALECT_RULES[source.dialect].fanuc_flow:
             return int(found[1])
     return source.post.program.number
 
@@ -248,7 +250,7 @@ def _comments(line: str) -> list[str]:
     return [text for text in found if text and not _STALE.match(text)]
 
 
-def _check_rest(source: Source, line: int, ends: bool, jumps: bool) -> None:
+def _check_rest(source: TranslationSource, line: int, ends: bool, jumps: bool) -> None:
     """Refuse a line that was not done as a block, but where it is empty, the tape's mark, the program's number or
     passed over by a jump.
 
@@ -259,23 +261,27 @@ def _check_rest(source: Source, line: int, ends: bool, jumps: bool) -> None:
     """
     code = _code(source.lines[line - 1])
     title = source.post.title
-    if not code or code.startswith("%") or (_NUMBER.match(code) and not ends and HABITS[source.dialect].fanuc_flow):
+    if (
+        not code
+        or code.startswith("%")
+        or (_NUMBER.match(code) and not ends and DIALECT_RULES[source.dialect].fanuc_flow)
+    ):
         return
     if not jumps:
         raise source.refusal(line, f"what stands behind the end is not read, so it cannot be written for {title}")
 
 
-def _stop(sheet: Sheet, step: Step) -> None:
+def _stop(output: TranslatedText, step: BlockStep) -> None:
     """Write what stops the program behind a block; its end is written by the post's own words."""
-    code = step.block.codes.get(Group.STOP)
+    code = step.block.codes.get(ModalGroup.STOP)
     if code in ("M0", "M1"):
-        sheet.leave_cycle()
-        sheet.emit(code)
+        output.leave_cycle()
+        output.emit(code)
 
 
 def _proven(
-    source: Source, programs: tuple[NcProgram, NcProgram], made: bytes, how: tuple[ReadOptions, Progress]
-) -> Translated:
+    source: TranslationSource, programs: tuple[NcProgram, NcProgram], made: bytes, how: tuple[ReadOptions, Progress]
+) -> TranslatedProgram:
     """Return the new program if both controls do the same; `how` it is read by the other one, and the progress.
 
     Raises:
@@ -286,8 +292,8 @@ def _proven(
     title = source.post.title
     if after.error is not None:
         raise InputError(
-            f"{source.name} cannot be written for {title}: as written, {after.error.told('line')} Keep the program for "
-            f"{HABITS[source.dialect].title}."
+            f"{source.name} cannot be written for {title}: as written, {after.error.message('line')} Keep the program "
+            f"for {DIALECT_RULES[source.dialect].title}."
         )
     _check_modes(source, after, made, replace(read, limits=PATIENT))
     units = {before.states[k].units for k in np.unique(before.motions.state).tolist()} or {Units.MM}
@@ -299,15 +305,15 @@ def _proven(
         item = wrong[0]
         raise InputError(
             f"{source.name}:{item.a.first_line}: what is written for {title} is not the same there ({item.kind.value}: "
-            f"{item.text}); keep the program for {HABITS[source.dialect].title}."
+            f"{item.text}); keep the program for {DIALECT_RULES[source.dialect].title}."
         )
     rows = np.full(len(after.motions), -1, np.int64)
     for run in found.runs:
         rows[others[run.b : run.b + run.count]] = kept[run.a : run.a + run.count]
-    return Translated(made, after, off, rows)
+    return TranslatedProgram(made, after, off, rows)
 
 
-def _check_modes(source: Source, after: NcProgram, made: bytes, read: ReadOptions) -> None:
+def _check_modes(source: TranslationSource, after: NcProgram, made: bytes, read: ReadOptions) -> None:
     """Refuse a text that leaves units, plane, G90 or the like to what another job has left in force.
 
     Where the tool stands elsewhere an arc that begins at a place that the program has not told fits no more; there the
@@ -316,7 +322,7 @@ def _check_modes(source: Source, after: NcProgram, made: bytes, read: ReadOption
     Raises:
         InputError: it does; the post's first blocks are to blame.
     """
-    again = read_elsewhere(made, read, elsewhere(after.states[0].units), NO_PROGRESS)
+    again = read_from_start(made, read, foreign_start(after.states[0].units), NO_PROGRESS)
     here, there = (_modes_by_line(program) for program in (after, again))
     wrong = sorted(line for line, modes in here.items() if there.get(line, modes) != modes)
     if wrong or (here and not there):
@@ -329,12 +335,12 @@ def _check_modes(source: Source, after: NcProgram, made: bytes, read: ReadOption
 
 
 def _modes_by_line(program: NcProgram) -> dict[int, tuple[object, ...]]:
-    told = [
+    modes = [
         (each.units, each.plane, each.absolute, each.arc_absolute, each.feed_mode, each.work_offset)
         for each in program.states
     ]
     return {
-        line: told[state]
+        line: modes[state]
         for line, state in zip(program.motions.line.tolist(), program.motions.state.tolist(), strict=True)
     }
 
@@ -355,7 +361,7 @@ def _moving(program: NcProgram) -> tuple[NcProgram, NDArray[np.int64]]:
     ), kept
 
 
-def _same(item: Difference, before: NcProgram, after: NcProgram) -> bool:
+def _same(item: ProgramDifference, before: NcProgram, after: NcProgram) -> bool:
     """Tell whether a difference is none: blocks of one path, blending, or a length that no move along Z has met yet."""
     if item.kind in (DifferenceKind.SAME_PATH, DifferenceKind.PATH_MODE):
         return True

@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class MeantArc:
+class ReferenceArc:
     """An arc as the tool path has it, out units.
 
     Attributes:
@@ -85,7 +85,7 @@ class ArcRules:
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class ArcBlock:
     """One block: an arc, or a line where `centre` is None.
 
     Attributes:
@@ -100,11 +100,11 @@ class Piece:
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class ArcBlocks:
     """The blocks of many arcs, one arc after the other.
 
     Attributes:
-        end, centre: (m, 2) as in a `Piece`; the centre of a line is 0, 0.
+        end, centre: (m, 2) as in a `ArcBlock`; the centre of a line is 0, 0.
         round: (m,) False for lines.
         fraction: (m,) of its arc that is done at the end of each block, in (0, 1].
         stops: (n,) how many blocks the arcs up to each one have, itself counted.
@@ -117,14 +117,14 @@ class Pieces:
     stops: Whole
 
 
-def all_pieces(arcs: Floats, ends: Whole, rules: ArcRules) -> Pieces:
+def all_pieces(arcs: Floats, ends: Whole, rules: ArcRules) -> ArcBlocks:
     """Return the blocks that cut arcs, each between its rounded ends.
 
     Each block's path stays within `rules.tolerance` of its stretch of the meant arc, and is swept in step with it, so
     that neither can leave the other. An arc smaller than the last decimal gives no block at all.
 
     Args:
-        arcs: (n, 6) the fields of `MeantArc`, the centre as x and y.
+        arcs: (n, 6) the fields of `ReferenceArc`, the centre as x and y.
         ends: (n, 4) where the control is and has to be, the nearest grid points to each arc's ends.
         rules: tolerance and limits.
 
@@ -148,10 +148,10 @@ def all_pieces(arcs: Floats, ends: Whole, rules: ArcRules) -> Pieces:
         )
     count = int(stops[-1]) if len(stops) else 0
     pieces = pieces[:count]
-    return Pieces(pieces[:, :2], pieces[:, 2:4], pieces[:, 4] == 1, fraction[:count], stops)
+    return ArcBlocks(pieces[:, :2], pieces[:, 2:4], pieces[:, 4] == 1, fraction[:count], stops)
 
 
-def written_pieces(arc: MeantArc, start: Grid, end: Grid, rules: ArcRules) -> list[Piece]:
+def written_pieces(arc: ReferenceArc, start: Grid, end: Grid, rules: ArcRules) -> list[ArcBlock]:
     """Return the blocks that cut one arc between its rounded ends; see `all_pieces`.
 
     Args:
@@ -163,6 +163,6 @@ def written_pieces(arc: MeantArc, start: Grid, end: Grid, rules: ArcRules) -> li
     found = all_pieces(np.array([row]), np.array([(*start, *end)], np.int64), rules)
     columns = (found.end.tolist(), found.fraction.tolist(), found.centre.tolist(), found.round.tolist())
     return [
-        Piece((x, y), fraction, (i, j) if bent else None)
+        ArcBlock((x, y), fraction, (i, j) if bent else None)
         for (x, y), fraction, (i, j), bent in zip(*columns, strict=True)
     ]

@@ -9,7 +9,7 @@ from ...model.moves import MoveKind
 from ...model.part import Units
 from ..posts.post import ArcCentre, Post
 from .block_kernels import LONGEST_NUMBER, NO_FEED, NO_MOTION, UNKNOWN, WORDS, write_blocks
-from .drilling import Hole
+from .drilling import CycleHole
 from .grid import Position, numeral, spelled
 
 CONTINUED = "hitofude+"
@@ -41,7 +41,7 @@ class Blocks:
         self.home_lines: list[int] = []
         self._post = post
         self._digits = post.digits(units)
-        self._spelling = _Spelling(post, units)
+        self._spelling = _MotionFormat(post, units)
         self._state = np.array([UNKNOWN, UNKNOWN, UNKNOWN, NO_MOTION, NO_FEED, post.numbers.start])
         self._cycle = ""
 
@@ -137,7 +137,7 @@ class Blocks:
         elsewhere = (ends != UNKNOWN) & (ends != self._state[_POSITION])
         return bool(np.any(elsewhere) or np.any(rows[:, 0] > MoveKind.LINE))
 
-    def hole(self, hole: Hole, steps: list[tuple[MoveKind, Position]]) -> None:
+    def hole(self, hole: CycleHole, steps: list[tuple[MoveKind, Position]]) -> None:
         """Write a hole as a canned cycle; its G words and its feed are left out where they are in force.
 
         Args:
@@ -189,7 +189,7 @@ class Blocks:
         return f"N{number} {text}"
 
 
-class _Spelling:
+class _MotionFormat:
     """How a post spells motions, as the compiled core wants to be told."""
 
     def __init__(self, post: Post, units: Units) -> None:

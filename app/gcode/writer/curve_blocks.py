@@ -13,7 +13,7 @@ from ...model.motion import Floats, MotionKind, Motions, Plane
 from ...model.motion_path import ArcPaths, arc_paths
 from ..interpreter.program import ModalState
 from ..posts.post import Post
-from .arcs import ArcRules, MeantArc, written_pieces
+from .arcs import ArcRules, ReferenceArc, written_pieces
 from .grid import Position, counts, numeral
 from .nurbs import nurbs_blocks
 
@@ -24,7 +24,7 @@ _STEPS = 2.0
 
 
 @dataclass(frozen=True, slots=True)
-class Spelling:
+class BlockFormat:
     """What blocks are written by.
 
     Attributes:
@@ -40,7 +40,7 @@ class Spelling:
     resumed: bool = False
 
 
-def curve_blocks(path: Motions, spelling: Spelling) -> tuple[str, ...]:
+def curve_blocks(path: Motions, spelling: BlockFormat) -> tuple[str, ...]:
     """Return the blocks that drive along a path from its start, where the tool stands; G1 is in force behind them,
     unless it is said there.
 
@@ -50,7 +50,7 @@ def curve_blocks(path: Motions, spelling: Spelling) -> tuple[str, ...]:
         path: lines, arcs in any plane, splines; mm from the zero of the table of work offsets.
         spelling: words, and what is in force.
     """
-    return tuple(_Writer(path, spelling).lines())
+    return tuple(_CurveWriter(path, spelling).lines())
 
 
 def carries(path: Motions, row: int, post: Post, state: ModalState) -> bool:
@@ -58,10 +58,10 @@ def carries(path: Motions, row: int, post: Post, state: ModalState) -> bool:
     return nurbs_blocks(path.splines[row], post, state.units) is not None
 
 
-class _Writer:
+class _CurveWriter:
     """A stretch of text in the making."""
 
-    def __init__(self, path: Motions, spelling: Spelling) -> None:
+    def __init__(self, path: Motions, spelling: BlockFormat) -> None:
         self._path, self._post, self._state = path, spelling.post, spelling.state
         self._unit = spelling.state.units.value
         self._digits = spelling.post.digits(spelling.state.units)
@@ -122,7 +122,7 @@ class _Writer:
         """
         arcs, (u, v, w) = self._arcs, arc_axes(self._arcs, k)
         zero = complex(self._shift[u], self._shift[v])
-        meant = MeantArc(
+        exact = ReferenceArc(
             (complex(*arcs.centre[k]) - zero) / self._unit,
             arcs.start_radius[k] / self._unit,
             arcs.end_radius[k] / self._unit,
@@ -132,7 +132,7 @@ class _Writer:
         row = int(arcs.rows[k])
         end, start = self._rounded(self._path.end[row]), self._at
         kind = MotionKind(self._path.kind[row])
-        for piece in written_pieces(meant, (start[u], start[v]), (end[u], end[v]), self._rules()):
+        for piece in written_pieces(exact, (start[u], start[v]), (end[u], end[v]), self._rules()):
             height = arcs.height[k] + arcs.rise[k] * piece.fraction
             to = [0, 0, 0]
             to[u], to[v] = piece.end

@@ -20,7 +20,7 @@ Step = tuple[MoveKind, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Hole:
+class CycleHole:
     """A hole as a cycle.
 
     Attributes:
@@ -57,7 +57,7 @@ class CycleRules:
     chip_gap: int
 
 
-def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, Hole]:
+def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, CycleHole]:
     """Return the holes of a program that the control has cycles for, by the index of the move that each begins with.
 
     The first move of a tool, from wherever it was, is no part of a cycle.
@@ -73,7 +73,7 @@ def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, Hole]:
     begins = (
         (moves.kind == MoveKind.RAPID) & (soon[1:-1] | soon[2:]) & (np.diff(moves.tool, prepend=moves.tool[:1]) == 0)
     )
-    holes: dict[int, Hole] = {}
+    holes: dict[int, CycleHole] = {}
     stop = 1
     for i in np.flatnonzero(begins).tolist():
         if i >= stop and (hole := hole_at(moves.lists, i, moves.lists.end[i - 1][2], rules)) is not None:
@@ -81,7 +81,7 @@ def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, Hole]:
     return holes
 
 
-def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> Hole | None:
+def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHole | None:
     """Return the hole that begins with move i, or None where the control has no cycle that moves like it.
 
     A hole is a rapid over it, a rapid down to R, feeds down marked as drilling, and a rapid up to R or to the height
@@ -112,7 +112,7 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> Hole | 
     )
     for word, steps, q in ways:
         if word and level and _alike(steps, done):
-            return Hole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], last + 2)
+            return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], last + 2)
     return None
 
 

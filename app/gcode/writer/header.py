@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...core.tolerances import LEVEL
-from ...model.fields import Parameter, Placed, Unit, parameters_of
+from ...model.fields import Parameter, ParameterPlace, Unit, parameters_of
 from ...model.job import Job
 from ...model.moves import Program
 from ...model.operation import Operation
@@ -26,7 +26,7 @@ LONGEST_NAME = 60
 
 
 @dataclass(frozen=True, slots=True)
-class Heading:
+class HeaderContent:
     """What the header tells of.
 
     Attributes:
@@ -78,7 +78,7 @@ _ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck
 """Parameters that are told also where they have their default."""
 
 
-def _parameter_words(placed: Placed, value: Any, units: Units) -> str:
+def _parameter_words(placed: ParameterPlace, value: Any, units: Units) -> str:
     """Return a parameter in words; none where it has its default, or is told elsewhere."""
     declared, name = placed.parameter, placed.parameter.label.lower()
     if placed.key in ("tool", "enabled") or (value == placed.default and placed.key not in _ALWAYS):
@@ -106,7 +106,7 @@ def _auto(declared: Parameter) -> str:
     return declared.auto if len(declared.auto) <= _SHORT else "automatic"
 
 
-def heading_lines(heading: Heading) -> Iterator[str]:
+def heading_lines(heading: HeaderContent) -> Iterator[str]:
     """Yield the comments for the operator, without their brackets."""
     job, units = heading.job, heading.job.out_units
     yield f"Part {safe_name(job.part.name)}"
@@ -156,7 +156,7 @@ def _copies_and_clamps(job: Job) -> Iterator[str]:
         yield f"The tool travels at {_length(job.travel_z, units)} above the stock"
 
 
-def _blending_words(heading: Heading) -> str:
+def _blending_words(heading: HeaderContent) -> str:
     """Return what the control may do at corners."""
     if heading.blend_mm == 0:
         return "Exact path: the control does not blend"
@@ -167,7 +167,7 @@ def _blending_words(heading: Heading) -> str:
     return f"Proven on the path; the control may blend by up to {before[-1]} {amount}"
 
 
-def path_tolerance(heading: Heading) -> float:
+def path_tolerance(heading: HeaderContent) -> float:
     """Return by how much the written path may be too near to the walls, mm: curves as arcs, the path's levels, its
     writing.
     """
@@ -176,12 +176,12 @@ def path_tolerance(heading: Heading) -> float:
     return curves + LEVEL + heading.writing_mm
 
 
-def tools_of(heading: Heading) -> list[Tool]:
+def tools_of(heading: HeaderContent) -> list[Tool]:
     """Return the tools in the order of their use."""
     return [heading.job.tool(number) for number in dict.fromkeys(heading.program.moves.tool.tolist())]
 
 
-def operations_of(heading: Heading) -> list[tuple[Operation, bool]]:
+def operations_of(heading: HeaderContent) -> list[tuple[Operation, bool]]:
     """Return enabled operations, and whether each has moves; in one of several files those that it holds."""
     used = set(np.unique(heading.program.moves.operation).tolist())
     shown = ((i, operation) for i, operation in enumerate(heading.job.operations) if operation.cut.enabled)

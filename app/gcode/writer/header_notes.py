@@ -48,15 +48,15 @@ from ...model.stock_box import work_origin
 from ...model.tool import Tool
 from ..note_texts import plain_numbers, spelled
 from ..operation_notes import written
-from .header import Heading, operations_of, path_tolerance, safe_name, tools_of, unit_sign
+from .header import HeaderContent, operations_of, path_tolerance, safe_name, tools_of, unit_sign
 
 
-def heading_notes(heading: Heading) -> Iterator[str]:
+def heading_notes(heading: HeaderContent) -> Iterator[str]:
     """Yield the comments for `hitofude cut --against`, without their brackets."""
     yield from (f"hitofude: {note}" for note in _notes(heading))
 
 
-def _notes(heading: Heading) -> Iterator[str]:
+def _notes(heading: HeaderContent) -> Iterator[str]:
     """Yield every key and its value."""
     job, box = heading.job, heading.box
     yield "program=1"
@@ -108,8 +108,8 @@ def _on_purpose(program: Program) -> Iterator[str]:
     """Yield where metal was left standing, and where walls were cut into."""
     for tab in program.tabs:
         yield f"tab={plain_numbers(tab.x, tab.y, tab.width, tab.top, tab.diameter)}"
-    for bone in program.dog_bones:
-        yield f"dog_bone={plain_numbers(bone.x0, bone.y0, bone.x1, bone.y1, bone.diameter)}"
+    for dog_bone in program.dog_bones:
+        yield f"dog_bone={plain_numbers(dog_bone.x0, dog_bone.y0, dog_bone.x1, dog_bone.y1, dog_bone.diameter)}"
 
 
 def shape_numbers(tool: Tool) -> tuple[float, ...]:

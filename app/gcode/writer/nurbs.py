@@ -36,7 +36,7 @@ again.
 
 
 @dataclass(frozen=True, slots=True)
-class _Spelling:
+class _NurbsFormat:
     """Control points as words, one text a letter and point."""
 
     x: list[str]
@@ -149,11 +149,11 @@ def _with_knots(curve: Nurbs, post: Post, units: Units) -> list[str]:
     return [f"{post.nurbs.word} P{curve.degree + 1} {blocks[0]}", *blocks[1:], *k[len(blocks) :]]
 
 
-def _spelled(points: Floats, post: Post, units: Units) -> _Spelling:
+def _spelled(points: Floats, post: Post, units: Units) -> _NurbsFormat:
     """Return points (n, 3), mm, as words."""
     digits, zeros = post.digits(units), post.words.trailing_zeros
     columns = zip("XYZ", points.T / units.value, (digits.X, digits.Y, digits.Z), strict=True)
-    return _Spelling(
+    return _NurbsFormat(
         *([letter + numeral(n, decimals, zeros) for n in counts(axis, decimals)] for letter, axis, decimals in columns)
     )
 

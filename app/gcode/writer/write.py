@@ -19,8 +19,8 @@ from ...model.stock_box import stock_box, work_origin
 from ..posts.post import Post
 from .arcs import ArcRules
 from .blocks import Blocks
-from .drilling import CycleRules, Hole, holes_of
-from .header import Heading, heading_lines, operation_words, tool_words
+from .drilling import CycleHole, CycleRules, holes_of
+from .header import HeaderContent, heading_lines, operation_words, tool_words
 from .header_notes import heading_notes
 from .sequence import check_sequence
 from .template_fields import Fields, program_fields, tool_fields
@@ -102,11 +102,13 @@ def write_moves(
     _check_words(job, post)
     files: list[NcFile] = []
     for _, first, stop, suffix in _by_file(moves, post):
-        sheet = Blocks(post, job.out_units)
+        blocks = Blocks(post, job.out_units)
         part = work_moves(moves.part(first, stop), (0.0, 0.0, 0.0), job.out_units, post.digits(job.out_units))
         said = replace(remarks, before={i - first: words for i, words in remarks.before.items() if first <= i < stop})
-        lines = _Writer(job, post, sheet, part).write(said, progress.part(first / len(moves), stop / len(moves)))
-        nc = NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
+        lines = _ProgramWriter(job, post, blocks, part).write(
+            said, progress.part(first / len(moves), stop / len(moves))
+        )
+        nc = NcText("\n".join(blocks.lines) + "\n", lines, tuple(blocks.home_lines))
         files.append(NcFile(suffix, nc, first))
     return tuple(files)
 
@@ -184,13 +186,13 @@ def _written(program: Program, job: Job, post: Post, file: tuple[int, int], prog
     """Return the text of one file; `file` is its number and how many there are."""
     box = stock_box(job, program.regions, program.lines)
     moves = work_moves(program.moves, work_origin(job, box), job.out_units, post.digits(job.out_units))
-    sheet = Blocks(post, job.out_units)
-    heading = Heading(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
+    blocks = Blocks(post, job.out_units)
+    heading = HeaderContent(program, job, post, box, blend_mm(job, post), writing_tolerance(job, post), *file)
     remarks = Remarks(
         tuple(heading_lines(heading)), tuple(heading_notes(heading)), lambda i: operation_words(job.operations[i], job)
     )
-    lines = _Writer(job, post, sheet, moves).write(remarks, progress)
-    return NcText("\n".join(sheet.lines) + "\n", lines, tuple(sheet.home_lines))
+    lines = _ProgramWriter(job, post, blocks, moves).write(remarks, progress)
+    return NcText("\n".join(blocks.lines) + "\n", lines, tuple(blocks.home_lines))
 
 
 def blend_mm(job: Job, post: Post) -> float:
@@ -216,17 +218,17 @@ def writing_tolerance(job: Job, post: Post) -> float:
     return max(min(2 * step, LARGEST_DEVIATION), step)
 
 
-class _Writer:
+class _ProgramWriter:
     """One run over the moves."""
 
-    def __init__(self, job: Job, post: Post, sheet: Blocks, moves: WorkMoves) -> None:
-        self.job, self.post, self.sheet, self.moves = job, post, sheet, moves
+    def __init__(self, job: Job, post: Post, blocks: Blocks, moves: WorkMoves) -> None:
+        self.job, self.post, self.blocks, self.moves = job, post, blocks, moves
         self.fields = program_fields(job, post, blend_mm(job, post))
         self.digits = digits = post.digits(job.out_units)
         unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
         gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
-        self.holes: dict[int, Hole] = holes_of(moves, CycleRules(post.drilling, round(self.z_scale), *gaps))
+        self.holes: dict[int, CycleHole] = holes_of(moves, CycleRules(post.drilling, round(self.z_scale), *gaps))
         self.arc_rules = ArcRules(
             digits.X,
             digits.I,
@@ -242,9 +244,9 @@ class _Writer:
         moves = self.moves
         self._blocks(self.post.program.top)
         for comment in remarks.head:
-            self.sheet.comment(comment)
+            self.blocks.comment(comment)
         for note in remarks.notes:
-            self.sheet.note(note)
+            self.blocks.note(note)
         self._blocks(self.post.program.start)
         lines, rows, stops = np.zeros(len(moves), np.int32), MotionRows.none(), self._stops(remarks)
         i = begun = ready = 0
@@ -256,13 +258,13 @@ class _Writer:
             self._head(i, remarks)
             hole = self.holes.get(i)
             if hole is not None:
-                self.sheet.hole(hole, [(moves.lists.kind[k], moves.lists.end[k]) for k in range(i, hole.stop)])
-                lines[i : hole.stop] = self.sheet.motion_line
+                self.blocks.hole(hole, [(moves.lists.kind[k], moves.lists.end[k]) for k in range(i, hole.stop)])
+                lines[i : hole.stop] = self.blocks.motion_line
                 i = hole.stop
                 continue
             stop = min(int(stops[np.searchsorted(stops, i, side="right")]), ready)
             first = int(rows.stops[i - begun - 1]) if i > begun else 0
-            done = self.sheet.motions(rows.rows, first, int(rows.stops[stop - begun - 1]))
+            done = self.blocks.motions(rows.rows, first, int(rows.stops[stop - begun - 1]))
             lines[i:stop] = done[rows.stops[i - begun : stop - begun] - 1 - first]
             i = stop
         self._leave_tool(len(moves) - 1)
@@ -284,43 +286,43 @@ class _Writer:
         if new_tool:
             self._change_tool(i)
         if i == 0 or moves.operation[i] != moves.operation[i - 1]:
-            self.sheet.comment(remarks.operation(int(moves.operation[i])))
+            self.blocks.comment(remarks.operation(int(moves.operation[i])))
         if new_tool:
-            self.sheet.rapid_z(int(moves.end[i, 2]))
+            self.blocks.rapid_z(int(moves.end[i, 2]))
         for comment in remarks.before.get(i, ()):
-            self.sheet.comment(comment)
+            self.blocks.comment(comment)
 
     def _change_tool(self, i: int) -> None:
         """Leave the tool before, if there is one, and take the tool of move i."""
         if i:
             self._leave_tool(i - 1)
         self._home()
-        self.sheet.forget()
+        self.blocks.forget()
         tool, z = self.job.tool(int(self.moves.tool[i])), int(self.moves.end[i, 2])
-        self.sheet.comment(tool_words(tool, self.job.out_units))
-        fields = self._tool_fields(i) | {"clearance": self.sheet.number(z, self.digits.Z)}
+        self.blocks.comment(tool_words(tool, self.job.out_units))
+        fields = self._tool_fields(i) | {"clearance": self.blocks.number(z, self.digits.Z)}
         for template in self.post.program.tool:
             text = template.format(**fields).strip()
             if "{clearance" in template:
-                self.sheet.clearance(text, z)
+                self.blocks.clearance(text, z)
             else:
-                self.sheet.block(text)
+                self.blocks.block(text)
 
     def _leave_tool(self, i: int) -> None:
         """Go to safe Z, where each tool began, after move i, the last of its tool; then stop spindle and coolant."""
-        self.sheet.rapid_z(int(self.moves.end[0, 2]))
+        self.blocks.rapid_z(int(self.moves.end[0, 2]))
         for template in self.post.program.leave:
-            self.sheet.block(template.format(**self._tool_fields(i)).strip())
+            self.blocks.block(template.format(**self._tool_fields(i)).strip())
 
     def _home(self) -> None:
         """Go to the machine's own home along Z, if the post wants it."""
         for template in self.post.program.home:
-            self.sheet.home(template.format(**self.fields).strip())
+            self.blocks.home(template.format(**self.fields).strip())
 
     def _blocks(self, templates: tuple[str, ...]) -> None:
         """Write the post's blocks."""
         for template in templates:
-            self.sheet.block(template.format(**self.fields).strip())
+            self.blocks.block(template.format(**self.fields).strip())
 
     def _tool_fields(self, i: int) -> Fields:
         """Return what the templates round the tool of move i may name."""

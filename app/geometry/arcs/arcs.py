@@ -13,7 +13,7 @@ from ...core import tolerances
 from ...core.errors import GeometryError
 from ...model.curves import Arc, Circle, Ellipse, Line, Point, Primitive, Spline
 from . import span_kernels as kernels
-from .bezier import Pieces, pieces_of, products
+from .bezier import BezierCurve, pieces_of, products
 from .bezier_kernels import surely_not_round
 
 Floats = NDArray[np.float64]
@@ -88,7 +88,7 @@ def _check(curve: Ellipse | Spline) -> None:
         )
 
 
-def _as_circle(curve: Ellipse | Spline, pieces: Pieces, closed: bool, tolerance: float) -> LinesAndArcs | None:
+def _as_circle(curve: Ellipse | Spline, pieces: BezierCurve, closed: bool, tolerance: float) -> LinesAndArcs | None:
     """Return one circle or arc for a curve that is one; a closed one may differ by the tolerance, as it has no ends to
     keep.
     """
@@ -145,7 +145,7 @@ def _levelled(start: Point, end: Point, centre: Point) -> Point:
     return centre[0] - along * dx, centre[1] - along * dy
 
 
-def _finer(pieces: Pieces, spans: Floats, bounds: Floats, tolerance: float) -> Floats:
+def _finer(pieces: BezierCurve, spans: Floats, bounds: Floats, tolerance: float) -> Floats:
     """Return the spans, those whose bound is beyond the tolerance in two halves."""
     middle = (spans[:, kernels.FIRST] + spans[:, kernels.LAST]) / 2
     coarse = (bounds > tolerance) & (spans[:, kernels.FIRST] < middle) & (middle < spans[:, kernels.LAST])
@@ -162,7 +162,7 @@ def _finer(pieces: Pieces, spans: Floats, bounds: Floats, tolerance: float) -> F
     return np.concatenate([*parts, spans[done:]])
 
 
-def _span_of(pieces: Pieces, first: float, last: float, target: float) -> Floats:
+def _span_of(pieces: BezierCurve, first: float, last: float, target: float) -> Floats:
     """Return the spans (k, COLUMNS) between two corners: one line, where all control points lie on it, within a tenth
     of WELD, and none turns back; else what covers them.
     """
@@ -180,7 +180,7 @@ def _span_of(pieces: Pieces, first: float, last: float, target: float) -> Floats
     return _covered(pieces, first, last, target)
 
 
-def _covered(pieces: Pieces, first: float, last: float, target: float) -> Floats:
+def _covered(pieces: BezierCurve, first: float, last: float, target: float) -> Floats:
     """Return spans (k, COLUMNS) from a parameter to another, greedily: each is about the longest within target.
 
     Raises:
@@ -199,7 +199,7 @@ def _covered(pieces: Pieces, first: float, last: float, target: float) -> Floats
     return np.concatenate(parts)
 
 
-def _bounds(pieces: Pieces, spans: Floats) -> Floats:
+def _bounds(pieces: BezierCurve, spans: Floats) -> Floats:
     """Return for every span a bound of its distance from what replaces it (k,), mm."""
     found = np.empty(len(spans))
     kernels.bounds(pieces.control, spans, products(pieces.degree), found)

@@ -22,7 +22,7 @@ _STILL = 1e-9
 
 
 @dataclass(frozen=True)
-class Pieces:
+class BezierCurve:
     """A plane curve of n rational Bézier pieces of one degree p; its parameter u runs from 0 to n.
 
     Attributes:
@@ -79,7 +79,7 @@ class Pieces:
         there = (length > self.still)[:, None]
         return np.where(there, chords[rows, first] / np.where(there, length[:, None], 1.0), 0.0)
 
-    def cut(self, first: Floats, last: Floats) -> Pieces:
+    def cut(self, first: Floats, last: Floats) -> BezierCurve:
         """Return the stretches from `first` (m,) to `last` (m,), each within one piece."""
         k = np.clip(((first + last) / 2).astype(np.int64), 0, len(self) - 1)
         s, e = (first - k)[:, None, None], (last - k)[:, None, None]
@@ -90,7 +90,7 @@ class Pieces:
                 t = e if level < j else s
                 b = b[:, :-1] * (1 - t) + b[:, 1:] * t
             columns.append(b[:, 0])
-        return Pieces(np.stack(columns, axis=1))
+        return BezierCurve(np.stack(columns, axis=1))
 
     def off_circles(self, on: Floats, centre: Floats) -> Floats:
         """Return for each piece a bound (n,) of its distance from the circle round centre (n, 2) through `on` (n, 2).
@@ -122,16 +122,16 @@ def products(degree: int) -> Floats:
     return table
 
 
-def pieces_of(curve: Ellipse | Spline) -> Pieces:
+def pieces_of(curve: Ellipse | Spline) -> BezierCurve:
     """Return the same curve, exactly, as Bézier pieces in its direction of travel; pieces that stand still are left
     out.
     """
     pieces = _of_ellipse(curve) if isinstance(curve, Ellipse) else _of_spline(curve)
     extent = np.ptp(pieces.polygon, axis=1).max(axis=1)
-    return Pieces(pieces.control[extent > _STILL])
+    return BezierCurve(pieces.control[extent > _STILL])
 
 
-def _of_ellipse(curve: Ellipse) -> Pieces:
+def _of_ellipse(curve: Ellipse) -> BezierCurve:
     """A quarter turn or less is a rational quadratic whose middle weight is the cosine of half its angle."""
     first, last = curve.start_parameter, curve.end_parameter
     count = max(1, math.ceil((last - first) / (math.pi / 2) - 1e-9))
@@ -149,13 +149,13 @@ def _of_ellipse(curve: Ellipse) -> Pieces:
         + (np.sin(angles) * stretch)[..., None] * minor
     )
     weights = np.broadcast_to(np.array([1.0, math.cos(half), 1.0]), angles.shape)[..., None]
-    return Pieces(np.concatenate([points * weights, weights], axis=2))
+    return BezierCurve(np.concatenate([points * weights, weights], axis=2))
 
 
-def _of_spline(curve: Spline) -> Pieces:
+def _of_spline(curve: Spline) -> BezierCurve:
     weights = np.array(curve.weights or (1.0,) * len(curve.control_points))
     points = np.column_stack([np.array(curve.control_points) * weights[:, None], weights])
-    return Pieces(cut_at_knots(points, np.array(curve.knots), curve.degree))
+    return BezierCurve(cut_at_knots(points, np.array(curve.knots), curve.degree))
 
 
 def cut_at_knots(points: Floats, knots: Floats, degree: int) -> Floats:

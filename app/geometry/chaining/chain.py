@@ -9,18 +9,18 @@ from ...core import tolerances
 from ...model.finding import Finding
 from ...model.part import Contour, Entity
 from .crossings import crossings
-from .findings import Shared, junction_findings, gap_findings, overlap_findings, repeat_findings
-from .join import Nodes, brought_together, nodes_of
-from .open import open_findings
+from .findings import SharedPiece, gap_findings, junction_findings, overlap_findings, repeat_findings
+from .join import Nodes, join_ends, nodes_of
+from .near_duplicates import reach_of
+from .open_contours import open_findings
 from .overlap import Overlap, covered, repeated, shared_stretches, twin_contours
-from .pieces import Piece, pieces_from
+from .pieces import ChainPiece, pieces_from
 from .trace import Step, paths
 from .trim import trimmed
-from .twins import reach_of
 
 
 @dataclass(frozen=True, slots=True)
-class Chaining:
+class ChainingResult:
     """What a drawing's curves chain into.
 
     Attributes:
@@ -32,7 +32,7 @@ class Chaining:
     findings: tuple[Finding, ...] = ()
 
 
-def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -> Chaining:
+def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -> ChainingResult:
     """Return the contours that some curves form.
 
     Ellipses and splines become lines and arcs within 1 um. Curves drawn twice, and curves that lie wholly on another,
@@ -52,7 +52,7 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
     pieces, findings = pieces_from(entities)
     nodes = nodes_of(pieces, join_tolerance)
     pieces, nodes, overlaps = _thinned(pieces, nodes, join_tolerance)
-    pieces, nodes, gaps = brought_together(pieces, nodes)
+    pieces, nodes, gaps = join_ends(pieces, nodes)
     found, branches = paths(pieces, nodes)
     contours, doubles = _once([_contour(pieces, steps, closed) for steps, closed in found], join_tolerance)
     odd = [branch.place for branch in branches if branch.odd]
@@ -64,14 +64,16 @@ def chain(entities: Sequence[Entity], join_tolerance: float = tolerances.JOIN) -
         *open_findings(contours, join_tolerance),
         *crossings(contours, odd),
     ]
-    return Chaining(tuple(contours), tuple(findings))
+    return ChainingResult(tuple(contours), tuple(findings))
 
 
-def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[list[Piece], Nodes, list[Shared]]:
+def _thinned(
+    pieces: list[ChainPiece], nodes: Nodes, join_tolerance: float
+) -> tuple[list[ChainPiece], Nodes, list[SharedPiece]]:
     """Return what is left without curves that only repeat others, and all overlaps that were found on the way."""
     reach = min(tolerances.CURVE, max(join_tolerance, tolerances.WELD))
     repeats = repeated(pieces, nodes, reach_of(join_tolerance))
-    shared = [Shared(pieces[o.first], pieces[o.second], o) for o in repeats]
+    shared = [SharedPiece(pieces[o.first], pieces[o.second], o) for o in repeats]
     known = {(s.first.entity, s.second.entity) for s in shared}
     pieces, nodes = _without(pieces, nodes, repeats)
     stretches = shared_stretches(pieces, reach)
@@ -79,17 +81,17 @@ def _thinned(pieces: list[Piece], nodes: Nodes, join_tolerance: float) -> tuple[
     overlaps = covered(pieces, nodes, new, reach)
     drawn = pieces
     pieces, nodes, overlaps = trimmed(pieces, nodes, overlaps)
-    shared += [Shared(drawn[o.first], drawn[o.second], o) for o in overlaps]
+    shared += [SharedPiece(drawn[o.first], drawn[o.second], o) for o in overlaps]
     return *_without(pieces, nodes, overlaps), shared
 
 
-def _without(pieces: list[Piece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[Piece], Nodes]:
+def _without(pieces: list[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap]) -> tuple[list[ChainPiece], Nodes]:
     gone = {overlap.second for overlap in overlaps if overlap.removed}
     kept = [k for k in range(len(pieces)) if k not in gone]
     return [pieces[k] for k in kept], nodes[kept] if len(nodes) else nodes
 
 
-def _contour(pieces: Sequence[Piece], steps: Sequence[Step], closed: bool) -> Contour:
+def _contour(pieces: Sequence[ChainPiece], steps: Sequence[Step], closed: bool) -> Contour:
     members = [pieces[k] if forward else pieces[k].reversed() for k, forward in steps]
     return Contour(
         tuple(p for piece in members for p in piece.primitives),

@@ -13,7 +13,7 @@ from ...model.job import LARGEST_JOIN
 from ...model.part import Contour
 from ..primitives import boxes, contour_rows
 from .overlap import Overlap
-from .pieces import Piece, length_of
+from .pieces import ChainPiece, length_of
 from .trace import Junction
 
 LIMIT = 20
@@ -74,7 +74,7 @@ def _noun(primitive: Primitive) -> str:
     return "line" if isinstance(primitive, Line) else "circle" if isinstance(primitive, Circle) else "arc"
 
 
-def _names(a: Piece, b: Piece) -> str:
+def _names(a: ChainPiece, b: ChainPiece) -> str:
     one, other = _noun(a.primitives[0]), _noun(b.primitives[0])
     if one == other:
         return f"{one.capitalize()}s {a.entity} and {b.entity}"
@@ -82,15 +82,17 @@ def _names(a: Piece, b: Piece) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Shared:
+class SharedPiece:
     """An overlap and the pieces that it joins."""
 
-    first: Piece
-    second: Piece
+    first: ChainPiece
+    second: ChainPiece
     overlap: Overlap
 
 
-def overlap_findings(shared: Iterable[Shared], contours: Sequence[Contour], join_tolerance: float) -> list[Finding]:
+def overlap_findings(
+    shared: Iterable[SharedPiece], contours: Sequence[Contour], join_tolerance: float
+) -> list[Finding]:
     """Return a finding for each overlap; one that was removed, joined, or is the wall of two outlines is a remark."""
     place = {entity: k for k, contour in enumerate(contours) for entity in contour.entity_ids}
     found = []
@@ -110,9 +112,9 @@ def overlap_findings(shared: Iterable[Shared], contours: Sequence[Contour], join
         elif overlap.length <= join_tolerance + tolerances.WELD:
             what = "; their ends were joined."
         else:
-            wanted = rounded_up(overlap.length)
-            joined = f", or join with a tolerance of {wanted} mm if that is small enough for the part"
-            what = f"; trim one{joined * (float(wanted) <= LARGEST_JOIN)}."
+            length = rounded_up(overlap.length)
+            joined = f", or join with a tolerance of {length} mm if that is small enough for the part"
+            what = f"; trim one{joined * (float(length) <= LARGEST_JOIN)}."
             counts = True
         text = f"{_names(a, b)} overlap by {overlap.length:.3f} mm from {at(overlap.start)} to {at(overlap.end)}{what}"
         found.append(Finding(FindingKind.OVERLAP, text, *middle, counts, (a.entity, b.entity), overlap.length))

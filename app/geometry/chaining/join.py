@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...model.curves import Arc, Line, Point
 from ..near_points import all_within, groups, pairs_within
+from .near_duplicates import merge_near_duplicates, reach_of
 from .overlap import repeated
-from .pieces import Piece, length_of, with_ends
-from .twins import reach_of, twins_met
+from .pieces import ChainPiece, length_of, with_ends
 
 Nodes = NDArray[np.int64]
 
 
-def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
+def nodes_of(pieces: Sequence[ChainPiece], join_tolerance: float) -> Nodes:
     """Return (n, 2) numbers of the points at which each piece starts and ends; -1 for circles.
 
     Ends within WELD of one another are one point. Of what is loose then, the nearest two within the tolerance are
@@ -29,7 +29,7 @@ def nodes_of(pieces: Sequence[Piece], join_tolerance: float) -> Nodes:
     ends = np.array([(*p.start, *p.end) for p in pieces], dtype=np.float64).reshape(-1, 2)
     nodes, reach = _welded(ends), reach_of(join_tolerance)
     nodes[np.repeat(np.array([p.is_circle for p in pieces], dtype=bool), 2)] = -1
-    nodes = twins_met(pieces, ends, nodes, reach)
+    nodes = merge_near_duplicates(pieces, ends, nodes, reach)
     if join_tolerance > tolerances.WELD and len(pieces):
         single = np.ones(len(pieces), dtype=bool)
         single[[overlap.second for overlap in repeated(pieces, nodes.reshape(-1, 2), reach)]] = False
@@ -44,7 +44,9 @@ def _welded(ends: NDArray[np.float64]) -> Nodes:
     return groups(len(points), pairs_within(points, tolerances.WELD))[nodes.ravel()]
 
 
-def _join_loose(pieces: Sequence[Piece], ends: NDArray[np.float64], single: Nodes, joined: tuple[Nodes, float]) -> None:
+def _join_loose(
+    pieces: Sequence[ChainPiece], ends: NDArray[np.float64], single: Nodes, joined: tuple[Nodes, float]
+) -> None:
     """Give points that belong together the same number, in place.
 
     Args:
@@ -87,7 +89,7 @@ def _loose(nodes: Nodes) -> Nodes:
     return np.flatnonzero((nodes >= 0) & (counts[np.maximum(nodes, 0)] == 1))
 
 
-def _may_meet(pieces: Sequence[Piece], a: int, b: int, gap: float) -> bool:
+def _may_meet(pieces: Sequence[ChainPiece], a: int, b: int, gap: float) -> bool:
     """A curve may close on itself only when it is much longer than its gap."""
     if a // 2 != b // 2:
         return True
@@ -98,7 +100,7 @@ def _may_meet(pieces: Sequence[Piece], a: int, b: int, gap: float) -> bool:
     )
 
 
-def brought_together(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[Piece], Nodes, list[tuple[float, Point]]]:
+def join_ends(pieces: Sequence[ChainPiece], nodes: Nodes) -> tuple[list[ChainPiece], Nodes, list[tuple[float, Point]]]:
     """Return the pieces with ends that meet exactly, their nodes, and (size, place) of every gap wider than 1 um.
 
     Pieces that shrink to nothing are left out. Lines give way to arcs: the point where ends meet is the mean of the

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...model.curves import Circle, Point
 from ...model.part import Contour
-from ..near import near
 from ..near_points import pairs_within
 from ..primitives import CX, TURN, X0, X1, R, Rows, boxes, contour_rows, distances, points_at, sweeps
 from ..primitives import lengths as row_lengths
 from ..primitives import rows_of as primitive_rows
-from .pieces import Piece, length_of
+from ..tree_queries import near
+from .pieces import ChainPiece, length_of
 
 Nodes = NDArray[np.int64]
 
@@ -44,7 +44,7 @@ class Overlap:
     trimmed: bool = False
 
 
-def repeated(pieces: Sequence[Piece], nodes: Nodes, reach: float) -> list[Overlap]:
+def repeated(pieces: Sequence[ChainPiece], nodes: Nodes, reach: float) -> list[Overlap]:
     """Return pieces between the same points that keep within `reach` of an earlier one; those not needed are `removed`.
 
     All repeats go, but where the outlines left over would then have an odd number of ends at both points the
@@ -78,7 +78,7 @@ def repeated(pieces: Sequence[Piece], nodes: Nodes, reach: float) -> list[Overla
     return overlaps
 
 
-def _key(piece: Piece, ends: Nodes, reach: float) -> tuple[object, ...]:
+def _key(piece: ChainPiece, ends: Nodes, reach: float) -> tuple[object, ...]:
     """Return what repeats have in common for certain; circles fall into cells far wider than `reach`, see `same`."""
     if isinstance(piece.primitives[0], Circle):
         circle = piece.primitives[0]
@@ -86,7 +86,7 @@ def _key(piece: Piece, ends: Nodes, reach: float) -> tuple[object, ...]:
     return int(min(ends)), int(max(ends))
 
 
-def same(a: Piece, b: Piece, reach: float) -> bool:
+def same(a: ChainPiece, b: ChainPiece, reach: float) -> bool:
     """Return whether two circles, or two pieces whose ends are known to pair up, keep within `reach` of one another."""
     if a.is_circle or b.is_circle:
         p, q = a.primitives[0], b.primitives[0]
@@ -102,7 +102,7 @@ def same(a: Piece, b: Piece, reach: float) -> bool:
     )
 
 
-def _marks(piece: Piece) -> list[Point]:
+def _marks(piece: ChainPiece) -> list[Point]:
     """Return the points at a quarter, a half and three quarters of the length, mm."""
     rows = primitive_rows(piece.primitives)[0]
     sizes = row_lengths(rows)
@@ -113,7 +113,7 @@ def _marks(piece: Piece) -> list[Point]:
     return [(float(x), float(y)) for x, y in points]
 
 
-def shared_stretches(pieces: Sequence[Piece], reach: float) -> list[Overlap]:
+def shared_stretches(pieces: Sequence[ChainPiece], reach: float) -> list[Overlap]:
     """Return pairs of pieces that lie within `reach` of one another for longer than that, none of them removed."""
     rows, owner = rows_of(pieces)
     i, j = near_pairs(rows, reach)
@@ -139,7 +139,7 @@ def shared_stretches(pieces: Sequence[Piece], reach: float) -> list[Overlap]:
     return [found[key] for key in sorted(found)]
 
 
-def rows_of(pieces: Sequence[Piece]) -> tuple[Rows, NDArray[np.int64]]:
+def rows_of(pieces: Sequence[ChainPiece]) -> tuple[Rows, NDArray[np.int64]]:
     """Return the rows (n, 8) of all pieces and the index (n,) of the piece that each is from."""
     counts = [len(piece.primitives) for piece in pieces]
     rows, which = primitive_rows([primitive for piece in pieces for primitive in piece.primitives])
@@ -208,7 +208,7 @@ def _arc_share(a: Rows, b: Rows, reach: float) -> tuple[NDArray[np.float64], NDA
     return np.where(good, low, 1.0), np.where(good, high, 0.0)
 
 
-def covered(pieces: Sequence[Piece], nodes: Nodes, overlaps: Sequence[Overlap], reach: float) -> list[Overlap]:
+def covered(pieces: Sequence[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap], reach: float) -> list[Overlap]:
     """Return the overlaps with `removed` set where one piece lies wholly on the other and no outline needs it.
 
     An outline needs a piece when an even number of ends meets at both of its points.

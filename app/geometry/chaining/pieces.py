@@ -32,7 +32,7 @@ _FLAT = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class ChainPiece:
     """One drawn curve as primitives that join exactly.
 
     Attributes:
@@ -61,7 +61,7 @@ class Piece:
         """True for a full circle, which has no ends to join."""
         return isinstance(self.primitives[0], Circle)
 
-    def reversed(self) -> Piece:
+    def reversed(self) -> ChainPiece:
         """Return the same piece, travelled the other way."""
         back = tuple(reversed_curve(p) for p in reversed(self.primitives))
         return replace(self, primitives=back)  # type: ignore[arg-type]
@@ -76,9 +76,9 @@ def length_of(primitive: Primitive) -> float:
     return abs(primitive.sweep) * primitive.radius
 
 
-def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]:
+def pieces_from(entities: Sequence[Entity]) -> tuple[list[ChainPiece], list[Finding]]:
     """Return a piece for every entity that has a length, and findings on those that have none."""
-    pieces: list[Piece] = []
+    pieces: list[ChainPiece] = []
     findings: list[Finding] = []
     for entity in entities:
         try:
@@ -89,7 +89,7 @@ def pieces_from(entities: Sequence[Entity]) -> tuple[list[Piece], list[Finding]]
             )
             continue
         if primitives:
-            pieces.append(Piece(primitives, entity.id, entity.layer, deviation))
+            pieces.append(ChainPiece(primitives, entity.id, entity.layer, deviation))
         else:
             x, y = entity.curve.start
             findings.append(
@@ -148,7 +148,7 @@ def _primitives(entity: Entity) -> tuple[tuple[Primitive, ...], float]:
     return (curve,), _FLAT if isinstance(curve, Line) and curve is not entity.curve else 0.0
 
 
-def with_ends(piece: Piece, start: Point, end: Point) -> Piece:
+def with_ends(piece: ChainPiece, start: Point, end: Point) -> ChainPiece:
     """Return the piece with its ends moved to meet its neighbours exactly.
 
     Lines turn, and one that is shorter than its gaps may vanish (no primitives are left). Arcs stay true arcs, with
@@ -168,7 +168,7 @@ def with_ends(piece: Piece, start: Point, end: Point) -> Piece:
     return replace(piece, primitives=tuple(body), deviation=piece.deviation + deviation)
 
 
-def _closed_on_itself(piece: Piece) -> Piece:
+def _closed_on_itself(piece: ChainPiece) -> ChainPiece:
     """Return an arc whose ends meet as a full circle, and a line, or an arc as short as its gap, as nothing."""
     arc = piece.primitives[0]
     if not isinstance(arc, Arc) or abs(arc.sweep) < math.pi:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.curves import Circle, Line, Point, Primitive
-from .pieces import Piece
+from .pieces import ChainPiece
 
 Nodes = NDArray[np.int64]
 Step = tuple[int, bool]
@@ -35,7 +35,7 @@ class Junction:
         return len(self.entity_ids) % 2 == 1
 
 
-def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[Junction]]:
+def paths(pieces: Sequence[ChainPiece], nodes: Nodes) -> tuple[list[tuple[list[Step], bool]], list[Junction]]:
     """Return ((steps, closed) for every chain, by its first piece) and every branch.
 
     End 2 k is the start of piece k and end 2 k + 1 its end.
@@ -56,7 +56,7 @@ def paths(pieces: Sequence[Piece], nodes: Nodes) -> tuple[list[tuple[list[Step],
     return sorted(found, key=lambda path: min(path[0])), [_branch(pieces, ends) for ends in crowded]
 
 
-def _branch(pieces: Sequence[Piece], ends: Sequence[int]) -> Junction:
+def _branch(pieces: Sequence[ChainPiece], ends: Sequence[int]) -> Junction:
     first = pieces[ends[0] // 2]
     return Junction(first.start if ends[0] % 2 == 0 else first.end, tuple(pieces[end // 2].entity for end in ends))
 
@@ -87,7 +87,7 @@ def _forward(steps: list[Step]) -> list[Step]:
     return steps if min(steps)[1] else [(k, not forward) for k, forward in reversed(steps)]
 
 
-def _couples(ends: list[int], pieces: Sequence[Piece], spurs: set[int]) -> list[tuple[int, int]]:
+def _couples(ends: list[int], pieces: Sequence[ChainPiece], spurs: set[int]) -> list[tuple[int, int]]:
     """Pair the ends that meet at one point.
 
     Curves that belong to a loop come before those that belong to none. Where an even number meets, a curve stays with
@@ -110,7 +110,7 @@ def _couples(ends: list[int], pieces: Sequence[Piece], spurs: set[int]) -> list[
     return couples
 
 
-def _away(piece: Piece, from_start: bool) -> Point:
+def _away(piece: ChainPiece, from_start: bool) -> Point:
     """Return the direction (of any length) in which a piece leaves one of its ends."""
     if from_start:
         return tangent(piece.primitives[0], True)

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...model.curves import Arc, Point
 from .overlap import Overlap
-from .pieces import Piece, equally_far, off_circle
+from .pieces import ChainPiece, equally_far, off_circle
 
 Nodes = NDArray[np.int64]
 
 
 def trimmed(
-    pieces: Sequence[Piece], nodes: Nodes, overlaps: Sequence[Overlap]
-) -> tuple[list[Piece], Nodes, list[Overlap]]:
+    pieces: Sequence[ChainPiece], nodes: Nodes, overlaps: Sequence[Overlap]
+) -> tuple[list[ChainPiece], Nodes, list[Overlap]]:
     """Return pieces and nodes with arcs that overlap at loose ends cut to meet there, and the overlaps with that noted.
 
     The shape stays as it was drawn, so that no tolerance is asked: each of both ends lies on the other arc, within
@@ -37,7 +37,7 @@ def trimmed(
     return made, joined, noted
 
 
-def _cut(pieces: list[Piece], nodes: Nodes, pair: tuple[int, int], kept: NDArray[np.bool_]) -> bool:
+def _cut(pieces: list[ChainPiece], nodes: Nodes, pair: tuple[int, int], kept: NDArray[np.bool_]) -> bool:
     """Let the second arc begin where the first one ends, both seen counter-clockwise, in place; False if they do not
     overlap so.
     """

@@ -82,7 +82,7 @@ class Ring:
 
 
 @dataclass(frozen=True)
-class Level:
+class OffsetLevel:
     """All rings at one distance, mm, from the drawing."""
 
     distance: float
@@ -91,7 +91,7 @@ class Level:
 
 def offset_levels(
     primitives: Primitives, levels: Sequence[float], progress: Progress = NO_PROGRESS, *, frame: bool = False
-) -> tuple[Level, ...]:
+) -> tuple[OffsetLevel, ...]:
     """Return the rings at each of some distances from a drawing.
 
     Args:
@@ -111,7 +111,7 @@ def offset_levels(
         Levels of one distance field instead of the peeling of steps 301-307, whose offsets of offsets drift.
     """
     if len(primitives.rows) == 0:
-        return tuple(Level(d, ()) for d in levels)
+        return tuple(OffsetLevel(d, ()) for d in levels)
     engine = _Engine(primitives)
     result = []
     for k, distance in enumerate(levels):
@@ -120,9 +120,9 @@ def offset_levels(
         progress.step(k / len(levels), f"Offset {distance:.3f} mm")
         part = progress.part(k / len(levels), (k + 1) / len(levels))
         result.append(
-            Level(distance, engine.frame(distance, part) if frame and k == 0 else engine.rings(distance, part))
+            OffsetLevel(distance, engine.frame(distance, part) if frame and k == 0 else engine.rings(distance, part))
         )
-    return *result, *(Level(distance, ()) for distance in levels[len(result) :])
+    return *result, *(OffsetLevel(distance, ()) for distance in levels[len(result) :])
 
 
 class _Engine:

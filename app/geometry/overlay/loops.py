@@ -7,14 +7,14 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from .nodes import Edges
-from .turn import Turn
+from .node_order import NodeOrder
+from .nodes import PlanarEdges
 
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 
-def loops_along(edges: Edges, turn: Turn, kept: Flags) -> list[list[int]]:
+def loops_along(edges: PlanarEdges, turn: NodeOrder, kept: Flags) -> list[list[int]]:
     """Return loops of ends (2 k: along edge k, 2 k + 1: back along it) that have the same area to their left all along.
 
     Args:
@@ -23,7 +23,7 @@ def loops_along(edges: Edges, turn: Turn, kept: Flags) -> list[list[int]]:
     return _simple(edges, _next_clockwise(turn, kept), np.flatnonzero(kept).tolist())
 
 
-def loops_in_pairs(edges: Edges, turn: Turn, kept: Flags) -> list[list[int]]:
+def loops_in_pairs(edges: PlanarEdges, turn: NodeOrder, kept: Flags) -> list[list[int]]:
     """Return loops in which all edges are used once, whatever lies beside them; there is an even number at each node.
 
     Args:
@@ -38,7 +38,7 @@ def loops_in_pairs(edges: Edges, turn: Turn, kept: Flags) -> list[list[int]]:
     return _simple(edges, following, ends.tolist(), either_way=True)
 
 
-def _next_clockwise(turn: Turn, kept: Flags) -> Indices:
+def _next_clockwise(turn: NodeOrder, kept: Flags) -> Indices:
     """Return for each end which kept one goes on from where it leads: the next clockwise from the way back; -1 where
     none does.
     """
@@ -55,7 +55,7 @@ def _next_clockwise(turn: Turn, kept: Flags) -> Indices:
     return onward
 
 
-def _simple(edges: Edges, following: Indices, begins: Iterable[int], either_way: bool = False) -> list[list[int]]:
+def _simple(edges: PlanarEdges, following: Indices, begins: Iterable[int], either_way: bool = False) -> list[list[int]]:
     """Return the loops that `following` makes, parted where they come back to a node; what does not close is no loop.
 
     Args:

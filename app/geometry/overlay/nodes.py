@@ -42,7 +42,7 @@ _ROUNDS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class RowPieces:
     """Parts of rows between nodes, in the order of the rows and along them.
 
     Attributes:
@@ -61,7 +61,7 @@ class Pieces:
     moved: Flags
 
 
-def pieces_of(rows: Rows, contour: Indices) -> Pieces:
+def pieces_of(rows: Rows, contour: Indices) -> RowPieces:
     """Return rows cut once wherever they meet.
 
     Args:
@@ -71,7 +71,7 @@ def pieces_of(rows: Rows, contour: Indices) -> Pieces:
     return _cut(rows, contour, np.ones(len(rows), np.bool_))
 
 
-def settled(pieces: Pieces) -> Pieces:
+def settled(pieces: RowPieces) -> RowPieces:
     """Return pieces cut again until nothing that moved meets anything new."""
     for _ in range(_ROUNDS - 1):
         if not pieces.moved.any():
@@ -83,7 +83,7 @@ def settled(pieces: Pieces) -> Pieces:
     return pieces
 
 
-def _cut(rows: Rows, contour: Indices, moved: Flags) -> Pieces:
+def _cut(rows: Rows, contour: Indices, moved: Flags) -> RowPieces:
     """Return the pieces of rows; contacts are looked for where one of two rows has moved."""
     i, j = near_pairs(rows, REACH)
     new = moved[i] | moved[j]
@@ -100,7 +100,7 @@ def _cut(rows: Rows, contour: Indices, moved: Flags) -> Pieces:
     finish = np.where(last, end[row], np.append(begin[1:], -1)) if len(row) else begin
     made = _between(rows[row], nodes[begin], nodes[finish])
     off = np.maximum(distances(rows[row], nodes[begin]), distances(rows[row], nodes[finish]))
-    return Pieces(made, contour[row], begin, finish, nodes, off > _STILL)
+    return RowPieces(made, contour[row], begin, finish, nodes, off > _STILL)
 
 
 def _nodes(points: Floats) -> tuple[Indices, Floats]:
@@ -200,7 +200,7 @@ def _between(rows: Rows, start: Floats, end: Floats) -> Rows:
 
 
 @dataclass(frozen=True, eq=False)
-class Edges:
+class PlanarEdges:
     """Pieces, each place once.
 
     Attributes:
@@ -216,7 +216,7 @@ class Edges:
     forward: Flags
 
 
-def edges_of(pieces: Pieces) -> Edges:
+def edges_of(pieces: RowPieces) -> PlanarEdges:
     """Return the edges that pieces lie on: those between the same nodes whose middles lie within REACH are one."""
     low, high = np.minimum(pieces.start, pieces.end), np.maximum(pieces.start, pieces.end)
     key, count = np.unique(low * (len(pieces.nodes) + 1) + high, return_inverse=True, return_counts=True)[1:]
@@ -226,7 +226,7 @@ def edges_of(pieces: Pieces) -> Edges:
     of = groups(len(pieces.rows), several[pairs].reshape(-1, 2))
     first = np.unique(of, return_index=True)[1]
     start, end = pieces.start[first], pieces.end[first]
-    return Edges(pieces.rows[first], start, end, of, pieces.start == start[of])
+    return PlanarEdges(pieces.rows[first], start, end, of, pieces.start == start[of])
 
 
 def half_lengths(rows: Rows) -> Floats:

@@ -18,11 +18,11 @@ from ...core import tolerances
 from ...model.finding import Finding, FindingKind
 from ...model.part import Contour
 from ..chaining.findings import at
-from ..even_odd import Witnessed, even_odd
+from ..even_odd import EvenOddMeasure, even_odd
 from ..primitives import Rows, contour_rows, reversed_rows, signed_area
-from .net import Net
-from .nodes import Pieces, edges_of, pieces_of, settled
-from .sides import Steps, counted
+from .nodes import RowPieces, edges_of, pieces_of, settled
+from .planar_graph import PlanarGraph
+from .sides import CountSteps, counted
 
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -35,7 +35,7 @@ _NAMED = 3
 
 
 @dataclass(frozen=True)
-class Overlaid:
+class OverlayResult:
     """What an overlay gives.
 
     Attributes:
@@ -47,7 +47,7 @@ class Overlaid:
     findings: tuple[Finding, ...] = ()
 
 
-def without_crossings(contours: Sequence[Contour]) -> Overlaid:
+def without_crossings(contours: Sequence[Contour]) -> OverlayResult:
     """Return contours whose even-odd area is the same, of which none crosses itself or another.
 
     Args:
@@ -62,21 +62,21 @@ def without_crossings(contours: Sequence[Contour]) -> Overlaid:
     made = [(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
     pieces = settled(_part(pieces, meet[pieces.contour]))
     if not len(pieces.rows):  # what meets is smaller than what is merged
-        return Overlaid(_in_order(made))
-    net = Net.of(pieces)
+        return OverlayResult(_in_order(made))
+    net = PlanarGraph.of(pieces)
     odd = np.bincount(net.edges.of, minlength=len(net.edges.rows)) % 2 == 1
     none = np.zeros(len(net.members), np.int64)
-    counts = counted(net.faces, Steps(odd, np.zeros(len(odd), np.int64)), none > 0, none)
+    counts = counted(net.faces, CountSteps(odd, np.zeros(len(odd), np.int64)), none > 0, none)
     findings: list[Finding] = []
     for numbers, loops in zip(net.members, net.loops(odd, counts), strict=True):
         members = [contours[k] for k in numbers]
         parts = net.contours(loops, members)
         made += [(numbers[0], part) for part in parts]
         findings += differing(even_odd(members), even_odd(parts).area, members)
-    return Overlaid(_in_order(made), tuple(findings))
+    return OverlayResult(_in_order(made), tuple(findings))
 
 
-def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -> Overlaid:
+def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -> OverlayResult:
     """Return contours of the area that contours bound by the even-odd rule, without what any of some outlines holds.
 
     Args:
@@ -87,14 +87,14 @@ def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -
         Closed contours that touch at most. Those that meet no outline are as they were.
     """
     if not contours or not outlines:
-        return Overlaid(tuple(contours))
+        return OverlayResult(tuple(contours))
     every, count = [*contours, *outlines], len(contours)
     rows = [contour_rows(contour) for contour in every]
     rows[count:] = [each if signed_area(each) > 0 else reversed_rows(each) for each in rows[count:]]
     pieces = settled(pieces_of(*_together(rows)))
     if not len(pieces.rows):  # all is smaller than what is merged
-        return Overlaid(tuple(contours))
-    net = Net.of(pieces)
+        return OverlayResult(tuple(contours))
+    net = PlanarGraph.of(pieces)
     steps = _steps(net, count)
     around, holder = net.held_by(rows)
     odd = np.bincount(around, holder < count, len(net.members)) % 2 == 1
@@ -109,10 +109,10 @@ def without_outlines(contours: Sequence[Contour], outlines: Sequence[Contour]) -
             named = mine or [replace(every[members[0]], layer=contours[0].layer)]
             made += [(members[0], part) for part in net.contours(loops[number], named)]
     parts = _in_order(made)
-    return Overlaid(parts, tuple(differing(even_odd(contours, outlines), even_odd(parts).area, contours)))
+    return OverlayResult(parts, tuple(differing(even_odd(contours, outlines), even_odd(parts).area, contours)))
 
 
-def differing(drawn: Witnessed, made: float, contours: Sequence[Contour], spare: float = 0.0) -> list[Finding]:
+def differing(drawn: EvenOddMeasure, made: float, contours: Sequence[Contour], spare: float = 0.0) -> list[Finding]:
     """Return the finding that an area is not what was drawn, if it is not: then something is wrong that nobody has
     noticed.
 
@@ -142,12 +142,12 @@ def _in_order(made: Sequence[tuple[int, Contour]]) -> tuple[Contour, ...]:
     return tuple(contour for _, contour in sorted(made, key=lambda pair: pair[0]))
 
 
-def _steps(net: Net, count: int) -> Steps:
+def _steps(net: PlanarGraph, count: int) -> CountSteps:
     """Return how counts of contours, which are numbered below `count`, and of outlines differ across each edge."""
     drawn = net.pieces.contour < count
     odd = np.bincount(net.edges.of, drawn, len(net.edges.rows)) % 2 == 1
     ahead = np.where(drawn, 0, np.where(net.edges.forward, 1, -1))
-    return Steps(odd, np.bincount(net.edges.of, ahead, len(net.edges.rows)).astype(np.int64))
+    return CountSteps(odd, np.bincount(net.edges.of, ahead, len(net.edges.rows)).astype(np.int64))
 
 
 def _together(rows: Sequence[Rows]) -> tuple[Rows, Indices]:
@@ -155,13 +155,13 @@ def _together(rows: Sequence[Rows]) -> tuple[Rows, Indices]:
     return np.concatenate([np.zeros((0, 8)), *rows]), np.repeat(np.arange(len(rows)), [len(each) for each in rows])
 
 
-def _part(pieces: Pieces, chosen: Flags) -> Pieces:
+def _part(pieces: RowPieces, chosen: Flags) -> RowPieces:
     """Return some of the pieces."""
     start, end = pieces.start[chosen], pieces.end[chosen]
-    return Pieces(pieces.rows[chosen], pieces.contour[chosen], start, end, pieces.nodes, pieces.moved[chosen])
+    return RowPieces(pieces.rows[chosen], pieces.contour[chosen], start, end, pieces.nodes, pieces.moved[chosen])
 
 
-def _meeting(pieces: Pieces, count: int) -> Flags:
+def _meeting(pieces: RowPieces, count: int) -> Flags:
     """Return which contours (count,) come to a node where they, or others, have been; ways forth and back do not
     count.
     """

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ..near_points import groups
 from ..primitives import R, sweeps
-from .nodes import Edges
-from .turn import Turn
+from .node_order import NodeOrder
+from .nodes import PlanarEdges
 
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -40,7 +40,7 @@ class Faces:
 
 
 @dataclass(frozen=True, eq=False)
-class Counts:
+class FaceCounts:
     """What is counted in each face.
 
     Attributes:
@@ -55,14 +55,14 @@ class Counts:
 
 
 @dataclass(frozen=True, eq=False)
-class Steps:
+class CountSteps:
     """How counts differ across each edge, from its right to its left: odd (n,), held (n,)."""
 
     odd: Flags
     held: Indices
 
 
-def faces_of(edges: Edges, turn: Turn) -> Faces:
+def faces_of(edges: PlanarEdges, turn: NodeOrder) -> Faces:
     """Return the faces of some edges with their order round the nodes."""
     count = len(edges.rows)
     ends = np.arange(2 * count)
@@ -81,7 +81,7 @@ def faces_of(edges: Edges, turn: Turn) -> Faces:
     return Faces(left, number, net_of, outer)
 
 
-def _areas(edges: Edges, left: Indices, net: Indices) -> NDArray[np.float64]:
+def _areas(edges: PlanarEdges, left: Indices, net: Indices) -> NDArray[np.float64]:
     """Return the area that the edges of each face run round, mm2; negative for outer ones."""
     first = np.unique(net, return_index=True)[1]
     origin = edges.rows[first, :2][net]
@@ -93,7 +93,7 @@ def _areas(edges: Edges, left: Indices, net: Indices) -> NDArray[np.float64]:
     return areas.astype(np.float64)
 
 
-def counted(faces: Faces, steps: Steps, odd: Flags, held: Indices) -> Counts:
+def counted(faces: Faces, steps: CountSteps, odd: Flags, held: Indices) -> FaceCounts:
     """Return the counts of all faces from those of the outer ones, odd (c,) and held (c,)."""
     total = len(faces.net_of)
     right, left = faces.left[1::2], faces.left[::2]
@@ -115,4 +115,4 @@ def counted(faces: Faces, steps: Steps, odd: Flags, held: Indices) -> Counts:
     wrong = (odds[left] ^ odds[right] != steps.odd) | (helds[left] - helds[right] != steps.held)
     torn = np.zeros(len(faces.outer), np.bool_)
     torn[faces.net[wrong]] = True
-    return Counts(odds, helds, torn)
+    return FaceCounts(odds, helds, torn)

@@ -8,18 +8,18 @@ from collections.abc import Iterable
 from ...model.finding import Finding
 from ...model.operation import AdaptiveOperation, Operation
 from ...model.tool import Tool
-from ...toolpath.narrow import too_small
-from ...toolpath.sheets import Sheet, Sheets
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas
+from ...toolpath.narrow_regions import too_small
 from ..effort import Workload, over_area
-from ..registry import Way, register
+from ..registry import OperationMethod, register
 from .paths import adaptive, least_width, room_needed
 
 
-def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterable[Finding]:
+def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | None) -> Iterable[Finding]:
     """Return which regions are too small for the tool."""
-    assert isinstance(operation, AdaptiveOperation) and sheet is not None
-    level = sheet.frame(room_needed(sheets.job, operation))
-    return too_small(sheet.regions, level, sheets.job.tool(operation.cut.tool), least_width(sheets.job, operation))
+    assert isinstance(operation, AdaptiveOperation) and area is not None
+    level = area.frame(room_needed(areas.job, operation))
+    return too_small(area.regions, level, areas.job.tool(operation.cut.tool), least_width(areas.job, operation))
 
 
 def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
@@ -28,4 +28,4 @@ def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
     return over_area(extent, operation, tool, tool.radius * (1 - math.cos(operation.most_engaged_deg)))
 
 
-register(AdaptiveOperation, Way(adaptive, _missed, _effort))
+register(AdaptiveOperation, OperationMethod(adaptive, _missed, _effort))

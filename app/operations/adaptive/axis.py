@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...core.progress import Progress
 from ...geometry.primitives import Primitives, lengths, points_at
-from .ground import Room
+from .cleared_discs import WallClearance
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -44,7 +44,9 @@ class RoughAxis:
     edges: Indices
 
 
-def rough_axis(walls: Primitives, room: Room, corners: Floats, spacing: float, progress: Progress) -> RoughAxis:
+def rough_axis(
+    walls: Primitives, room: WallClearance, corners: Floats, spacing: float, progress: Progress
+) -> RoughAxis:
     """Return the axis where a cutter finds room.
 
     Args:
@@ -87,7 +89,7 @@ def _sites(walls: Primitives, spacing: float) -> tuple[Floats, Indices, Indices,
     return sites, contour, number, count
 
 
-def _cut_off(points: Floats, fits: NDArray[np.bool_], edges: Indices, room: Room) -> tuple[Floats, Indices]:
+def _cut_off(points: Floats, fits: NDArray[np.bool_], edges: Indices, room: WallClearance) -> tuple[Floats, Indices]:
     """Return the graph up to where there is just room; edges of which one end has none end there."""
     ends = fits[edges]
     part = edges[ends[:, 0] != ends[:, 1]]
@@ -122,7 +124,7 @@ def _with_corners(points: Floats, edges: Indices, corners: Floats) -> tuple[Floa
     return np.concatenate([points, corners]), np.concatenate([edges, more])
 
 
-def _pruned(axis: RoughAxis, first: int, room: Room) -> RoughAxis:
+def _pruned(axis: RoughAxis, first: int, room: WallClearance) -> RoughAxis:
     """Return the axis without branches whose tips add next to nothing; corners, from number `first` on, stay."""
     edges, kept = axis.edges, np.ones(len(axis.edges), np.bool_)
     joined: list[list[int]] = [[] for _ in axis.points]

@@ -22,7 +22,7 @@ _LEAST_CENTRE = 0.002
 
 
 @dataclass(frozen=True)
-class Limit:
+class EngagementLimit:
     """What a cutter may be engaged.
 
     Attributes:

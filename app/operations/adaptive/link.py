@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .ground import Point
+from .cleared_discs import Point
 
 Row = tuple[float, float, float, float, float, float, float, float]
 Circle = tuple[float, float, float]
@@ -28,7 +28,7 @@ _HALVINGS = 12
 
 
 @dataclass(frozen=True)
-class Pose:
+class PathPose:
     """Where a path ends or begins, on a circle counter-clockwise round the centre of a clear disc.
 
     Attributes:
@@ -48,7 +48,7 @@ class Pose:
         return self.x - radius * math.cos(self.angle), self.y - radius * math.sin(self.angle), radius
 
 
-def smooth_way(start: Pose, end: Pose, over: Sequence[Point], into: Circle) -> list[Row]:
+def smooth_way(start: PathPose, end: PathPose, over: Sequence[Point], into: Circle) -> list[Row]:
     """Return rows from a pose to another one.
 
     Args:
@@ -71,7 +71,7 @@ def smooth_way(start: Pose, end: Pose, over: Sequence[Point], into: Circle) -> l
     return rows + _arc(last, (end.x, end.y), coming)
 
 
-def way_in(end: Pose, into: Circle) -> list[Row]:
+def way_in(end: PathPose, into: Circle) -> list[Row]:
     """Return half a turn over clear ground to a pose, from where the cutter may come down."""
     share = _TURNED
     for _ in range(_HALVINGS):

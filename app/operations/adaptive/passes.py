@@ -11,12 +11,12 @@ import numpy as np
 from ...core.progress import Progress
 from ...geometry.primitives import lengths, within_half_turn
 from ...model.moves import Purpose
-from ...toolpath.build import Label, MovesBuilder, Stroke
-from ...toolpath.depth.depth import Levels
-from ...toolpath.entry.entry import Ground, descent
-from ...toolpath.entry.told import Entries
-from .plan import Part
-from .way import Run
+from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
+from ...toolpath.depth.depth import DepthLevels
+from ...toolpath.entry.entry import EntryContext, descent
+from ...toolpath.entry.entry_findings import EntryFallbacks
+from .path_builder import CutRun
+from .plan import ConnectedPath
 
 FASTER = 4.0
 """Times the feed rate at which the cutter goes over clear ground."""
@@ -33,12 +33,12 @@ _SEED = 2
 _SAME = 1e-9
 
 
-def clear_feed(label: Label) -> float:
+def clear_feed(label: StrokeLabel) -> float:
     """Return the feed over clear ground, mm/min."""
     return max(label.feed, min(FASTER * label.feed, _FASTEST))
 
 
-def farthest(label: Label, levels: Levels) -> float:
+def farthest(label: StrokeLabel, levels: DepthLevels) -> float:
     """Return how far the cutter goes over clear ground in the time that a lift takes, mm."""
     high = levels.travel - levels.passes[-1]
     return clear_feed(label) * (2 * high / _FASTEST + _STOPS / 60)
@@ -54,13 +54,13 @@ class DiscPasses:
     """
 
     builder: MovesBuilder
-    label: Label
-    ground: Ground
-    levels: Levels
+    label: StrokeLabel
+    ground: EntryContext
+    levels: DepthLevels
     lift: float
-    entries: Entries = field(default_factory=Entries)
+    entries: EntryFallbacks = field(default_factory=EntryFallbacks)
 
-    def cut(self, parts: Sequence[Part], progress: Progress) -> None:
+    def cut(self, parts: Sequence[ConnectedPath], progress: Progress) -> None:
         """Append parts, each at all depths before the next.
 
         Raises:
@@ -73,7 +73,7 @@ class DiscPasses:
                 for run in part.runs:
                     self._run(run, z, part.region, run is part.runs[0])
 
-    def _run(self, run: Run, z: float, region: int, into_metal: bool) -> None:
+    def _run(self, run: CutRun, z: float, region: int, into_metal: bool) -> None:
         stroke = Stroke(run.rows, np.where(run.clear, Purpose.LINK, Purpose.POCKET).astype(np.uint8), region)
         if into_metal:
             stroke.purpose[:_SEED] = Purpose.PLUNGE
@@ -92,9 +92,9 @@ class DiscPasses:
         self.builder.straight((x, y, self.levels.travel), Purpose.RAPID, self.label)
 
     def _enter(self, stroke: Stroke, z: float) -> None:
-        asked = self.ground.entry.kind
-        way = descent(stroke, z, asked, self.ground)
-        self.entries.note(asked, way.kind, stroke.start)
+        requested = self.ground.entry.kind
+        way = descent(stroke, z, requested, self.ground)
+        self.entries.note(requested, way.kind, stroke.start)
         x, y = stroke.start
         if not len(way.heights):
             self._down(x, y, z, way.top + self.levels.retract, stroke.region)
@@ -112,7 +112,7 @@ class DiscPasses:
         if height > z + _SAME:
             self.builder.straight((x, y, z), Purpose.PLUNGE, self.label, region)
 
-    def _heights(self, run: Run, z: float) -> np.ndarray:
+    def _heights(self, run: CutRun, z: float) -> np.ndarray:
         """Return (n,) at which height each row ends: over clear ground lifted, where the first and the last row of the
         way are long enough to rise and to fall.
         """
@@ -123,7 +123,7 @@ class DiscPasses:
                 heights[first : stop - 1] = min(z + self.lift, self.levels.retract)
         return heights
 
-    def _feeds(self, run: Run, into_metal: bool) -> np.ndarray:
+    def _feeds(self, run: CutRun, into_metal: bool) -> np.ndarray:
         feeds = np.where(run.clear, clear_feed(self.label), self.label.feed)
         if into_metal:
             feeds[:_SEED] = max(self.label.feed / 2, min(self.label.plunge_rate, self.label.feed))
@@ -134,7 +134,7 @@ class DiscPasses:
         return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
 
 
-def nearest_first(parts: Sequence[Part], at: tuple[float, float]) -> list[Part]:
+def nearest_first(parts: Sequence[ConnectedPath], at: tuple[float, float]) -> list[ConnectedPath]:
     """Return parts so that each is the one that begins nearest to where the one before it ends."""
     left, order = list(parts), []
     while left:

@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level, Ring, offset_levels
+from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import Primitives, Rows, sample
 from .axis import RoughAxis, rough_axis
-from .ground import ClearedDiscs, Point, Room
-from .limit import Limit
-from .ring import Proof, rounded, sharp_corners
+from .cleared_discs import ClearedDiscs, Point, WallClearance
+from .limit import EngagementLimit
+from .path_builder import CutRun, PathBuilder
+from .ring import RingProof, rounded, sharp_corners
 from .spiral import spiral
-from .walk import AxisWalk, Tree, WalkStop, trees
-from .way import Run, Way
+from .walk import AxisTree, AxisWalk, WalkStop, trees
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ _CHORD = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class ConnectedPath:
     """The path of a connected part.
 
     Attributes:
@@ -51,14 +51,14 @@ class Part:
         unproven: places along the walls that are not gone along: the limit could not be kept there.
     """
 
-    runs: tuple[Run, ...]
+    runs: tuple[CutRun, ...]
     region: int
     stops: tuple[WalkStop, ...] = ()
     unproven: tuple[Point, ...] = ()
 
 
 @dataclass(frozen=True)
-class Task:
+class ClearingTask:
     """What is to be cleared.
 
     Attributes:
@@ -72,7 +72,7 @@ class Task:
     farthest: float
 
 
-def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Part, ...]:
+def plan(task: ClearingTask, limit: EngagementLimit, progress: Progress = NO_PROGRESS) -> tuple[ConnectedPath, ...]:
     """Return the paths of all connected parts in which a cutter keeps its limit, counter-clockwise along the walls.
 
     Raises:
@@ -88,7 +88,7 @@ def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Pa
     coarse = more[0] if more else fine
     corners, _ = sharp_corners(fine.rings, _SHARP)
     field = DistanceField.of(task.walls.rows)
-    room = Room(field, task.leave, limit.radius + least)
+    room = WallClearance(field, task.leave, limit.radius + least)
     axis = rough_axis(task.walls, room, corners, _SPACING * limit.radius, progress.part(0.2, 0.4))
     axis = _complete(axis, coarse, room)
     parts, found = [], trees(axis)
@@ -102,19 +102,19 @@ def plan(task: Task, limit: Limit, progress: Progress = NO_PROGRESS) -> tuple[Pa
 
 @dataclass(frozen=True, eq=False)
 class _PlannedArea:
-    room: Room
+    room: WallClearance
     axis: RoughAxis
-    levels: tuple[Level, Level]
+    levels: tuple[OffsetLevel, OffsetLevel]
     turns: tuple[float, float]
-    task: Task
+    task: ClearingTask
 
 
-def least_turn(limit: Limit) -> float:
+def least_turn(limit: EngagementLimit) -> float:
     """Return the least radius of a path round a centre, mm, but for the tips of corners."""
     return max(_TURN * limit.coarser, limit.least_turn)
 
 
-def _tip(turns: Floats, limit: Limit, least: float) -> float:
+def _tip(turns: Floats, limit: EngagementLimit, least: float) -> float:
     """Return the radius of the arcs in corners, mm: small enough that next to nothing stands in the sharpest."""
     if not len(turns):
         return least
@@ -122,7 +122,7 @@ def _tip(turns: Floats, limit: Limit, least: float) -> float:
     return max(min(least, _SLIVER * sine / max(1e-9, 1 - sine)), limit.least_turn)
 
 
-def _complete(axis: RoughAxis, level: Level, room: Room) -> RoughAxis:
+def _complete(axis: RoughAxis, level: OffsetLevel, room: WallClearance) -> RoughAxis:
     """Return the axis with a point in each part that has none, such as the middle of a circle."""
     points, reach = [axis.points], [axis.reach]
     for ring in level.rings:
@@ -140,19 +140,19 @@ def _complete(axis: RoughAxis, level: Level, room: Room) -> RoughAxis:
     return RoughAxis(made, np.concatenate(reach), np.concatenate([axis.edges, np.column_stack([lone, lone])]))
 
 
-def _part(area: _PlannedArea, tree: Tree, limit: Limit, progress: Progress) -> Part:
+def _part(area: _PlannedArea, tree: AxisTree, limit: EngagementLimit, progress: Progress) -> ConnectedPath:
     walk = AxisWalk(limit, area.room, area.axis)
     walk.along(tree, progress.part(0.0, 0.5))
     discs = walk.discs
     paths, unproven = _rings(area, discs, limit, progress.part(0.5, 0.9))
     first = discs.each[0]
-    way = Way(limit, discs, area.task.farthest)
+    way = PathBuilder(limit, discs, area.task.farthest)
     way.begin(spiral(first.centre, first.reach - limit.radius, limit, max(limit.least_turn, area.turns[1])))
     for number in range(1, len(discs)):
         way.slice(number)
     unproven += [_begin(path) for path in paths if not way.ring(path)]
     region = int(area.task.walls.region[area.room.distances.nearest(np.array([first.centre]))[1][0]])
-    return Part(tuple(way.done()), region, tuple(walk.stops), tuple(unproven))
+    return ConnectedPath(tuple(way.done()), region, tuple(walk.stops), tuple(unproven))
 
 
 def _begin(path: Rows) -> Point:
@@ -160,9 +160,11 @@ def _begin(path: Rows) -> Point:
     return x, y
 
 
-def _rings(area: _PlannedArea, discs: ClearedDiscs, limit: Limit, progress: Progress) -> tuple[list[Rows], list[Point]]:
+def _rings(
+    area: _PlannedArea, discs: ClearedDiscs, limit: EngagementLimit, progress: Progress
+) -> tuple[list[Rows], list[Point]]:
     """Return the ways along the walls of a part, each proven; the coarse one where the fine one is not."""
-    proof = Proof(limit, area.room, discs)
+    proof = RingProof(limit, area.room, discs)
     done: list[Rows] = []
     for level, turn in zip(area.levels, area.turns, strict=True):
         proof.unproven.clear()
@@ -173,7 +175,7 @@ def _rings(area: _PlannedArea, discs: ClearedDiscs, limit: Limit, progress: Prog
     return done, list(proof.unproven)
 
 
-def _beside(ring: Ring, discs: ClearedDiscs, limit: Limit) -> bool:
+def _beside(ring: Ring, discs: ClearedDiscs, limit: EngagementLimit) -> bool:
     """Tell whether a ring lies along walls that discs of this part touch."""
     table = discs.table
     places = ring.rows[:, :2]
@@ -194,11 +196,11 @@ def mirrored(walls: Primitives) -> Primitives:
     return Primitives(np.ascontiguousarray(rows), count - 1 - following[::-1], walls.region[::-1].copy())
 
 
-def mirrored_part(part: Part) -> Part:
+def mirrored_part(part: ConnectedPath) -> ConnectedPath:
     """Return the path of a part as it is outside of the mirror."""
     return replace(
         part,
-        runs=tuple(Run(mirrored_rows(run.rows), run.clear) for run in part.runs),
+        runs=tuple(CutRun(mirrored_rows(run.rows), run.clear) for run in part.runs),
         stops=tuple(WalkStop((-stop.place[0], stop.place[1]), stop.width) for stop in part.stops),
         unproven=tuple((-x, y) for x, y in part.unproven),
     )
@@ -211,6 +213,6 @@ def mirrored_rows(rows: Rows) -> Rows:
     return out
 
 
-def narrow(parts: Sequence[Part]) -> list[WalkStop]:
+def narrow(parts: Sequence[ConnectedPath]) -> list[WalkStop]:
     """Return where the area is too narrow for the limit."""
     return [stop for part in parts for stop in part.stops]

@@ -13,8 +13,8 @@ from ...core.progress import Progress
 from ...geometry.offset.offset import Ring
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, R, Rows, lengths, points_at, sweeps
 from ...toolpath.engagement.rim_kernels import bound_along
-from .ground import ClearedDiscs, Disc, Point, Room
-from .limit import Limit
+from .cleared_discs import ClearedDisc, ClearedDiscs, Point, WallClearance
+from .limit import EngagementLimit
 
 Floats = NDArray[np.float64]
 
@@ -80,15 +80,15 @@ def rounded(ring: Ring, by: float) -> Rows:
 
 
 @dataclass
-class Proof:
+class RingProof:
     """Looks at rings.
 
     Attributes:
         unproven: places at which the limit could not be kept.
     """
 
-    limit: Limit
-    room: Room
+    limit: EngagementLimit
+    room: WallClearance
     discs: ClearedDiscs
     unproven: list[Point] = field(default_factory=list)
 
@@ -142,7 +142,7 @@ class Proof:
                 continue
             k = int(np.argmax(spare))
             if spare[k] >= 0:
-                self.discs.add(Disc(x, y, reach, k))
+                self.discs.add(ClearedDisc(x, y, reach, k))
                 return True
         return False
 

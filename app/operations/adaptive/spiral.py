@@ -11,14 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from ...geometry.primitives import Rows
-from .ground import Point
-from .limit import Limit
+from .cleared_discs import Point
+from .limit import EngagementLimit
 
 _HALVINGS = 60
 _MOST_TURNS = 20_000
 
 
-def spiral(centre: Point, turn: float, limit: Limit, seed: float) -> Rows:
+def spiral(centre: Point, turn: float, limit: EngagementLimit, seed: float) -> Rows:
     """Return arcs (n, 8) from the middle of a disc outwards, counter-clockwise, the last circle about its centre.
 
     Args:
@@ -44,7 +44,7 @@ def _half(x: float, y: float, radius: float, side: float) -> tuple[float, ...]:
     return (x + side * radius, y, x - side * radius, y, x, y, radius, 1.0)
 
 
-def _radii(turn: float, limit: Limit, seed: float) -> list[float]:
+def _radii(turn: float, limit: EngagementLimit, seed: float) -> list[float]:
     """Return radii of half turns that grow as fast as they may, from about a seed up to `turn` exactly."""
     radii = [seed]
     while radii[-1] < turn and len(radii) < _MOST_TURNS:
@@ -64,7 +64,7 @@ def _radii(turn: float, limit: Limit, seed: float) -> list[float]:
     return [*radii[:-1], turn]
 
 
-def _grown(radius: float, count: int, limit: Limit) -> float:
+def _grown(radius: float, count: int, limit: EngagementLimit) -> float:
     for _ in range(count):
         radius += limit.growth(radius)
     return radius

@@ -16,8 +16,8 @@ import numpy as np
 
 from ...core.progress import Progress
 from .axis import RoughAxis
-from .ground import ClearedDiscs, Disc, Point, Room
-from .limit import Limit
+from .cleared_discs import ClearedDisc, ClearedDiscs, Point, WallClearance
+from .limit import EngagementLimit
 
 _CONTAINED = 1e-4
 """mm; a disc that sticks out of a clear one by less adds nothing."""
@@ -45,20 +45,20 @@ class AxisWalk:
         stops: where it had to stop.
     """
 
-    limit: Limit
-    room: Room
+    limit: EngagementLimit
+    room: WallClearance
     axis: RoughAxis
     discs: ClearedDiscs = field(default_factory=ClearedDiscs)
     stops: list[WalkStop] = field(default_factory=list)
 
-    def along(self, tree: Tree, progress: Progress) -> None:
+    def along(self, tree: AxisTree, progress: Progress) -> None:
         """Clear all of a tree, from its root on.
 
         Raises:
             Cancelled: by progress.
         """
         x, y = self.axis.points[tree.root].tolist()
-        self.discs.add(Disc(x, y, float(self.axis.reach[tree.root]), -1))
+        self.discs.add(ClearedDisc(x, y, float(self.axis.reach[tree.root]), -1))
         waiting = [(tree.root, child, 0) for child in reversed(tree.children(tree.root))]
         done = 0
         while waiting:
@@ -139,11 +139,11 @@ class AxisWalk:
         paying = self.discs.each[payer]
         if math.dist(centre, paying.centre) + reach <= paying.reach + _CONTAINED:
             return payer
-        return self.discs.add(Disc(*centre, reach, payer))
+        return self.discs.add(ClearedDisc(*centre, reach, payer))
 
 
 @dataclass(frozen=True, eq=False)
-class Tree:
+class AxisTree:
     """A spanning tree of a connected part of the axis.
 
     Attributes:
@@ -161,7 +161,7 @@ class Tree:
         return self.after.get(node, [])
 
 
-def trees(axis: RoughAxis) -> list[Tree]:
+def trees(axis: RoughAxis) -> list[AxisTree]:
     """Return a spanning tree of each connected part, made of its widest edges."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
@@ -185,7 +185,7 @@ def trees(axis: RoughAxis) -> list[Tree]:
     return found
 
 
-def _tree(axis: RoughAxis, root: int, order: list[int], before: np.ndarray) -> Tree:
+def _tree(axis: RoughAxis, root: int, order: list[int], before: np.ndarray) -> AxisTree:
     long = dict.fromkeys(order, 0.0)
     after: dict[int, list[int]] = {}
     for node in reversed(order[1:]):
@@ -194,7 +194,7 @@ def _tree(axis: RoughAxis, root: int, order: list[int], before: np.ndarray) -> T
         after.setdefault(parent, []).append(node)
     for children in after.values():
         children.sort(key=lambda child: long[child])
-    return Tree(root, order, after)
+    return AxisTree(root, order, after)
 
 
 def _place(point: np.ndarray, reach: float) -> tuple[Point, float]:

@@ -7,20 +7,20 @@ from collections.abc import Iterable
 from ...core.progress import NO_PROGRESS
 from ...model.finding import Finding
 from ...model.operation import ContourOperation, Operation, Side
-from ...toolpath.sheets import Sheet, Sheets
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..engrave.open_line import line_paths
-from ..registry import Way, register
-from .paths import about_walls, contour
+from ..registry import OperationMethod, register
+from .paths import contour, wall_findings
 
 
-def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterable[Finding]:
+def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | None) -> Iterable[Finding]:
     """Return where the tool does not fit along the walls or lines."""
-    assert isinstance(operation, ContourOperation) and sheet is not None
-    tool = sheets.job.tool(operation.cut.tool)
+    assert isinstance(operation, ContourOperation) and area is not None
+    tool = areas.job.tool(operation.cut.tool)
     if operation.side is Side.ON:
-        return line_paths(sheet, tool, operation.cut.direction, NO_PROGRESS)[1]
-    level = sheet.frame(tool.radius + operation.cut.stock_to_leave)
-    return about_walls(sheets, operation, sheet, level)[1]
+        return line_paths(area, tool, operation.cut.direction, NO_PROGRESS)[1]
+    level = area.frame(tool.radius + operation.cut.stock_to_leave)
+    return wall_findings(areas, operation, area, level)[1]
 
 
-register(ContourOperation, Way(contour, _missed))
+register(ContourOperation, OperationMethod(contour, _missed))

@@ -14,8 +14,8 @@ from ...geometry.primitives import CX, CY, TURN, Indices, R, Rows, boxes, length
 from ...model.finding import Finding, FindingKind
 from ...model.moves import DogBone
 from ...toolpath.leads.contour_path import Floats, fractions_at, headings_at, keep_clear, line_row
-from ...toolpath.sheets import Sheet
-from .gaps import Gap
+from ...toolpath.machining_areas import MachiningArea
+from .gaps import WallGap
 
 LEAST_TURN = math.radians(20)
 """A ring that turns less at a corner needs no dog-bone."""
@@ -28,7 +28,7 @@ _SMOOTH = 0.15
 
 
 @dataclass(frozen=True)
-class Bone:
+class CornerRelief:
     """A way into a corner.
 
     Attributes:
@@ -40,9 +40,9 @@ class Bone:
     end: tuple[float, float]
 
 
-def bones(
-    found: Iterable[Gap], sheet: Sheet, distance: float, progress: Progress
-) -> tuple[tuple[Bone, ...], list[tuple[float, float]]]:
+def corner_reliefs(
+    found: Iterable[WallGap], area: MachiningArea, distance: float, progress: Progress
+) -> tuple[tuple[CornerRelief, ...], list[tuple[float, float]]]:
     """Return the ways into all inner corners, and the corners where the cutter would cut into a third wall, which are
     left as they are.
 
@@ -54,7 +54,7 @@ def bones(
         distance: of the cutter's centre from the walls, mm.
     """
     made, refused = [], []
-    walls = _Walls.of(sheet)
+    walls = _Walls.of(area)
     for k, gap in enumerate(found):
         if k % 64 == 0:
             progress.step(0.0, "Dog-bones")
@@ -67,7 +67,7 @@ def bones(
             continue
         end = apex + (turn - apex) * (distance / way)
         if walls.spares_others(line_row(turn, end), gap, distance):
-            made.append(Bone(gap.corner, (float(end[0]), float(end[1]))))
+            made.append(CornerRelief(gap.corner, (float(end[0]), float(end[1]))))
         else:
             refused.append(gap.corner)
     return tuple(made), refused
@@ -91,19 +91,19 @@ def _farthest(rows: Rows, place: Floats) -> Floats:
 class _Walls:
     """Everything that bounds a sheet, with the rows before and behind each row."""
 
-    sheet: Sheet
+    area: MachiningArea
     around: Floats
     previous: Indices
     following: Indices
 
     @staticmethod
-    def of(sheet: Sheet) -> _Walls:
-        previous = sheet.primitives.previous
+    def of(area: MachiningArea) -> _Walls:
+        previous = area.primitives.previous
         following = np.empty(len(previous), np.int64)
         following[previous] = np.arange(len(previous))
-        return _Walls(sheet, boxes(sheet.distances.rows), previous, following)
+        return _Walls(area, boxes(area.distances.rows), previous, following)
 
-    def spares_others(self, way: Rows, gap: Gap, distance: float) -> bool:
+    def spares_others(self, way: Rows, gap: WallGap, distance: float) -> bool:
         """Tell whether a way keeps clear of all rows but those of the two walls that meet in its corner."""
         low, high = np.minimum(way[:2], way[2:4]) - distance, np.maximum(way[:2], way[2:4]) + distance
         near = np.flatnonzero((self.around[:, :2] <= high).all(axis=1) & (self.around[:, 2:] >= low).all(axis=1))
@@ -116,17 +116,17 @@ class _Walls:
         others = np.setdiff1d(near, own)
         if not len(others):
             return True
-        return bool(keep_clear(DistanceField.of(self.sheet.distances.rows[others]), way[None], np.array([distance]))[0])
+        return bool(keep_clear(DistanceField.of(self.area.distances.rows[others]), way[None], np.array([distance]))[0])
 
     def _onward(self, row: int, step: Indices, reach: float) -> list[int]:
         """Return the rows that go on smoothly from one, up to a length."""
-        rows, found, gone = self.sheet.distances.rows, [], 0.0
+        rows, found, gone = self.area.distances.rows, [], 0.0
         while gone < reach:
             other = int(step[row])
             first, second = (row, other) if step is self.following else (other, row)
             ahead = headings_at(rows[[first]], np.ones(1))[0]
             onward = headings_at(rows[[second]], np.zeros(1))[0]
-            if self.sheet.bare[other] or ahead @ onward < math.cos(_SMOOTH):
+            if self.area.bare[other] or ahead @ onward < math.cos(_SMOOTH):
                 break
             found.append(other)
             gone += float(lengths(rows[[other]])[0])
@@ -134,15 +134,15 @@ class _Walls:
         return found
 
 
-def inserted(rows: Rows, where: Floats, ways: Sequence[Bone]) -> tuple[Rows, Floats, Floats]:
+def inserted(rows: Rows, where: Floats, ways: Sequence[CornerRelief]) -> tuple[Rows, Floats, Floats]:
     """Return (rows, how far along each is, 1 for those of dog-bones) of a path that goes into its corners and back.
 
     Args:
-        rows, where: as of `Path.span`.
+        rows, where: as of `ContourPath.span`.
     """
     if not ways:
         return rows, where, np.zeros(len(rows))
-    ends = {bone.corner: bone.end for bone in ways}
+    ends = {relief.corner: relief.end for relief in ways}
     made, along, marks = [], [], []
     for row, place in zip(rows, where.tolist(), strict=True):
         made.append(row)
@@ -157,12 +157,12 @@ def inserted(rows: Rows, where: Floats, ways: Sequence[Bone]) -> tuple[Rows, Flo
     return np.array(made), np.array(along), np.array(marks)
 
 
-def recorded(ways: Iterable[Bone], diameter: float) -> list[DogBone]:
+def recorded(ways: Iterable[CornerRelief], diameter: float) -> list[DogBone]:
     """Return the record of ways into corners."""
-    return [DogBone(*bone.corner, *bone.end, diameter) for bone in ways]
+    return [DogBone(*relief.corner, *relief.end, diameter) for relief in ways]
 
 
-def about_refused(refused: Sequence[tuple[float, float]]) -> list[Finding]:
+def refused_relief_findings(refused: Sequence[tuple[float, float]]) -> list[Finding]:
     """Return one remark about corners that stay without."""
     if not refused:
         return []

@@ -15,11 +15,11 @@ import numpy as np
 
 from ...geometry.distance import DistanceField
 from ...geometry.near_points import nearest
-from ...geometry.offset.offset import Level
+from ...geometry.offset.offset import OffsetLevel
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import TURN, Indices, Rows, lengths, path_length, points_at, sweeps
 from ...toolpath.leads.contour_path import Floats, fractions_at, headings_at, left_of
-from ...toolpath.sheets import Sheet
+from ...toolpath.machining_areas import MachiningArea
 
 _LEAST = 1e-3
 """mm; shorter gaps are the paths' own error."""
@@ -45,7 +45,7 @@ _BESIDE = 0.35
 
 
 @dataclass(frozen=True, eq=False)
-class Gap:
+class WallGap:
     """A run of wall that the cutter does not touch, in the wall's direction: the area to machine on its left.
 
     Attributes:
@@ -87,14 +87,14 @@ class Gap:
         return bool(self.left.sum() <= _BOTTOM or self.left.max() >= self.left.sum() - _BESIDE)
 
 
-def gaps(level: Level, sheet: Sheet) -> list[Gap]:
+def gaps(level: OffsetLevel, area: MachiningArea) -> list[WallGap]:
     """Return all gaps in the walls of regions that a level's rings are in; clamps and the frame are no walls."""
     if not level.rings:
         return []
     known = {ring.region for ring in level.rings}
-    spans = _covered(level, sheet)
-    chains = _chains(_uncovered(spans, sheet, known), sheet)
-    return _with_corners(_made(chains, sheet), level) if chains else []
+    spans = _covered(level, area)
+    chains = _chains(_uncovered(spans, area, known), area)
+    return _with_corners(_made(chains, area), level) if chains else []
 
 
 def feet(rows: Rows, fraction: float, distance: float) -> Floats:
@@ -104,42 +104,42 @@ def feet(rows: Rows, fraction: float, distance: float) -> Floats:
     return touched
 
 
-def _covered(level: Level, sheet: Sheet) -> tuple[Indices, Floats, Floats]:
+def _covered(level: OffsetLevel, area: MachiningArea) -> tuple[Indices, Floats, Floats]:
     """Return (wall row, from, to) of what each row of a level's rings covers of the walls, sorted by both."""
     rings, distance = np.concatenate([ring.rows for ring in level.rings]), level.distance
     region = np.repeat([ring.region for ring in level.rings], [len(ring.rows) for ring in level.rings])
-    walls = sheet.distances.rows
-    row = _touched(feet(rings, 0.5, distance), region, sheet)
+    walls = area.distances.rows
+    row = _touched(feet(rings, 0.5, distance), region, area)
     a, b = (fractions_at(walls[row], feet(rings, part, distance)) for part in (0.0, 1.0))
     low, high = np.minimum(a, b), np.maximum(a, b)
     order = np.lexsort((low, row))
     return row[order], low[order], high[order]
 
 
-def _touched(points: Floats, region: Indices, sheet: Sheet) -> Indices:
+def _touched(points: Floats, region: Indices, area: MachiningArea) -> Indices:
     """Return the wall row (n,) that each point lies on: where walls of two regions lie on each other, that of its own
     region.
     """
-    row: Indices = sheet.distances.nearest(points)[1].copy()
-    owner = sheet.primitives.region
+    row: Indices = area.distances.nearest(points)[1].copy()
+    owner = area.primitives.region
     for each in np.unique(region[owner[row] != region]).tolist():
         own = np.flatnonzero(owner == each)
-        asked = np.flatnonzero((region == each) & (owner[row] != each))
+        requested = np.flatnonzero((region == each) & (owner[row] != each))
         if len(own):
-            off, which = DistanceField.of(sheet.distances.rows[own]).nearest(points[asked])[:2]
-            row[asked[off < _SAME]] = own[which[off < _SAME]]
+            off, which = DistanceField.of(area.distances.rows[own]).nearest(points[requested])[:2]
+            row[requested[off < _SAME]] = own[which[off < _SAME]]
     return row
 
 
 def _uncovered(
-    spans: tuple[Indices, Floats, Floats], sheet: Sheet, known: set[int]
+    spans: tuple[Indices, Floats, Floats], area: MachiningArea, known: set[int]
 ) -> dict[int, list[tuple[float, float]]]:
     """Return for each row of the walls of some regions the parts of it that no span covers."""
     row, low, high = spans
-    size = lengths(sheet.distances.rows)
+    size = lengths(area.distances.rows)
     bounds = np.searchsorted(row, np.arange(len(size) + 1))
     found: dict[int, list[tuple[float, float]]] = {}
-    for k in np.flatnonzero(~sheet.bare & np.isin(sheet.primitives.region, list(known))).tolist():
+    for k in np.flatnonzero(~area.bare & np.isin(area.primitives.region, list(known))).tolist():
         least, at, free = _LEAST / max(size[k], 1e-300), 0.0, []
         for j in range(bounds[k], bounds[k + 1]):
             if low[j] - at > least:
@@ -152,10 +152,10 @@ def _uncovered(
     return found
 
 
-def _chains(free: dict[int, list[tuple[float, float]]], sheet: Sheet) -> list[list[tuple[int, float, float]]]:
+def _chains(free: dict[int, list[tuple[float, float]]], area: MachiningArea) -> list[list[tuple[int, float, float]]]:
     """Return runs of (row, from, to) that go on from row to row of the walls."""
-    following = np.empty(len(sheet.primitives.previous), np.int64)
-    following[sheet.primitives.previous] = np.arange(len(following))
+    following = np.empty(len(area.primitives.previous), np.int64)
+    following[area.primitives.previous] = np.arange(len(following))
 
     def begins(row: int) -> bool:
         return row in free and free[row][0][0] == 0.0
@@ -178,7 +178,7 @@ def _chains(free: dict[int, list[tuple[float, float]]], sheet: Sheet) -> list[li
 
     for row, parts in free.items():
         for k in range(len(parts)):
-            if k or not (begins(row) and ends(int(sheet.primitives.previous[row]))):
+            if k or not (begins(row) and ends(int(area.primitives.previous[row]))):
                 if k == 0:
                     used.add(row)
                 chains.append(chain_from(row, k))
@@ -189,25 +189,25 @@ def _chains(free: dict[int, list[tuple[float, float]]], sheet: Sheet) -> list[li
     return chains
 
 
-def _made(chains: Sequence[Sequence[tuple[int, float, float]]], sheet: Sheet) -> list[Gap]:
+def _made(chains: Sequence[Sequence[tuple[int, float, float]]], area: MachiningArea) -> list[WallGap]:
     """Return the gap that each run of parts of walls is, of those that are long enough."""
     parts = np.array([part for chain in chains for part in chain])
     first = np.append(0, np.cumsum([len(chain) for chain in chains]))
     walls, low, high = parts[:, 0].astype(np.int64), parts[:, 1], parts[:, 2]
-    rows = sheet.distances.rows[walls]
+    rows = area.distances.rows[walls]
     end = np.where((high == 1.0)[:, None], rows[:, 2:4], points_at(rows, high))
     rows[:, :2], rows[:, 2:4] = points_at(rows, low), end
-    following = np.empty(len(sheet.primitives.previous), np.int64)
-    following[sheet.primitives.previous] = np.arange(len(following))
-    bare = (low == 0.0) & sheet.bare[sheet.primitives.previous[walls]], (high == 1.0) & sheet.bare[following[walls]]
+    following = np.empty(len(area.primitives.previous), np.int64)
+    following[area.primitives.previous] = np.arange(len(following))
+    bare = (low == 0.0) & area.bare[area.primitives.previous[walls]], (high == 1.0) & area.bare[following[walls]]
     joints = np.maximum(_turns(rows[:-1], rows[1:]), 0.0)
     bends = np.where(rows[:, TURN] > 0, sweeps(rows), 0.0)
     long = np.add.reduceat(lengths(rows), first[:-1]) > _LEAST
     return [
-        Gap(
+        WallGap(
             rows[a:b],
             tuple(walls[a:b].tolist()),
-            int(sheet.primitives.region[walls[b - 1]]),
+            int(area.primitives.region[walls[b - 1]]),
             bool(bare[0][a] or bare[1][b - 1]),
             np.concatenate([joints[a : b - 1], bends[a:b]]),
         )
@@ -215,7 +215,7 @@ def _made(chains: Sequence[Sequence[tuple[int, float, float]]], sheet: Sheet) ->
     ]
 
 
-def _with_corners(found: Sequence[Gap], level: Level) -> list[Gap]:
+def _with_corners(found: Sequence[WallGap], level: OffsetLevel) -> list[WallGap]:
     """Return the gaps, each with the place where a ring turns from before it to behind it."""
     before, behind, joints, turn = _joints(Outlines.joined([ring.rows for ring in level.rings]), level.distance)
     jump = np.hypot(*(before - behind).T) > _JUMP

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.progress import Progress
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level, Ring, offset_levels
+from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import TURN, lengths, reversed_rows
 from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
@@ -21,19 +21,28 @@ from ...model.stock_box import stock_box
 from ...model.tool import Tool
 from ...toolpath.bitmap_check import check_on_bitmap
 from ...toolpath.build import Stroke, started_at
-from ...toolpath.leads.contour_path import Path
-from ...toolpath.leads.lead import Around, Run, about_leads, about_overlaps, runs
-from ...toolpath.leads.tab import TabShape, about_far, about_tabs, about_unheld, by_hand, spans_of, spread, tabs_at
-from ...toolpath.narrow import finest, too_small
+from ...toolpath.leads.contour_path import ContourPath
+from ...toolpath.leads.lead import LeadContext, PathWithLeads, lead_findings, overlap_findings, runs
+from ...toolpath.leads.tab import (
+    TabShape,
+    by_hand,
+    far_tab_findings,
+    spans_of,
+    spread,
+    tab_findings,
+    tabs_at,
+    unheld_findings,
+)
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas
+from ...toolpath.narrow_regions import finest, too_small
+from ...toolpath.operation_context import OperationContext, emit, passes_of
 from ...toolpath.selected import selected
-from ...toolpath.setting import Setting, emit, passes_of
-from ...toolpath.sheets import Sheet, Sheets
 from ...toolpath.side import wall_paths
 from ..engrave.open_line import line_paths
-from .dogbone import Bone, about_refused, bones, recorded
-from .fit import about_clamps, about_narrow, narrow_places
-from .gaps import Gap, gaps
-from .stroke import Extras, strokes_of
+from .dogbone import CornerRelief, corner_reliefs, recorded, refused_relief_findings
+from .gaps import WallGap, gaps
+from .narrow_places import clamp_findings, narrow_place_findings, narrow_places
+from .stroke import StrokeExtras, strokes_of
 
 _FAR = 4.0
 """Finish widths; where a finish path is farther than this from what was roughed, it is cut at all depths."""
@@ -43,13 +52,13 @@ _THIN = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class _Work:
+class _ContourJob:
     """A contour operation and what it works on."""
 
-    setting: Setting
+    context: OperationContext
     index: int
     operation: ContourOperation
-    sheet: Sheet
+    area: MachiningArea
     tool: Tool
 
     @property
@@ -62,27 +71,27 @@ class _Work:
         """True when the metal left for finishing is too wide to be cut at the full depth in one pass, where there are
         several.
         """
-        return passes_of(self.setting, self.index) > 1 and self.operation.finish_width > _THIN * self.tool.diameter * (
+        return passes_of(self.context, self.index) > 1 and self.operation.finish_width > _THIN * self.tool.diameter * (
             1 + 1e-9
         )
 
-    def around(self, distance: float) -> Around:
+    def around(self, distance: float) -> LeadContext:
         """Return what leads of paths at a distance from the walls go by."""
         away = 1.0 if self.operation.cut.direction is Direction.CLIMB else -1.0
         lead = Lead(LeadKind.NONE) if self.operation.side is Side.ON else self.operation.lead
-        return Around(self.sheet.distances, self.tool, distance, away, lead)
+        return LeadContext(self.area.distances, self.tool, distance, away, lead)
 
 
 @dataclass(frozen=True, eq=False)
-class _Made:
+class _ContourStrokes:
     """Paths with their beginnings and leads, their strokes, and where their tabs are, mm along each."""
 
-    runs: tuple[Run, ...]
+    runs: tuple[PathWithLeads, ...]
     strokes: tuple[Stroke, ...]
     tabs: tuple[tuple[float, ...], ...]
 
 
-def contour(setting: Setting, index: int, progress: Progress) -> None:
+def contour(context: OperationContext, index: int, progress: Progress) -> None:
     """Steps 120 and 130: offset every contour by the contour tool's radius, and fill the area it bounds; or follow the
     lines.
 
@@ -90,34 +99,32 @@ def contour(setting: Setting, index: int, progress: Progress) -> None:
     before them. A finish pass follows what was roughed at the finish width; spring passes run the last path again, at
     the floor.
     """
-    operation = setting.job.operations[index]
+    operation = context.job.operations[index]
     assert isinstance(operation, ContourOperation)
-    sheet = setting.sheets.of(operation)
-    if sheet is None:
+    area = context.areas.of(operation)
+    if area is None:
         return
-    work = _Work(setting, index, operation, sheet, setting.job.tool(operation.cut.tool))
+    work = _ContourJob(context, index, operation, area, context.job.tool(operation.cut.tool))
     rough = None
     if operation.side is Side.ON:
-        paths, told = line_paths(sheet, work.tool, operation.cut.direction, progress.part(0.0, 0.5))
-        setting.findings.extend(told)
+        paths, reported = line_paths(area, work.tool, operation.cut.direction, progress.part(0.0, 0.5))
+        context.findings.extend(reported)
         finish = _finish(work, paths, ())
     else:
         levels = _levels(work, progress.part(0.0, 0.5))
         found = _looked_at(work, levels[0], progress)
-        paths = wall_paths(levels[0], sheet, operation.cut.direction)
+        paths = wall_paths(levels[0], area, operation.cut.direction)
         finish = _finish(work, paths, _bones(work, found, levels[0], progress))
         if len(levels) > 1:
-            ways = _bones(work, gaps(levels[1], sheet), levels[1], progress) if operation.dog_bones else ()
-            rough = _rough(
-                work, wall_paths(levels[1], sheet, operation.cut.direction), levels[1].distance, finish, ways
-            )
-            setting.findings.extend(_about_thick(work))
-    setting.findings.extend(about_overlaps(finish.runs, work.around(work.wall)))
+            ways = _bones(work, gaps(levels[1], area), levels[1], progress) if operation.dog_bones else ()
+            rough = _rough(work, wall_paths(levels[1], area, operation.cut.direction), levels[1].distance, finish, ways)
+            context.findings.extend(_about_thick(work))
+    context.findings.extend(overlap_findings(finish.runs, work.around(work.wall)))
     progress.step(0.7, "Contours")
-    emit(setting, index, sheet, _together(work, finish, rough), progress.part(0.7, 1.0))
+    emit(context, index, area, _together(work, finish, rough), progress.part(0.7, 1.0))
 
 
-def _about_thick(work: _Work) -> list[Finding]:
+def _about_thick(work: _ContourJob) -> list[Finding]:
     """Return the remark that the finish pass is stepped down though it was asked for once, at the floor."""
     if work.operation.finish_each_pass or not work.is_thick:
         return []
@@ -129,33 +136,33 @@ def _about_thick(work: _Work) -> list[Finding]:
     return [Finding(FindingKind.ENGAGEMENT, text, counts=False, amount=width)]
 
 
-def _levels(work: _Work, progress: Progress) -> tuple[Level, ...]:
+def _levels(work: _ContourJob, progress: Progress) -> tuple[OffsetLevel, ...]:
     width = work.operation.finish_width
     levels = (
-        (work.sheet.frame(work.wall, progress),)
+        (work.area.frame(work.wall, progress),)
         if not width
-        else offset_levels(work.sheet.primitives, [work.wall, work.wall + width], progress, frame=True)
+        else offset_levels(work.area.primitives, [work.wall, work.wall + width], progress, frame=True)
     )
-    work.setting.note(levels)
+    work.context.note(levels)
     return levels
 
 
-def _looked_at(work: _Work, level: Level, progress: Progress) -> list[Gap]:
+def _looked_at(work: _ContourJob, level: OffsetLevel, progress: Progress) -> list[WallGap]:
     """Return what of the walls the cutter does not touch; say where it does not fit, and whether the bitmap agrees
     (step 130).
     """
-    setting, sheet = work.setting, work.sheet
+    context, area = work.context, work.area
     progress.step(0.5, "Fill")
-    setting.on_bitmap = check_on_bitmap(sheet.distances, level, setting.observer)
-    setting.findings.extend(setting.on_bitmap.findings())
-    found, told = about_walls(setting.sheets, work.operation, sheet, level)
-    setting.findings.extend(told)
+    context.on_bitmap = check_on_bitmap(area.distances, level, context.observer)
+    context.findings.extend(context.on_bitmap.findings())
+    found, reported = wall_findings(context.areas, work.operation, area, level)
+    context.findings.extend(reported)
     return found
 
 
-def about_walls(
-    sheets: Sheets, operation: ContourOperation, sheet: Sheet, level: Level
-) -> tuple[list[Gap], list[Finding]]:
+def wall_findings(
+    areas: MachiningAreas, operation: ContourOperation, area: MachiningArea, level: OffsetLevel
+) -> tuple[list[WallGap], list[Finding]]:
     """Return what of the walls an operation's cutter does not touch, and what there is to say of it: regions, necks and
     slots, clamps.
 
@@ -165,61 +172,69 @@ def about_walls(
     Args:
         level: the rings of its centre.
     """
-    job, drawn, tool = sheets.job, sheets.drawn, sheets.job.tool(operation.cut.tool)
-    found = gaps(level, sheet)
-    places = narrow_places(found, sheet, level.distance)
+    job, drawn, tool = areas.job, areas.drawn, areas.job.tool(operation.cut.tool)
+    found = gaps(level, area)
+    places = narrow_places(found, area, level.distance)
     least = finest(job, operation)
     counts = operation.side is Side.OUTSIDE and least >= 2 * level.distance - 1e-9
     walls = selected(drawn, operation.cut.curves).closed
-    told = [
-        *too_small(sheet.regions, level, tool, least),
-        *about_narrow(places, tool, level.distance, counts),
-        *about_clamps(places, walls, drawn.clamps, tool),
+    reported = [
+        *too_small(area.regions, level, tool, least),
+        *narrow_place_findings(places, tool, level.distance, counts),
+        *clamp_findings(places, walls, drawn.clamps, tool),
     ]
-    return found, told
+    return found, reported
 
 
-def _bones(work: _Work, found: Sequence[Gap], level: Level, progress: Progress) -> tuple[Bone, ...]:
+def _bones(
+    work: _ContourJob, found: Sequence[WallGap], level: OffsetLevel, progress: Progress
+) -> tuple[CornerRelief, ...]:
     if not work.operation.dog_bones:
         return ()
-    made, refused = bones(found, work.sheet, level.distance, progress)
-    work.setting.dog_bones.extend(recorded(made, work.tool.diameter))
-    work.setting.findings.extend(about_refused(refused))
+    made, refused = corner_reliefs(found, work.area, level.distance, progress)
+    work.context.dog_bones.extend(recorded(made, work.tool.diameter))
+    work.context.findings.extend(refused_relief_findings(refused))
     return made
 
 
-def _finish(work: _Work, paths: Sequence[Path], ways: Sequence[Bone]) -> _Made:
+def _finish(work: _ContourJob, paths: Sequence[ContourPath], ways: Sequence[CornerRelief]) -> _ContourStrokes:
     """Return the paths along the walls themselves, with tabs by hand and automatic ones."""
-    setting, wanted = work.setting, work.operation.tabs
+    context, requested = work.context, work.operation.tabs
     shape = TabShape.of(work.operation, work.tool)
-    own, left_out = by_hand(paths, shape, setting.job.copies.shifts, _followed(work, paths))
-    setting.findings.extend(left_out)
+    own, left_out = by_hand(paths, shape, context.job.copies.shifts, _followed(work, paths))
+    context.findings.extend(left_out)
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, own, strict=True)]
     around = work.around(work.wall)
     made = runs(paths, taken, around)
     tabs = tuple((*places, *spread(run, places, shape, around)) for run, places in zip(made, own, strict=True))
-    setting.findings.extend(about_leads(made, around))
-    if wanted.wanted:
-        setting.findings.extend(about_far(paths, shape, setting.job.copies.shifts))
-        setting.findings.extend(about_tabs(made, tabs, shape, work.operation))
+    context.findings.extend(lead_findings(made, around))
+    if requested.enabled:
+        context.findings.extend(far_tab_findings(paths, shape, context.job.copies.shifts))
+        context.findings.extend(tab_findings(made, tabs, shape, work.operation))
         bridges = [tab for run, places in zip(made, tabs, strict=True) for tab in tabs_at(run.path, places, shape)]
-        setting.tabs.extend(bridges)
+        context.tabs.extend(bridges)
         walls = _followed(work, paths)
         if work.operation.side is Side.OUTSIDE and walls is not None:
-            box = stock_box(setting.job, setting.regions)
-            setting.findings.extend(about_unheld(bridges, walls, box))
-    extras = Extras(shape.half, shape.top, ways)
-    return _Made(made, strokes_of(made, tabs, extras), tabs)
+            box = stock_box(context.job, context.regions)
+            context.findings.extend(unheld_findings(bridges, walls, box))
+    extras = StrokeExtras(shape.half, shape.top, ways)
+    return _ContourStrokes(made, strokes_of(made, tabs, extras), tabs)
 
 
-def _followed(work: _Work, paths: Sequence[Path]) -> DistanceField | None:
+def _followed(work: _ContourJob, paths: Sequence[ContourPath]) -> DistanceField | None:
     """Return what the paths follow: real walls, or themselves."""
     if work.operation.side is not Side.ON:
-        return DistanceField.of(work.sheet.distances.rows[~work.sheet.bare]) if not work.sheet.bare.all() else None
+        return DistanceField.of(work.area.distances.rows[~work.area.bare]) if not work.area.bare.all() else None
     return DistanceField.of(np.concatenate([path.rows for path in paths])) if paths else None
 
 
-def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, ways: Sequence[Bone]) -> _Made:
+def _rough(
+    work: _ContourJob,
+    paths: Sequence[ContourPath],
+    distance: float,
+    finish: _ContourStrokes,
+    ways: Sequence[CornerRelief],
+) -> _ContourStrokes:
     """Return the paths that leave the finish width, with their tabs where the finish path has its own."""
     shape = TabShape.of(work.operation, work.tool)
     width = work.operation.finish_width
@@ -235,15 +250,15 @@ def _rough(work: _Work, paths: Sequence[Path], distance: float, finish: _Made, w
                 tabs[owner].append(float(near[owner][0][k]))
     taken = [spans_of(path, places, shape.half) for path, places in zip(paths, tabs, strict=True)]
     made = runs(paths, taken, work.around(distance), _beginnings(paths, finish, _FAR * width))
-    extras = Extras(shape.half, shape.top, ways)
-    return _Made(
+    extras = StrokeExtras(shape.half, shape.top, ways)
+    return _ContourStrokes(
         made,
         strokes_of(made, tabs, extras),
         tuple(map(tuple, tabs)),
     )
 
 
-def _beginnings(paths: Sequence[Path], finish: _Made, most: float) -> list[list[float]]:
+def _beginnings(paths: Sequence[ContourPath], finish: _ContourStrokes, most: float) -> list[list[float]]:
     """Return for each path that is roughed where finish paths begin beside it, so that the leads of both lie over one
     another.
     """
@@ -256,7 +271,7 @@ def _beginnings(paths: Sequence[Path], finish: _Made, most: float) -> list[list[
     return wished
 
 
-def _together(work: _Work, finish: _Made, rough: _Made | None) -> list[Stroke]:
+def _together(work: _ContourJob, finish: _ContourStrokes, rough: _ContourStrokes | None) -> list[Stroke]:
     """Return all strokes in groups: what is roughed, its finish path, and that once more for each spring pass.
 
     Paths that lie in others have a lower rank, so that a part is cut out last. A finish path that does not run beside
@@ -278,7 +293,7 @@ def _together(work: _Work, finish: _Made, rough: _Made | None) -> list[Stroke]:
     return strokes
 
 
-def _owners(finish: _Made, rough: _Made) -> list[int]:
+def _owners(finish: _ContourStrokes, rough: _ContourStrokes) -> list[int]:
     """Return for each path that is roughed which finish path it belongs to: the nearest."""
     if not rough.runs:
         return []
@@ -287,7 +302,7 @@ def _owners(finish: _Made, rough: _Made) -> list[int]:
     return [int(k) for k in np.argmin(far, axis=0)]
 
 
-def _beside(finish: Sequence[Run], rough: Sequence[Run], width: float) -> list[bool]:
+def _beside(finish: Sequence[PathWithLeads], rough: Sequence[PathWithLeads], width: float) -> list[bool]:
     """Tell for each finish path whether all of it runs beside what was roughed."""
     if not rough:
         return [False] * len(finish)

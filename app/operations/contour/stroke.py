@@ -10,10 +10,10 @@ import numpy as np
 from ...geometry.primitives import Rows
 from ...model.moves import Purpose
 from ...toolpath.build import Stroke
-from ...toolpath.leads.contour_path import Floats, Path, Paths
-from ...toolpath.leads.lead import Run
+from ...toolpath.leads.contour_path import ContourPath, ContourPaths, Floats
+from ...toolpath.leads.lead import PathWithLeads
 from ...toolpath.leads.tab import spans_of, under_tabs
-from .dogbone import Bone, inserted
+from .dogbone import CornerRelief, inserted
 
 _NONE = np.zeros(0)
 
@@ -22,21 +22,23 @@ _POINT = 0.01
 
 
 @dataclass(frozen=True)
-class Extras:
+class StrokeExtras:
     """What a path along a wall goes over and into.
 
     Attributes:
         half: how far before and behind its middle a path goes over a tab, mm.
         top: height of tabs, mm.
-        bones: ways into corners.
+        corner_reliefs: ways into corners.
     """
 
     half: float = 0.0
     top: float = 0.0
-    bones: Sequence[Bone] = ()
+    corner_reliefs: Sequence[CornerRelief] = ()
 
 
-def strokes_of(runs: Sequence[Run], tabs: Sequence[Sequence[float]], extras: Extras) -> tuple[Stroke, ...]:
+def strokes_of(
+    runs: Sequence[PathWithLeads], tabs: Sequence[Sequence[float]], extras: StrokeExtras
+) -> tuple[Stroke, ...]:
     """Return the strokes of some paths.
 
     Args:
@@ -44,7 +46,7 @@ def strokes_of(runs: Sequence[Run], tabs: Sequence[Sequence[float]], extras: Ext
     """
     if not runs:
         return ()
-    joined = Paths.of([run.path for run in runs])
+    joined = ContourPaths.of([run.path for run in runs])
     spans = [spans_of(run.path, places, extras.half) if places else [] for run, places in zip(runs, tabs, strict=True)]
     start, stop = np.array([run.start for run in runs]), np.array([run.stop for run in runs])
     point = joined.lengths < _POINT
@@ -62,16 +64,18 @@ def strokes_of(runs: Sequence[Run], tabs: Sequence[Sequence[float]], extras: Ext
     return tuple(strokes)
 
 
-def _stroke(run: Run, cut: tuple[Rows, Floats], spans: Sequence[tuple[float, float]], extras: Extras) -> Stroke:
+def _stroke(
+    run: PathWithLeads, cut: tuple[Rows, Floats], spans: Sequence[tuple[float, float]], extras: StrokeExtras
+) -> Stroke:
     """Return the stroke of a path.
 
     Args:
         cut: its rows from beginning to end, and how far along the middle of each is, mm.
         spans: (from, to) of its tabs, mm.
     """
-    rows, where, bone = inserted(*cut, extras.bones)
+    rows, where, relief = inserted(*cut, extras.corner_reliefs)
     over = under_tabs(run.path, where, spans)
-    purpose = np.where(bone, Purpose.DOG_BONE, np.where(over, Purpose.TAB, Purpose.CONTOUR))
+    purpose = np.where(relief, Purpose.DOG_BONE, np.where(over, Purpose.TAB, Purpose.CONTOUR))
     ends = [np.full(len(way), Purpose.LEAD) for way in (run.way_in, run.way_out)]
     least_z = None
     if over.any():
@@ -85,6 +89,6 @@ def _stroke(run: Run, cut: tuple[Rows, Floats], spans: Sequence[tuple[float, flo
     )
 
 
-def _breaks(path: Path, spans: Sequence[tuple[float, float]]) -> Floats:
+def _breaks(path: ContourPath, spans: Sequence[tuple[float, float]]) -> Floats:
     ends = np.array([end for span in spans for end in span], dtype=np.float64)
     return ends % path.length if path.closed else ends

@@ -7,14 +7,14 @@ from collections.abc import Iterable
 from ...model.finding import Finding
 from ...model.operation import DrillOperation, Operation
 from ...toolpath.drill_holes import holes_of
-from ...toolpath.sheets import Sheet, Sheets
-from ..registry import Way, register
-from .paths import about_holes, drill
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas
+from ..registry import OperationMethod, register
+from .paths import drill, hole_findings
 
 
-def _missed(sheets: Sheets, operation: Operation, _: Sheet | None) -> Iterable[Finding]:
+def _missed(areas: MachiningAreas, operation: Operation, _: MachiningArea | None) -> Iterable[Finding]:
     assert isinstance(operation, DrillOperation)
-    return about_holes(holes_of(sheets.job, sheets.drawn, operation), sheets.job, operation)
+    return hole_findings(holes_of(areas.job, areas.drawn, operation), areas.job, operation)
 
 
-register(DrillOperation, Way(drill, _missed))
+register(DrillOperation, OperationMethod(drill, _missed))

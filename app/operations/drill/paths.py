@@ -15,10 +15,10 @@ from ...model.job import Job
 from ...model.moves import Purpose
 from ...model.operation import DrillOperation
 from ...model.tool import Tool
-from ...toolpath.build import Label, Stroke
-from ...toolpath.drill_holes import ALIKE, Hole, Holes, holes_of, tip_depth, tip_length
+from ...toolpath.build import Stroke, StrokeLabel
+from ...toolpath.drill_holes import ALIKE, CircleHole, DrillHoles, holes_of, tip_depth, tip_length
+from ...toolpath.operation_context import OperationContext
 from ...toolpath.ordering.tour import in_short_order
-from ...toolpath.setting import Setting
 
 _PECK_GAP = 0.254
 """mm above where the last peck ended that the drill goes down to at rapid rate: 0.01 inch, as LinuxCNC's own cycle has
@@ -29,7 +29,7 @@ _NAMED = 6
 """Diameters that a finding names."""
 
 
-def drill(setting: Setting, index: int, progress: Progress) -> None:
+def drill(context: OperationContext, index: int, progress: Progress) -> None:
     """Drill every circle that the operation's drill is for: rapids over it and down to the retract height, then at
     plunge rate.
 
@@ -40,7 +40,7 @@ def drill(setting: Setting, index: int, progress: Progress) -> None:
         ParameterError: it is deeper than the stock.
         Cancelled: by progress.
     """
-    job = setting.job
+    job = context.job
     operation = job.operations[index]
     assert isinstance(operation, DrillOperation)
     progress.step(0.0, "Looking for circles")
@@ -49,17 +49,17 @@ def drill(setting: Setting, index: int, progress: Progress) -> None:
             f"Depth is {operation.cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; "
             "reduce the depth, or let the drill go through below it."
         )
-    holes, tool = holes_of(job, setting.sheets.drawn, operation), job.tool(operation.cut.tool)
-    setting.findings.extend(about_holes(holes, job, operation))
+    holes, tool = holes_of(job, context.areas.drawn, operation), job.tool(operation.cut.tool)
+    context.findings.extend(hole_findings(holes, job, operation))
     strokes = [_as_stroke(hole) for hole in holes.drilled]
-    label = Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
+    label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
     stops = tuple(_stops(operation, job))
-    for stroke in in_short_order(strokes, setting.at, progress):
-        _drill_hole(setting, stroke.start, stops, label)
-        setting.at = stroke.start
+    for stroke in in_short_order(strokes, context.at, progress):
+        _drill_hole(context, stroke.start, stops, label)
+        context.at = stroke.start
 
 
-def _as_stroke(hole: Hole) -> Stroke:
+def _as_stroke(hole: CircleHole) -> Stroke:
     """Return a hole as a stroke without a length, for the tour."""
     return Stroke(
         np.array([[hole.x, hole.y, hole.x, hole.y, 0.0, 0.0, 0.0, 0.0]]), np.array([Purpose.DRILL], np.uint8), 0
@@ -79,8 +79,10 @@ def _stops(operation: DrillOperation, job: Job) -> Iterator[float]:
     yield bottom
 
 
-def _drill_hole(setting: Setting, place: tuple[float, float], stops: Sequence[float], label: Label) -> None:
-    job, builder = setting.job, setting.builder
+def _drill_hole(
+    context: OperationContext, place: tuple[float, float], stops: Sequence[float], label: StrokeLabel
+) -> None:
+    job, builder = context.job, context.builder
     builder.straight((*place, job.travel_z), Purpose.RAPID, label)
     if job.retract_z < job.travel_z:
         builder.straight((*place, job.retract_z), Purpose.RAPID, label)
@@ -93,7 +95,7 @@ def _drill_hole(setting: Setting, place: tuple[float, float], stops: Sequence[fl
     builder.straight((*place, job.travel_z), Purpose.RAPID, label)
 
 
-def about_holes(holes: Holes, job: Job, operation: DrillOperation) -> Iterator[Finding]:
+def hole_findings(holes: DrillHoles, job: Job, operation: DrillOperation) -> Iterator[Finding]:
     """Yield what is drilled how deep, and what is not."""
     tool = job.tool(operation.cut.tool)
     who = f"T{tool.number} {tool.label}"
@@ -137,7 +139,7 @@ def _names_them(operation: DrillOperation) -> bool:
     return bool(curves) and all(isinstance(each, CurveNumber | CirclesOf) for each in curves)
 
 
-def _widths(drilled: Sequence[Hole], tool: Tool) -> Iterator[Finding]:
+def _widths(drilled: Sequence[CircleHole], tool: Tool) -> Iterator[Finding]:
     """Yield that holes come out as wide as the drill, which is not as wide as they are drawn."""
     wrong = [hole for hole in drilled if abs(hole.diameter - tool.diameter) > 1e-3]
     if wrong:
@@ -167,11 +169,11 @@ def _tip(tool: Tool, job: Job, operation: DrillOperation) -> Finding:
     return Finding(FindingKind.ASSUMED, text, counts=False, amount=deep)
 
 
-def _counted(holes: Sequence[Hole]) -> str:
+def _counted(holes: Sequence[CircleHole]) -> str:
     return "1 circle" if len(holes) == 1 else f"{len(holes)} circles"
 
 
-def _diameters(holes: Sequence[Hole]) -> str:
+def _diameters(holes: Sequence[CircleHole]) -> str:
     """Return diameters in words, and how many of each."""
     counts = Counter(f"{hole.diameter:.3f}".rstrip("0").rstrip(".") for hole in holes)
     named = [f"{text} mm ({count})" for text, count in sorted(counts.items(), key=lambda item: float(item[0]))[:_NAMED]]

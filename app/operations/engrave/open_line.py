@@ -12,8 +12,8 @@ from ...geometry.primitives import Rows, contour_rows, lengths, points_at, rever
 from ...model.finding import Finding, FindingKind
 from ...model.operation import Direction
 from ...model.tool import Tool
-from ...toolpath.leads.contour_path import Floats, Path
-from ...toolpath.sheets import Sheet
+from ...toolpath.leads.contour_path import ContourPath, Floats
+from ...toolpath.machining_areas import MachiningArea
 from ...toolpath.side import ranks
 
 _FINEST = tolerances.LEVEL
@@ -24,8 +24,8 @@ _TELL = 50
 
 
 def line_paths(
-    sheet: Sheet, tool: Tool, direction: Direction, progress: Progress
-) -> tuple[tuple[Path, ...], list[Finding]]:
+    sheet: MachiningArea, tool: Tool, direction: Direction, progress: Progress
+) -> tuple[tuple[ContourPath, ...], list[Finding]]:
     """Return the paths on a sheet's lines, and what of them clamps cut off.
 
     Climb milling keeps what a closed contour encloses on the right, or, where an odd number of others lie round it, on
@@ -34,7 +34,7 @@ def line_paths(
     """
     loops = [contour for contour in sheet.lines if contour.closed]
     rank = dict(zip(map(id, loops), ranks([contour_rows(contour) for contour in loops]), strict=True))
-    paths: list[Path] = []
+    paths: list[ContourPath] = []
     cut_off: list[tuple[float, float, float]] = []
     for k, contour in enumerate(sheet.lines):
         progress.step(k / len(sheet.lines), "Lines")
@@ -44,7 +44,7 @@ def line_paths(
         clockwise = direction is Direction.CLIMB if depth % 2 == 0 else direction is not Direction.CLIMB
         wrong = (area > 0) == clockwise if contour.closed else direction is not Direction.CLIMB
         parts = -abs(area) if depth % 2 == 0 else abs(area)
-        whole = Path(
+        whole = ContourPath(
             reversed_rows(rows) if wrong else rows, contour.closed, 0, depth, parts, k + 1 if contour.closed else 0
         )
         kept, lost = _beside_clamps(whole, sheet, tool.radius)
@@ -53,9 +53,11 @@ def line_paths(
     return tuple(paths), _told(cut_off, tool)
 
 
-def _beside_clamps(path: Path, sheet: Sheet, radius: float) -> tuple[list[Path], list[tuple[float, float, float]]]:
+def _beside_clamps(
+    path: ContourPath, area: MachiningArea, radius: float
+) -> tuple[list[ContourPath], list[tuple[float, float, float]]]:
     """Return (what of a path is clear of clamps, (x, y, length) of what is not): by its name, as tools fit gaps."""
-    row, low, high = clear_parts(path.rows, sheet.distances, radius - tolerances.NOMINAL)
+    row, low, high = clear_parts(path.rows, area.distances, radius - tolerances.NOMINAL)
     size = lengths(path.rows)
     begin = path.ends - size
     starts, stops = begin[row] + low * size[row], begin[row] + high * size[row]
@@ -72,11 +74,11 @@ def _beside_clamps(path: Path, sheet: Sheet, radius: float) -> tuple[list[Path],
         spans = [*spans[1:-1], (spans[-1][0], length + spans[0][1])]
     elif path.closed and len(spans) == 1 and spans[0] == (0.0, length):
         return [path], []
-    kept = [Path(path.span(a, b, np.zeros(0))[0], False, 0, path.rank, path.area, path.loop) for a, b in spans]
+    kept = [ContourPath(path.span(a, b, np.zeros(0))[0], False, 0, path.rank, path.area, path.loop) for a, b in spans]
     return kept, _between(path, spans)
 
 
-def _between(path: Path, spans: list[tuple[float, float]]) -> list[tuple[float, float, float]]:
+def _between(path: ContourPath, spans: list[tuple[float, float]]) -> list[tuple[float, float, float]]:
     """Return (x, y, length) of each part of a path between some spans of it."""
     length = path.length
     if not spans:

@@ -15,7 +15,7 @@ from ...model.moves import MoveKind, Moves, Purpose
 from ...model.scene import Strategy
 from ...model.tool import Tool
 from ...surfaces.passes.path import Follower
-from ...surfaces.sections.compound import NO_SURFACE, Compound, Run
+from ...surfaces.sections.compound import NO_SURFACE, CompoundSurface, SectionRun
 
 Floats = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ LEAST_PLUNGE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Milling:
+class PassFamily:
     """One family of passes, ready to be milled.
 
     Attributes:
@@ -36,7 +36,7 @@ class Milling:
         strategy: order of passes. link_gap: ends nearer than this are joined over the surface, mm.
     """
 
-    path: Compound
+    path: CompoundSurface
     follower: Follower
     tool: Tool
     strategy: Strategy
@@ -56,7 +56,7 @@ class SurfaceMoves:
     surface: NDArray[np.int64]
 
 
-def surface_moves(families: Sequence[Milling], clearance: float, approach: float) -> SurfaceMoves:
+def surface_moves(families: Sequence[PassFamily], clearance: float, approach: float) -> SurfaceMoves:
     """Return everything that is milled, in order.
 
     Args:
@@ -92,7 +92,7 @@ class _Row:
     surface: int = NO_SURFACE
 
 
-def _milled(family: Milling, number: int, clearance: float, approach: float) -> Iterator[_Row]:
+def _milled(family: PassFamily, number: int, clearance: float, approach: float) -> Iterator[_Row]:
     """Yield the moves of one family."""
     tool = family.tool
     at: Floats | None = None
@@ -146,18 +146,18 @@ def plunging(points: Floats) -> NDArray[np.bool_]:
     return np.asarray(steep & (down[group] >= LEAST_PLUNGE))
 
 
-def _ordered(runs: Sequence[Run], strategy: Strategy) -> Iterator[Run]:
+def _ordered(runs: Sequence[SectionRun], strategy: Strategy) -> Iterator[SectionRun]:
     """Yield runs plane by plane; there and back, every other plane is run backwards."""
     planes = sorted({run.plane for run in runs})
     for turn, plane in enumerate(planes):
         here = [run for run in runs if run.plane == plane]
         if strategy is Strategy.ZIGZAG and turn % 2:
-            yield from (Run(run.plane, run.points[::-1], run.owner[::-1]) for run in reversed(here))
+            yield from (SectionRun(run.plane, run.points[::-1], run.owner[::-1]) for run in reversed(here))
         else:
             yield from here
 
 
-def _link(family: Milling, at: Floats | None, to: Floats) -> Floats | None:
+def _link(family: PassFamily, at: Floats | None, to: Floats) -> Floats | None:
     """Return the way (n, 3) over the surface to the next pass; None where it is too far, or has a gap."""
     if at is None or not 0 < math.dist(at[:2], to[:2]) <= family.link_gap:
         return None

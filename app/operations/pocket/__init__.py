@@ -7,21 +7,21 @@ from collections.abc import Iterable
 from ...model.finding import Finding
 from ...model.operation import Operation, PocketOperation
 from ...model.tool import Tool
-from ...toolpath.narrow import finest, too_small
-from ...toolpath.sheets import Sheet, Sheets
+from ...toolpath.machining_areas import MachiningArea, MachiningAreas
+from ...toolpath.narrow_regions import finest, too_small
 from ..effort import Workload, over_area
-from ..registry import Way, register
+from ..registry import OperationMethod, register
 from .paths import candidates, pocket, wall_distance
 
 
-def _missed(sheets: Sheets, operation: Operation, sheet: Sheet | None) -> Iterable[Finding]:
+def _missed(areas: MachiningAreas, operation: Operation, area: MachiningArea | None) -> Iterable[Finding]:
     """Return which regions are too small for the tool, where no contour goes along their walls."""
-    assert isinstance(operation, PocketOperation) and sheet is not None
-    if wall_distance(sheets.job, operation):
+    assert isinstance(operation, PocketOperation) and area is not None
+    if wall_distance(areas.job, operation):
         return ()
-    tool = sheets.job.tool(operation.cut.tool)
-    level = sheet.frame(tool.radius + operation.cut.stock_to_leave)
-    return too_small(sheet.regions, level, tool, finest(sheets.job, operation))
+    tool = areas.job.tool(operation.cut.tool)
+    level = area.frame(tool.radius + operation.cut.stock_to_leave)
+    return too_small(area.regions, level, tool, finest(areas.job, operation))
 
 
 def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
@@ -29,4 +29,4 @@ def _effort(extent: Workload, operation: Operation, tool: Tool) -> float:
     return over_area(extent, operation, tool, operation.stepover or candidates(tool.radius, extent.pieces)[0])
 
 
-register(PocketOperation, Way(pocket, _missed, _effort))
+register(PocketOperation, OperationMethod(pocket, _missed, _effort))

@@ -11,17 +11,17 @@ from ...core.errors import ParameterError
 from ...core.memory import ask
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level, offset_levels
+from ...geometry.offset.offset import OffsetLevel, offset_levels
 from ...geometry.primitives import path_length
 from ...model.job import Job
-from ...model.operation import Cut, PocketOperation, Side
+from ...model.operation import CutParameters, PocketOperation, Side
 from ...model.tool import Tool
 from ...toolpath.build import Stroke
-from ...toolpath.linking.link import Manner, link
-from ...toolpath.linking.runs import NOTHING, Filling, between, fill
-from ...toolpath.narrow import finest, necks, too_small
-from ...toolpath.setting import Setting, emit, passes_of
-from ...toolpath.sheets import Sheet
+from ...toolpath.linking.link import LinkOptions, link
+from ...toolpath.linking.runs import NOTHING, GapFilling, between, fill
+from ...toolpath.machining_areas import MachiningArea
+from ...toolpath.narrow_regions import finest, necks, too_small
+from ...toolpath.operation_context import OperationContext, emit, passes_of
 
 _SHARES = (1.6, 1.8, 1.7, 1.75, 1.65, 1.5, 1.4)
 """Of the radius: stepovers that are compared; the first is the best guess."""
@@ -42,48 +42,48 @@ _ABOUT = 0.005
 """mm; so exactly is the largest disc of a region known."""
 
 
-def pocket(setting: Setting, index: int, progress: Progress) -> None:
+def pocket(context: OperationContext, index: int, progress: Progress) -> None:
     """Steps 141-148: rings inside A', linked to one stroke a connected area."""
-    operation = setting.job.operations[index]
+    operation = context.job.operations[index]
     assert isinstance(operation, PocketOperation)
-    sheet, tool = setting.sheets.of(operation), setting.job.tool(operation.cut.tool)
-    if sheet is None:
+    area, tool = context.areas.of(operation), context.job.tool(operation.cut.tool)
+    if area is None:
         return
-    wall = wall_distance(setting.job, operation)
+    wall = wall_distance(context.job, operation)
     outermost = max(wall, operation.cut.stock_to_leave) + tool.radius
     stepovers = (
-        (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(sheet.primitives.rows))
+        (stepover_of(operation, tool),) if operation.stepover else candidates(tool.radius, len(area.primitives.rows))
     )
-    manner = Manner(operation.cut.direction, operation.outside_in)
-    chosen = shortest(sheet, Wanted(outermost, tool.radius, manner), stepovers, progress.part(0, 0.9))
-    setting.note((*chosen.levels, *chosen.filling.halves))
-    first = chosen.levels[0] if chosen.levels else Level(outermost, ())
-    small = too_small(sheet.regions, first, tool, 0.0 if wall else finest(setting.job, operation))
-    setting.findings.extend(each for each in small if not _left_to_contours(each.amount or 0.0, setting.job, operation))
-    setting.findings.extend(necks(first, sheet.primitives, sheet.distances, tool))
+    link_options = LinkOptions(operation.cut.direction, operation.outside_in)
+    chosen = shortest(area, PocketTarget(outermost, tool.radius, link_options), stepovers, progress.part(0, 0.9))
+    context.note((*chosen.levels, *chosen.filling.halves))
+    first = chosen.levels[0] if chosen.levels else OffsetLevel(outermost, ())
+    small = too_small(area.regions, first, tool, 0.0 if wall else finest(context.job, operation))
+    context.findings.extend(each for each in small if not _left_to_contours(each.amount or 0.0, context.job, operation))
+    context.findings.extend(necks(first, area.primitives, area.distances, tool))
     if chosen.strokes:
-        setting.stepovers[index] = chosen.stepover
-    setting.strokes += len(chosen.strokes) * passes_of(setting, index)
-    emit(setting, index, sheet, chosen.strokes, progress.part(0.9, 1.0))
+        context.stepovers[index] = chosen.stepover
+    context.strokes += len(chosen.strokes) * passes_of(context, index)
+    emit(context, index, area, chosen.strokes, progress.part(0.9, 1.0))
 
 
 @dataclass(frozen=True)
-class Wanted:
+class PocketTarget:
     """How an area is to be cleared.
 
     Attributes:
         outermost: distance of the outermost rings from the walls, mm.
         radius: of the tool, mm.
-        manner: direction and order.
+        link_options: direction and order.
     """
 
     outermost: float
     radius: float
-    manner: Manner
+    link_options: LinkOptions
 
 
 @dataclass(frozen=True, eq=False)
-class Cleared:
+class PocketStrokes:
     """Rings that clear an area, and the strokes through them.
 
     Attributes:
@@ -93,8 +93,8 @@ class Cleared:
         stepover: between the rings, mm.
     """
 
-    levels: tuple[Level, ...] = ()
-    filling: Filling = NOTHING
+    levels: tuple[OffsetLevel, ...] = ()
+    filling: GapFilling = NOTHING
     strokes: tuple[Stroke, ...] = ()
     length: float = 0.0
     linked: float = 0.0
@@ -108,7 +108,9 @@ def candidates(radius: float, rows: int) -> tuple[float, ...]:
     return tuple(share * radius for share in (_SHARES if rows <= MOST_COMPARED else _SHARES[:1]))
 
 
-def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress: Progress = NO_PROGRESS) -> Cleared:
+def shortest(
+    area: MachiningArea, target: PocketTarget, stepovers: Sequence[float], progress: Progress = NO_PROGRESS
+) -> PocketStrokes:
     """Return the shortest of the ways to clear an area, each with another stepover, that keep to the share of links if
     one does.
 
@@ -116,13 +118,13 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
         Cancelled: by progress.
     """
     plans = [
-        (spaced, between(spaced, stepover, wanted.radius))
+        (spaced, between(spaced, stepover, target.radius))
         for stepover in stepovers
-        if (spaced := pocket_distances(wanted.outermost, stepover, sheet.distances))
+        if (spaced := pocket_distances(target.outermost, stepover, area.distances))
     ]
     each = sorted({distance for plan in plans for part in plan for distance in part})
-    found = dict(zip(each, offset_levels(sheet.primitives, each, progress.part(0, 0.5), frame=True), strict=True))
-    best, too_far = Cleared(), math.inf
+    found = dict(zip(each, offset_levels(area.primitives, each, progress.part(0, 0.5), frame=True), strict=True))
+    best, too_far = PocketStrokes(), math.inf
     for k, (distances, halves) in enumerate(plans):
         progress.step(0.5 + 0.5 * k / len(plans), "Link rings")
         levels = without_empty(tuple(found[distance] for distance in distances))
@@ -132,13 +134,11 @@ def shortest(sheet: Sheet, wanted: Wanted, stepovers: Sequence[float], progress:
         if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
             continue
         filling = (
-            fill(levels, [found[distance] for distance in halves], sheet.distances, wanted.radius)
-            if halves
-            else NOTHING
+            fill(levels, [found[distance] for distance in halves], area.distances, target.radius) if halves else NOTHING
         )
-        strokes = link(levels, sheet.distances, wanted.manner, filling, 0.0 if halves else stepovers[k])
+        strokes = link(levels, area.distances, target.link_options, filling, 0.0 if halves else stepovers[k])
         length = sum(path_length(stroke.rows) for stroke in strokes)
-        made = Cleared(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
+        made = PocketStrokes(levels, filling, strokes, length, 1 - rings / length, stepovers[k])
         if not best.strokes or (made.linked > MOST_LINKED, length) < (best.linked > MOST_LINKED, best.length):
             best = made
         if made.linked > _FAR_TOO_LINKED:
@@ -155,7 +155,7 @@ def wall_distance(job: Job, operation: PocketOperation) -> float:
     return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
 
 
-def _followers(job: Job, operation: PocketOperation) -> list[Cut]:
+def _followers(job: Job, operation: PocketOperation) -> list[CutParameters]:
     """Return the contour operations inside the walls of the same curves, as deep."""
     cuts = (
         each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE
@@ -214,7 +214,7 @@ def pocket_distances(outermost: float, stepover: float, field: DistanceField) ->
     return tuple(outermost + k * stepover for k in range(count))
 
 
-def without_empty(levels: tuple[Level, ...]) -> tuple[Level, ...]:
+def without_empty(levels: tuple[OffsetLevel, ...]) -> tuple[OffsetLevel, ...]:
     """Return the levels up to the last one that has rings."""
     last = max((k for k, level in enumerate(levels) if level.rings), default=-1)
     return levels[: last + 1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...model.operation import RestOperation
-from ..registry import Way, register
+from ..registry import OperationMethod, register
 from .paths import rest
 
-register(RestOperation, Way(rest))
+register(RestOperation, OperationMethod(rest))

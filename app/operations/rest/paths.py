@@ -8,21 +8,30 @@ import numpy as np
 
 from ...core.errors import ParameterError
 from ...core.progress import Progress
-from ...geometry.offset.offset import Level, offset_levels
+from ...geometry.offset.offset import OffsetLevel, offset_levels
 from ...geometry.primitives import Rows
 from ...model.job import Job
 from ...model.moves import MoveKind, Purpose
-from ...model.operation import Cut, RestOperation, Side
+from ...model.operation import CutParameters, RestOperation, Side
 from ...model.tool import Tool
-from ...toolpath.cleared import flat_radius
+from ...toolpath.cleared_ground import flat_radius
 from ...toolpath.coverage.flat import move_rows
 from ...toolpath.linking.chain_net import Corridor
 from ...toolpath.linking.chains import chains
-from ...toolpath.linking.rest_runs import Cells, Chunks, Run, all_runs, runs
-from ...toolpath.rest_left import CHUNK_BYTES, Floats, Ground, Reach, core_cells, left_of, rim_cells, suspects
-from ...toolpath.setting import Setting, emit
-from ...toolpath.sheets import Sheet
-from .sides import sensed
+from ...toolpath.linking.rest_runs import RestCells, RingChunks, RingRun, all_runs, runs
+from ...toolpath.machining_areas import MachiningArea
+from ...toolpath.operation_context import OperationContext, emit
+from ...toolpath.rest_material import (
+    CHUNK_BYTES,
+    CentreReach,
+    CutGround,
+    Floats,
+    core_cells,
+    left_of,
+    rim_cells,
+    suspects,
+)
+from .sides import directed_runs
 
 _DEPTH = 1e-6
 """mm by which a move may miss the floor and still count as on it."""
@@ -45,7 +54,7 @@ _CHOSEN = 2
 """Times that runs are chosen; what these leave, for the size of cells, every ring near it clears."""
 
 
-def rest(setting: Setting, index: int, progress: Progress) -> None:
+def rest(context: OperationContext, index: int, progress: Progress) -> None:
     """Clear what is left within reach of the operation's tool.
 
     What counts as cut are all moves so far that are as deep as the operation's floor, and the contours that operations
@@ -57,28 +66,30 @@ def rest(setting: Setting, index: int, progress: Progress) -> None:
         ParameterError: the stepover is larger than the tool, or the operation is deeper than the stock.
         Cancelled: by progress.
     """
-    operation = setting.job.operations[index]
+    operation = context.job.operations[index]
     assert isinstance(operation, RestOperation)
-    sheet, tool = setting.sheets.of(operation), setting.job.tool(operation.cut.tool)
-    if sheet is None:
+    area, tool = context.areas.of(operation), context.job.tool(operation.cut.tool)
+    if area is None:
         return
     progress.step(0.0, "Looking for what is left")
-    before = paths_before(setting, operation.cut.floor)
+    before = paths_before(context, operation.cut.floor)
     within = clears_within(operation, tool)
-    reach = Reach(sheet, tool.radius, tool.radius + operation.cut.stock_to_leave, max(within, tool.radius / 4) / 16)
-    clearing = Clearing(reach, [*before, *contours_later(setting, index, sheet)], within)
+    reach = CentreReach(
+        area, tool.radius, tool.radius + operation.cut.stock_to_leave, max(within, tool.radius / 4) / 16
+    )
+    clearing = RestClearing(reach, [*before, *contours_later(context, index, area)], within)
     chunks, found = clearing.runs(progress.part(0.0, 0.5))
-    setting.note(clearing.levels)
+    context.note(clearing.levels)
     if not found:
         return
-    ground = Ground.of(before)
-    corridor = Corridor(sheet.distances, reach.closest, ground, tool.radius)
-    found = sensed(chunks, found, ground, tool.radius, operation.cut.direction)
-    strokes = chains(chunks, found, corridor, longest_way(setting.job, tool, operation.cut), progress.part(0.5, 0.8))
-    emit(setting, index, sheet, strokes, progress.part(0.8, 1.0))
+    ground = CutGround.of(before)
+    corridor = Corridor(area.distances, reach.closest, ground, tool.radius)
+    found = directed_runs(chunks, found, ground, tool.radius, operation.cut.direction)
+    strokes = chains(chunks, found, corridor, longest_way(context.job, tool, operation.cut), progress.part(0.5, 0.8))
+    emit(context, index, area, strokes, progress.part(0.8, 1.0))
 
 
-def longest_way(job: Job, tool: Tool, cut: Cut) -> float:
+def longest_way(job: Job, tool: Tool, cut: CutParameters) -> float:
     """Return the longest way at the floor, mm, that is gone rather than that the tool lifts."""
     lift = _STOPS / 60 + 2 * (job.travel_z + cut.floor) / _RAPID + (job.retract_z + cut.floor) / tool.plunge_rate
     return max(_FAR * tool.diameter, lift * tool.feed_rate)
@@ -100,15 +111,15 @@ def clears_within(operation: RestOperation, tool: Tool) -> float:
     return operation.stepover / 2
 
 
-def paths_before(setting: Setting, floor: float) -> list[tuple[Rows, float]]:
+def paths_before(context: OperationContext, floor: float) -> list[tuple[Rows, float]]:
     """Return (rows, radius of the level ground it leaves, mm) of each tool's moves so far that lie as deep as a floor,
     mm, or deeper.
     """
-    moves = setting.builder.moves()
+    moves = context.builder.moves()
     deep = (np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -floor + _DEPTH) & (moves.kind != MoveKind.RAPID)
     deep &= moves.purpose != Purpose.DRILL  # a drill's point leaves no level ground
     rows = move_rows(moves)
-    tools = {int(number): setting.job.tool(int(number)) for number in np.unique(moves.tool[deep])}
+    tools = {int(number): context.job.tool(int(number)) for number in np.unique(moves.tool[deep])}
     return [
         (rows[deep & (moves.tool == number)], flat_radius(tool))
         for number, tool in tools.items()
@@ -116,11 +127,11 @@ def paths_before(setting: Setting, floor: float) -> list[tuple[Rows, float]]:
     ]
 
 
-def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Rows, float]]:
+def contours_later(context: OperationContext, index: int, area: MachiningArea) -> list[tuple[Rows, float]]:
     """Return (rows, radius, mm) of the wall paths that operations later in the list will follow in the same area, as
     deep.
     """
-    job = setting.job
+    job = context.job
     own = job.operations[index].cut
     followers = [
         each.cut
@@ -131,17 +142,17 @@ def contours_later(setting: Setting, index: int, sheet: Sheet) -> list[tuple[Row
         and set(each.cut.curves) == set(own.curves)
         and each.cut.floor >= own.floor
     ]
-    return [_wall_path(cut, job.tool(cut.tool), sheet) for cut in followers if flat_radius(job.tool(cut.tool)) > 0]
+    return [_wall_path(cut, job.tool(cut.tool), area) for cut in followers if flat_radius(job.tool(cut.tool)) > 0]
 
 
-def _wall_path(cut: Cut, tool: Tool, sheet: Sheet) -> tuple[Rows, float]:
-    level = sheet.frame(tool.radius + cut.stock_to_leave)
+def _wall_path(cut: CutParameters, tool: Tool, area: MachiningArea) -> tuple[Rows, float]:
+    level = area.frame(tool.radius + cut.stock_to_leave)
     rows = np.concatenate([np.zeros((0, 8)), *(ring.rows for ring in level.rings)])
-    return rows[~sheet.follows_bare(rows)], flat_radius(tool)
+    return rows[~area.follows_bare(rows)], flat_radius(tool)
 
 
 @dataclass
-class Clearing:
+class RestClearing:
     """Finds runs that clear what paths have left.
 
     Rings no farther apart than the radius leave nothing, so all of them near what is left clear it. They are offered
@@ -154,15 +165,15 @@ class Clearing:
         levels: the rings.
     """
 
-    reach: Reach
+    reach: CentreReach
     paths: list[tuple[Rows, float]]
     within: float
-    levels: tuple[Level, ...] = field(default=(), init=False)
+    levels: tuple[OffsetLevel, ...] = field(default=(), init=False)
 
-    def runs(self, progress: Progress) -> tuple[Chunks, list[Run]]:
+    def runs(self, progress: Progress) -> tuple[RingChunks, list[RingRun]]:
         """Return the rings in short rows, and the runs along them."""
-        reach, ground = self.reach, Ground.of(self.paths)
-        chunks = self._chunks((reach.sheet.frame(reach.closest, progress.part(0.0, 0.1)),))
+        reach, ground = self.reach, CutGround.of(self.paths)
+        chunks = self._chunks((reach.area.frame(reach.closest, progress.part(0.0, 0.1)),))
         cutting = chunks.rows[~ground.in_air(chunks.rows, reach.radius)]
         squares = suspects(ground, reach, cutting, progress.part(0.1, 0.3))
         rim = rim_cells(ground, reach, squares, cutting)
@@ -170,31 +181,31 @@ class Clearing:
         if not len(chunks.rows) or not len(core) + len(rim):
             return chunks, []
         step = max(self.within / 4, reach.radius / _FINEST)
-        deepest = reach.sheet.distances.farthest(np.concatenate([core, rim]))
+        deepest = reach.area.distances.farthest(np.concatenate([core, rim]))
         count = 1 + int(max(0.0, deepest + step - reach.closest) / step)
         reach.ask_memory(CHUNK_BYTES * count * float(len(chunks.rows)))
         distances = [reach.closest + k * step for k in range(count)]
-        chunks = self._chunks(offset_levels(reach.sheet.primitives, distances, progress.part(0.3, 0.6), frame=True))
+        chunks = self._chunks(offset_levels(reach.area.primitives, distances, progress.part(0.3, 0.6), frame=True))
         return chunks, self._choose(chunks, (core, rim), progress.part(0.6, 1.0))
 
-    def _chunks(self, levels: tuple[Level, ...]) -> Chunks:
+    def _chunks(self, levels: tuple[OffsetLevel, ...]) -> RingChunks:
         self.levels = levels
-        return Chunks.of(self.levels, max(self.within, self.reach.radius / 2) / 4)
+        return RingChunks.of(self.levels, max(self.within, self.reach.radius / 2) / 4)
 
-    def _choose(self, chunks: Chunks, left: tuple[Floats, Floats], progress: Progress) -> list[Run]:
+    def _choose(self, chunks: RingChunks, left: tuple[Floats, Floats], progress: Progress) -> list[RingRun]:
         """Return runs that clear cells of the core and of the rim."""
-        reach, found = self.reach, list[Run]()
-        cutting = ~Ground.of(self.paths).in_air(chunks.rows, reach.radius)
+        reach, found = self.reach, list[RingRun]()
+        cutting = ~CutGround.of(self.paths).in_air(chunks.rows, reach.radius)
         rim_rows = chunks.rows[cutting & (chunks.level[chunks.ring] == 0)]
         for done in range(_CHOSEN + 1):
             centres = np.unique(np.concatenate(left), axis=0)
             if not len(centres) or not cutting.any():
                 break
             progress.step(done / (_CHOSEN + 1), "Choosing runs")
-            cells = Cells.of(
+            cells = RestCells.of(
                 centres, chunks.rows[cutting], self.within - reach.corner if not done else reach.radius - reach.corner
             )
             found += runs(chunks, cutting, cells, reach) if done < _CHOSEN else all_runs(chunks, cutting, cells, reach)
-            ground = Ground.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
+            ground = CutGround.of([*self.paths, *((chunks.path(run.chunk, run.count), reach.radius) for run in found)])
             left = left_of(ground, reach, left, rim_rows)
         return found

@@ -16,8 +16,8 @@ from ...geometry.near_points import all_within
 from ...geometry.primitives import Rows, points_at
 from ...model.operation import Direction
 from ...toolpath.leads.contour_path import headings_at, left_of
-from ...toolpath.linking.rest_runs import Chunks, Run
-from ...toolpath.rest_left import Ground
+from ...toolpath.linking.rest_runs import RingChunks, RingRun
+from ...toolpath.rest_material import CutGround
 
 _ASIDE = (0.3, 0.6, 0.9)
 """Of the radius: so far beside a run it is looked for metal."""
@@ -28,7 +28,9 @@ _MORE = 0.3
 Floats = NDArray[np.float64]
 
 
-def sensed(chunks: Chunks, runs: Sequence[Run], ground: Ground, radius: float, direction: Direction) -> list[Run]:
+def directed_runs(
+    chunks: RingChunks, runs: Sequence[RingRun], ground: CutGround, radius: float, direction: Direction
+) -> list[RingRun]:
     """Return the runs with the sense in which each is cut in a direction; those that are slots have none.
 
     Args:
@@ -50,7 +52,7 @@ def sensed(chunks: Chunks, runs: Sequence[Run], ground: Ground, radius: float, d
     return [replace(run, sense=climb * int(each)) for run, each in zip(runs, sense, strict=True)]
 
 
-def _chunks_of(chunks: Chunks, run: Run) -> Rows:
+def _chunks_of(chunks: RingChunks, run: RingRun) -> Rows:
     ring = int(np.searchsorted(chunks.first, run.chunk, "right")) - 1
     low, high = int(chunks.first[ring]), int(chunks.first[ring + 1])
     return chunks.rows[low + (run.chunk - low + np.arange(run.count)) % (high - low)]
@@ -65,7 +67,7 @@ def _beside(rows: Rows, radius: float) -> Floats:
     return places
 
 
-def _metal(rows: Rows, ground: Ground, radius: float) -> NDArray[np.bool_]:
+def _metal(rows: Rows, ground: CutGround, radius: float) -> NDArray[np.bool_]:
     """Return (n, 2, k) whether metal is left at places beside rows."""
     places = _beside(rows, radius)
     left: NDArray[np.bool_] = (ground.depth(places.reshape(-1, 2), radius) > 0).reshape(places.shape[:3])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...model.operation import VcarveOperation
-from ..registry import Way, register
+from ..registry import OperationMethod, register
 from .paths import vcarve
 
-register(VcarveOperation, Way(vcarve))
+register(VcarveOperation, OperationMethod(vcarve))

@@ -26,7 +26,7 @@ _HALVINGS = 30
 
 
 @dataclass(frozen=True, eq=False)
-class Branch:
+class AxisBranch:
     """A way along the medial axis.
 
     Attributes:
@@ -40,23 +40,23 @@ class Branch:
         """Seen from above, mm."""
         return float(np.hypot(*np.diff(self.discs[:, :2], axis=0).T).sum())
 
-    def backwards(self) -> Branch:
+    def backwards(self) -> AxisBranch:
         """Return it from its end to its beginning."""
-        return Branch(np.ascontiguousarray(self.discs[::-1]))
+        return AxisBranch(np.ascontiguousarray(self.discs[::-1]))
 
-    def between(self, low: float, high: float) -> list[Branch]:
+    def between(self, low: float, high: float) -> list[AxisBranch]:
         """Return the parts of it whose radius is within limits, mm; they end at the limit."""
-        found: list[Branch] = []
+        found: list[AxisBranch] = []
         points: list[Floats] = []
         for a, b in zip(self.discs[:-1], self.discs[1:], strict=True):
             part = _clipped(a, b, low, high)
             if part is None:
                 continue
             if points and not np.array_equal(points[-1], part[0]):
-                found.append(Branch(np.array(points)))
+                found.append(AxisBranch(np.array(points)))
                 points = []
             points += [part[1]] if points else list(part)
-        return [*found, Branch(np.array(points))] if len(points) > 1 else found
+        return [*found, AxisBranch(np.array(points))] if len(points) > 1 else found
 
 
 def _clipped(a: Floats, b: Floats, low: float, high: float) -> tuple[Floats, Floats] | None:
@@ -71,7 +71,7 @@ def _clipped(a: Floats, b: Floats, low: float, high: float) -> tuple[Floats, Flo
     return (a if first == 0.0 else a + (b - a) * first), (b if last == 1.0 else a + (b - a) * last)
 
 
-def branches(axis: MedialAxis) -> list[Branch]:
+def branches(axis: MedialAxis) -> list[AxisBranch]:
     """Return the pieces of an axis as chords that are within CHORD of them.
 
     Raises:
@@ -104,7 +104,7 @@ def branches(axis: MedialAxis) -> list[Branch]:
     found = []
     for _, chords in sorted(chains.items()):
         chords.sort(key=lambda each: each[0])
-        found.append(Branch(np.array([chords[0][1], *(each[2] for each in chords)])))
+        found.append(AxisBranch(np.array([chords[0][1], *(each[2] for each in chords)])))
     return found
 
 

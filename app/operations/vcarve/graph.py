@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .branches import Branch, Floats
+from .branches import AxisBranch, Floats
 
 _SAME = 1e-5
 """mm; ends that are as near are one node."""
@@ -20,7 +20,7 @@ kinks, each of which would send the cutter up to the surface.
 
 
 @dataclass(eq=False)
-class Graph:
+class BranchGraph:
     """Branches between nodes.
 
     Attributes:
@@ -29,13 +29,13 @@ class Graph:
         at: numbers of the branches at each node.
     """
 
-    branches: list[Branch] = field(default_factory=list)
+    branches: list[AxisBranch] = field(default_factory=list)
     discs: list[Floats] = field(default_factory=list)
     ends: list[tuple[int, int]] = field(default_factory=list)
     at: list[list[int]] = field(default_factory=list)
     _places: dict[tuple[int, int], list[int]] = field(default_factory=dict)
 
-    def add(self, branch: Branch) -> None:
+    def add(self, branch: AxisBranch) -> None:
         """Put in a branch; its ends are nodes, those that are there already or new ones."""
         number, pair = len(self.branches), (self._node(branch.discs[0]), self._node(branch.discs[-1]))
         self.branches.append(branch)
@@ -53,7 +53,7 @@ class Graph:
         a, b = self.ends[number]
         return b if node == a else a
 
-    def from_node(self, number: int, node: int) -> Branch:
+    def from_node(self, number: int, node: int) -> AxisBranch:
         """Return a branch as it goes on from a node."""
         branch = self.branches[number]
         return branch if self.ends[number][0] == node else branch.backwards()
@@ -72,15 +72,15 @@ class Graph:
         return len(self.discs) - 1
 
 
-def graph_of(branches: Iterable[Branch]) -> Graph:
+def graph_of(branches: Iterable[AxisBranch]) -> BranchGraph:
     """Return branches as a graph."""
-    graph = Graph()
+    graph = BranchGraph()
     for branch in branches:
         graph.add(branch)
     return graph
 
 
-def prune(graph: Graph) -> list[Floats]:
+def prune(graph: BranchGraph) -> list[Floats]:
     """Take out branches to dead ends all of whose discs the disc at their other end holds, but for PRUNED.
 
     Returns:
@@ -107,18 +107,18 @@ def prune(graph: Graph) -> list[Floats]:
     return lone
 
 
-def _beyond(branch: Branch, disc: Floats) -> float:
+def _beyond(branch: AxisBranch, disc: Floats) -> float:
     """Return how far the discs of a branch reach beyond one, mm."""
     discs = branch.discs
     return max(0.0, float((np.hypot(*(discs[:, :2] - disc[:2]).T) + discs[:, 2]).max() - disc[2]))
 
 
-def trails(graph: Graph) -> list[Branch]:
+def trails(graph: BranchGraph) -> list[AxisBranch]:
     """Return ways that go along every branch once, each as far as it can: from a dead end, the shallowest, where there
     is one.
     """
     left = [list(own) for own in graph.at]
-    found: list[Branch] = []
+    found: list[AxisBranch] = []
     while any(left):
         odd = [node for node, own in enumerate(left) if len(own) % 2]
         begin = odd or [node for node, own in enumerate(left) if own]
@@ -132,5 +132,5 @@ def trails(graph: Graph) -> list[Branch]:
             left[end].remove(number)
             parts.append(branch.discs if not parts else branch.discs[1:])
             node = end
-        found.append(Branch(np.concatenate(parts)))
+        found.append(AxisBranch(np.concatenate(parts)))
     return found

@@ -19,10 +19,10 @@ from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import Purpose
 from ...model.operation import Operation
-from ...toolpath.build import Label, MovesBuilder, Stroke
-from ...toolpath.depth.depth import Levels
-from ...toolpath.setting import Setting, check_depth, levels_of
-from .branches import Branch, Floats, branches
+from ...toolpath.build import MovesBuilder, Stroke, StrokeLabel
+from ...toolpath.depth.depth import DepthLevels
+from ...toolpath.operation_context import OperationContext, check_depth, levels_of
+from .branches import AxisBranch, Floats, branches
 from .graph import graph_of, prune, trails
 
 _TOLD = 20
@@ -38,7 +38,7 @@ _SLACK = 1e-6
 
 
 @dataclass(frozen=True)
-class Cone:
+class VCutter:
     """A V cutter.
 
     Attributes:
@@ -60,14 +60,14 @@ class Cone:
         return np.maximum(radius - self.tip, 0.0) / self.rate
 
 
-def cone_of(job: Job, operation: Operation) -> Cone:
+def cone_of(job: Job, operation: Operation) -> VCutter:
     """Return the cone of an operation's tool.
 
     Raises:
         ParameterError: the tool has none, or is not as wide at the operation's depth.
     """
     tool = job.cutter(operation)
-    cone = Cone(tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), tool.radius)
+    cone = VCutter(tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), tool.radius)
     deepest = float(cone.depth(np.array([cone.widest]))[0])
     if operation.cut.depth > deepest + _SAME:
         raise ParameterError(
@@ -78,7 +78,7 @@ def cone_of(job: Job, operation: Operation) -> Cone:
 
 
 @dataclass(frozen=True, eq=False)
-class Carved:
+class CarvedPass:
     """The ways of one depth pass.
 
     Attributes:
@@ -87,33 +87,33 @@ class Carved:
     """
 
     z: float
-    trails: tuple[Branch, ...]
+    trails: tuple[AxisBranch, ...]
     rings: tuple[Ring, ...]
 
 
-def vcarve(setting: Setting, index: int, progress: Progress) -> None:
+def vcarve(context: OperationContext, index: int, progress: Progress) -> None:
     """Carve the area of an operation."""
-    job = setting.job
+    job = context.job
     operation = job.operations[index]
-    sheet, cut, tool = setting.sheets.of(operation), operation.cut, job.tool(operation.cut.tool)
+    area, cut, tool = context.areas.of(operation), operation.cut, job.tool(operation.cut.tool)
     cone = cone_of(job, operation)
-    if sheet is None:
+    if area is None:
         return
     check_depth(job, cut)
-    levels, label = levels_of(setting, cut), Label(index, tool.number, tool.feed_rate, tool.plunge_rate)
-    passes = list(carved(sheet.primitives, cone, levels.passes, progress.part(0.0, 0.9)))
-    setting.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
-    setting.findings.extend(_cut_into(job, operation, cone))
-    writer = _Writer(setting.builder, label, levels, cone)
+    levels, label = levels_of(context, cut), StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
+    passes = list(carved(area.primitives, cone, levels.passes, progress.part(0.0, 0.9)))
+    context.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
+    context.findings.extend(_cut_into(job, operation, cone))
+    writer = _PassWriter(context.builder, label, levels, cone)
     for k, each in enumerate(passes):
         progress.step(0.9 + 0.1 * k / len(passes), "Depth passes")
-        writer.cut(each, setting.at)
-        if setting.builder.at[0] == setting.builder.at[0]:
-            setting.at = setting.builder.at[:2]
-        setting.strokes += len(each.trails) + len(each.rings)
+        writer.cut(each, context.at)
+        if context.builder.at[0] == context.builder.at[0]:
+            context.at = context.builder.at[:2]
+        context.strokes += len(each.trails) + len(each.rings)
 
 
-def carved(primitives: Primitives, cone: Cone, heights: Sequence[float], progress: Progress) -> Iterator[Carved]:
+def carved(primitives: Primitives, cone: VCutter, heights: Sequence[float], progress: Progress) -> Iterator[CarvedPass]:
     """Yield the ways of each depth pass: what of the axis is deeper than the pass before, and at the pass's own height
     the ring from which the cone touches the walls.
 
@@ -121,7 +121,7 @@ def carved(primitives: Primitives, cone: Cone, heights: Sequence[float], progres
         GeometryError: the medial axis is not proven right.
         Cancelled: by progress.
     """
-    whole: list[Branch] = []
+    whole: list[AxisBranch] = []
     lone: list[Floats] = []
     for axis in medial_axes(primitives, progress.part(0.0, 0.6)):
         graph = graph_of(branches(axis))
@@ -133,8 +133,8 @@ def carved(primitives: Primitives, cone: Cone, heights: Sequence[float], progres
     low = max(cone.tip, _SAME)
     for z, high, level in zip(heights, radii, rings, strict=True):
         parts = [part for branch in whole for part in branch.between(low - _SLACK, high)]
-        points = [Branch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
-        yield Carved(z, (*trails(graph_of(parts)), *points), level.rings)
+        points = [AxisBranch(disc[None]) for disc in lone if low - _SLACK <= disc[2] <= high]
+        yield CarvedPass(z, (*trails(graph_of(parts)), *points), level.rings)
         low = high
 
 
@@ -150,15 +150,15 @@ def _round_ones(primitives: Primitives) -> list[Floats]:
 
 
 @dataclass(eq=False)
-class _Writer:
+class _PassWriter:
     """Appends the moves of passes."""
 
     builder: MovesBuilder
-    label: Label
-    levels: Levels
-    cone: Cone
+    label: StrokeLabel
+    levels: DepthLevels
+    cone: VCutter
 
-    def cut(self, each: Carved, at: tuple[float, float]) -> None:
+    def cut(self, each: CarvedPass, at: tuple[float, float]) -> None:
         """Append a pass: whichever way begins nearest comes next, from its nearer end."""
         x, y, _ = self.builder.at
         at = at if x != x else (x, y)
@@ -175,7 +175,7 @@ class _Writer:
         for ring in each.rings:
             self._ring(ring, each.z)
 
-    def _trail(self, way: Branch, z: float) -> None:
+    def _trail(self, way: AxisBranch, z: float) -> None:
         discs = way.discs
         heights = np.maximum(-self.cone.depth(discs[:, 2]), z)
         self._down(float(discs[0, 0]), float(discs[0, 1]), float(heights[0]))
@@ -215,7 +215,7 @@ class _Writer:
         return clamps is not None and float(clamps.nearest(np.array([[x, y]]))[0][0]) <= wide
 
 
-def _too_wide(job: Job, operation: Operation, cone: Cone, rings: Sequence[Ring]) -> list[Finding]:
+def _too_wide(job: Job, operation: Operation, cone: VCutter, rings: Sequence[Ring]) -> list[Finding]:
     """Return where the area is wider than the V at its greatest depth, so that it leaves ridges on the floor."""
     cut, tool = operation.cut, job.tool(operation.cut.tool)
     wide = cut.depth * cone.rate
@@ -247,7 +247,7 @@ def _beside(job: Job, operation: Operation) -> list[Operation]:
     ]
 
 
-def _cut_into(job: Job, operation: Operation, cone: Cone) -> list[Finding]:
+def _cut_into(job: Job, operation: Operation, cone: VCutter) -> list[Finding]:
     """Return which operations leave too little on the walls, and so cut into what is to be carved."""
     found = []
     for each in _beside(job, operation):

@@ -17,7 +17,7 @@ from ...model.tool import Tool
 from ..cutter import Cutter
 
 
-class Part(Enum):
+class HolderPart(Enum):
     """What of a tool does not cut; the value is the word for it."""
 
     SHANK = "shank"
@@ -28,7 +28,7 @@ class Part(Enum):
 class Body:
     """A convex body that does not cut; `shape.lift` is its height over the tool's tip, mm."""
 
-    part: Part
+    part: HolderPart
     shape: Cutter
 
     def lifted(self, by: float) -> Body:
@@ -66,11 +66,11 @@ def holder_of(tool: Tool) -> tuple[Body, ...]:
                 else Cutter(wider, wider, lift=height)
             )
             widest = wider
-    return tuple(Body(Part.HOLDER, shape) for shape in made)
+    return tuple(Body(HolderPart.HOLDER, shape) for shape in made)
 
 
 def _shank(tool: Tool) -> tuple[Body, ...]:
     if not (tool.shank_diameter and tool.flute_length):
         return ()
     radius = tool.shank_diameter / 2
-    return (Body(Part.SHANK, Cutter(radius, radius, lift=tool.flute_length)),)
+    return (Body(HolderPart.SHANK, Cutter(radius, radius, lift=tool.flute_length)),)

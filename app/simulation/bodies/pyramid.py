@@ -24,7 +24,7 @@ Whole = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
-class Led:
+class BodyPaths:
     """Bodies on ways, n items.
 
     Attributes:
@@ -39,16 +39,16 @@ class Led:
     shape: Whole
     low: Floats
 
-    def of(self, items: NDArray[np.intp]) -> Led:
+    def of(self, items: NDArray[np.intp]) -> BodyPaths:
         """Return some items."""
-        return Led(self.ways, self.shapes, self.way[items], self.shape[items], self.low[items])
+        return BodyPaths(self.ways, self.shapes, self.way[items], self.shape[items], self.low[items])
 
     def __len__(self) -> int:
         return len(self.way)
 
 
 @dataclass(frozen=True, eq=False)
-class Pyramid:
+class HeightPyramid:
     """The heights of a work piece, and above them the highest of every four, up to one.
 
     Attributes:
@@ -60,9 +60,9 @@ class Pyramid:
     levels: Whole
 
     @staticmethod
-    def of(metal: Workpiece) -> Pyramid:
+    def of(workpiece: Workpiece) -> HeightPyramid:
         """Return the pyramid over a work piece; where there is no metal is far below."""
-        ground = np.where(metal.heights > metal.floor, metal.heights, np.float32(-math.inf))
+        ground = np.where(workpiece.heights > workpiece.floor, workpiece.heights, np.float32(-math.inf))
         stack = [ground]
         while len(stack) == 1 or stack[-1].size > 1:
             rows, cols = stack[-1].shape
@@ -72,29 +72,29 @@ class Pyramid:
             stack.append(np.maximum(tall[:, ::2], tall[:, 1::2]))
         begin = np.cumsum([0, *(level.size for level in stack[:-1])])
         levels = np.column_stack([begin, np.array([level.shape for level in stack])]).astype(np.int64)
-        return Pyramid(metal, np.concatenate([level.ravel() for level in stack]), levels)
+        return HeightPyramid(workpiece, np.concatenate([level.ravel() for level in stack]), levels)
 
-    def deeper(self, led: Led, least: Floats) -> tuple[Floats, Whole]:
+    def deeper(self, paths: BodyPaths, least: Floats) -> tuple[Floats, Whole]:
         """Return how deep each item goes where it is deeper than its `least` (n,), and in which cell; else `least` and
         -1.
         """
-        return self._asked(led, least, False)
+        return self._asked(paths, least, False)
 
-    def deepest(self, led: Led, least: Floats) -> tuple[Floats, Whole]:
+    def deepest(self, paths: BodyPaths, least: Floats) -> tuple[Floats, Whole]:
         """Return what `deeper` does where an item is deeper than all before it of the same shape, and than `least`
         (m,), by shape.
 
         `least` is raised to what is found. Items are looked at in the order of the list.
         """
-        return self._asked(led, least, True)
+        return self._asked(paths, least, True)
 
-    def _asked(self, led: Led, least: Floats, shared: bool) -> tuple[Floats, Whole]:
+    def _asked(self, paths: BodyPaths, least: Floats, shared: bool) -> tuple[Floats, Whole]:
         from .body_kernels import ask
 
-        grid, count = self.metal.grid, len(led)
+        grid, count = self.metal.grid, len(paths)
         depth, cell = np.zeros(count), np.full(count, -1, np.int64)
         where = (float(grid.x0), float(grid.y0), float(grid.pitch))
-        tables = (self.heights, self.levels, where, led.ways, led.shapes, led.way, led.shape, led.low)
+        tables = (self.heights, self.levels, where, paths.ways, paths.shapes, paths.way, paths.shape, paths.low)
         if shared:
             ask(*tables, least, True, depth, cell, 0, count)
             return depth, cell

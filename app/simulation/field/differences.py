@@ -17,7 +17,7 @@ RIMS = 0.01
 
 
 @dataclass(frozen=True, slots=True)
-class Apart:
+class HeightDifference:
     """How far heights are from those of the engine of record.
 
     Attributes:
@@ -38,11 +38,11 @@ class Apart:
         """Whether nothing but walls tells them apart."""
         return self.astray == 0
 
-    def joined(self, other: Apart | None) -> Apart:
+    def joined(self, other: HeightDifference | None) -> HeightDifference:
         """Return both, of one job after another, as one."""
         if other is None:
             return self
-        return Apart(
+        return HeightDifference(
             max(self.largest, other.largest),
             self.cells + other.cells,
             self.astray + other.astray,
@@ -50,7 +50,7 @@ class Apart:
         )
 
 
-def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) -> Apart:
+def height_difference(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) -> HeightDifference:
     """Return how far heights are from those of the engine of record, (rows, cols) both.
 
     A cell whose centre is on a vertical wall falls to either side by rounding: it then has a height between the least
@@ -63,17 +63,17 @@ def apart(record: Heights, other: Heights, allowed: float | Floats = TOLERANCE) 
     off = np.abs(np.subtract(record, other, dtype=np.float64))
     off[np.isnan(off)] = np.inf
     far = off > allowed
-    low, high = least_beside(record, 2), -least_beside(-record, 2)
+    low, high = lowest_nearby(record, 2), -lowest_nearby(-record, 2)
     beside = far & (other >= low - allowed) & (other <= high + allowed)
     rims = int(np.count_nonzero(beside))
     astray = int(np.count_nonzero(far & ~beside))
     most = 4 + RIMS * record.size
-    return Apart(
+    return HeightDifference(
         float(off.max(initial=0.0)), int(np.count_nonzero(off > TOLERANCE)), astray + (rims if rims > most else 0), rims
     )
 
 
-def least_beside(heights: Heights, reach: int = 1) -> Heights:
+def lowest_nearby(heights: Heights, reach: int = 1) -> Heights:
     """Return (rows, cols) the least height of each cell and of those at most `reach` cells away."""
     import cv2
 

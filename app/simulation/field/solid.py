@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...surfaces.meshes.orientation import orient_outwards
 from ...surfaces.meshes.read import stl_triangles
-from ...surfaces.meshes.winding import right_side_out
 from .triangle_tree import TriangleTree
 from .workpiece import Grid, Workpiece, ensure_memory
 
@@ -90,7 +90,7 @@ def read_solid(name: str, data: bytes) -> SolidStock:
     triangles = stl_triangles(name, data)
     if not len(triangles) or not np.isfinite(triangles).all():
         raise InputError(f"{name}: the STL file holds no triangles; export the solid again.")
-    wound = right_side_out(triangles)
+    wound = orient_outwards(triangles)
     if wound.fault:
         place = "" if wound.place is None else " at ({:.3f}, {:.3f}, {:.3f})".format(*wound.place)
         raise InputError(

@@ -32,7 +32,7 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
-class Target:
+class TargetHeights:
     """Heights that are wanted over a grid, program coordinates, (rows, cols) each, mm.
 
     Attributes:
@@ -48,7 +48,7 @@ class Target:
     high: Heights
 
     @property
-    def wanted(self) -> Heights:
+    def heights(self) -> Heights:
         """(rows, cols) the part at the cells' centres."""
         return self.around[MARGIN:-MARGIN, MARGIN:-MARGIN]
 
@@ -57,7 +57,7 @@ class Target:
         return np.asarray(heights - np.clip(heights, self.low, self.high), np.float32)
 
 
-def solid_target(solid: SolidStock, grid: Grid, leave: float = 0.0, progress: Progress = NO_PROGRESS) -> Target:
+def solid_target(solid: SolidStock, grid: Grid, leave: float = 0.0, progress: Progress = NO_PROGRESS) -> TargetHeights:
     """Return the heights of a solid with stock to leave on it.
 
     Raises:
@@ -78,7 +78,7 @@ def solid_target(solid: SolidStock, grid: Grid, leave: float = 0.0, progress: Pr
         around, low, high = (dilated(field, thick) for field in (around, low, high))
     more = (wide.rows - grid.rows) // 2
     rim, own = (slice(more - MARGIN, MARGIN - more or None), slice(more, -more))
-    return Target(grid, around[rim, rim].copy(), low[own, own].copy(), high[own, own].copy())
+    return TargetHeights(grid, around[rim, rim].copy(), low[own, own].copy(), high[own, own].copy())
 
 
 def _wider(grid: Grid, cells: int) -> Grid:
@@ -99,7 +99,7 @@ def _coarser(grid: Grid, leave: float) -> Grid:
     return Grid(x0 - 2 * pitch, y0 - 2 * pitch, pitch, int((y1 - y0) / pitch) + 5, int((x1 - x0) / pitch) + 5)
 
 
-def _sampled(coarse: Target, grid: Grid) -> Target:
+def _sampled(coarse: TargetHeights, grid: Grid) -> TargetHeights:
     """Return a target on finer cells; low and high are those of the coarse cells around, so that nothing is told too
     early.
     """
@@ -114,13 +114,13 @@ def _sampled(coarse: Target, grid: Grid) -> Target:
             (grid.xs(), coarse.grid.x0, coarse.grid.cols),
         )
     )
-    fields = (np.asarray(field, np.float32)[np.ix_(rows, cols)] for field in (coarse.wanted, low, high))
+    fields = (np.asarray(field, np.float32)[np.ix_(rows, cols)] for field in (coarse.heights, low, high))
     around, low, high = fields
-    return Target(grid, np.pad(around, MARGIN, mode="edge"), low, high)
+    return TargetHeights(grid, np.pad(around, MARGIN, mode="edge"), low, high)
 
 
 def _part_over(solid: SolidStock, grid: Grid) -> tuple[Heights, Heights, Heights]:
-    """Return a solid's tops, and low and high as in `Target`; beside the solid, metal may be cut or left."""
+    """Return a solid's tops, and low and high as in `TargetHeights`; beside the solid, metal may be cut or left."""
     workpiece = solid.over(grid)
     beside = workpiece.heights <= workpiece.floor
     wanted = np.where(beside, np.float32(-np.inf), workpiece.heights)

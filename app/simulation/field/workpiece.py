@@ -111,7 +111,7 @@ class Workpiece:
         self.heights.setflags(write=False)
 
 
-class Stock(Protocol):
+class StockShape(Protocol):
     """Metal that can be laid over any grid: all of it, or a window at a finer pitch."""
 
     @property

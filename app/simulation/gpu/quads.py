@@ -21,7 +21,7 @@ from ...model.motion import Floats
 from ..cutter import Cutter
 from ..field.workpiece import Grid, Heights, Workpiece, ensure_memory
 from ..sweeps.course import Course, Rapids, TrimOptions
-from ..sweeps.pieces import QUARTER, Pieces
+from ..sweeps.pieces import QUARTER, SweepPieces
 from ..sweeps.sweeps import Sweeps
 from .graphics import compiled
 
@@ -74,12 +74,12 @@ def quad_heights(
         moderngl.Error: the graphics system fails.
     """
     ensure_memory(workpiece.grid, 8)
-    way, heights = _Way(workpiece, course, cutters), np.empty_like(workpiece.heights)
+    way, heights = _PreparedCourse(workpiece, course, cutters), np.empty_like(workpiece.heights)
     parts = list(_parts(workpiece.grid, min(LARGEST, int(ctx.info["GL_MAX_TEXTURE_SIZE"]))))
     brushes: dict[str, moderngl.Program] = {}
     try:
         for k, (rows, cols, grid) in enumerate(parts):
-            picture = _Picture(ctx, grid, workpiece.heights[rows, cols], brushes)
+            picture = _HeightPicture(ctx, grid, workpiece.heights[rows, cols], brushes)
             with picture.least_stays():
                 picture.paint(way, progress.part(k / len(parts), (k + 1) / len(parts)))
                 heights[rows, cols] = picture.heights()
@@ -90,13 +90,13 @@ def quad_heights(
     return np.maximum(heights, np.float32(workpiece.floor), out=heights)
 
 
-class _Way:
+class _PreparedCourse:
     """A course made ready: what each motion does, and with which cutter; its pieces."""
 
     def __init__(self, workpiece: Workpiece, course: Course, cutters: Mapping[int, Cutter]) -> None:
         self._sweeps = Sweeps(workpiece.grid, course, cutters, TrimOptions(Rapids.IGNORED, touch=0.0))
 
-    def portions(self) -> Iterator[tuple[Pieces, float]]:
+    def portions(self) -> Iterator[tuple[SweepPieces, float]]:
         """Yield the pieces of motions that follow one another, and which part of all pieces is done with them."""
         ends, first = np.cumsum(self._sweeps.splitter.counts), 0
         while first < len(ends):
@@ -105,7 +105,7 @@ class _Way:
             yield self._sweeps.splitter.pieces(first, last), float(ends[last - 1] / ends[-1])
             first = last
 
-    def quads(self, pieces: Pieces, grid: Grid, top: float) -> Iterator[tuple[str, Shape, Quads, float]]:
+    def quads(self, pieces: SweepPieces, grid: Grid, top: float) -> Iterator[tuple[str, Shape, Quads, float]]:
         """Yield the quads of pieces, cutter by cutter.
 
         Args:
@@ -156,7 +156,7 @@ def _most(parts: Floats) -> int:
     return int(np.sum(np.ceil(parts + 1e-6))) + len(parts)
 
 
-class _Picture:
+class _HeightPicture:
     """The heights of a grid as a picture of one float a cell, in which the least of what is painted stays."""
 
     def __init__(
@@ -183,7 +183,7 @@ class _Picture:
         """Return (rows, cols) what is painted, mm."""
         return np.frombuffer(self._texture.read(), np.float32).reshape(self._grid.rows, self._grid.cols)
 
-    def paint(self, way: _Way, progress: Progress) -> None:
+    def paint(self, way: _PreparedCourse, progress: Progress) -> None:
         """Lower the heights under all pieces."""
         for pieces, done in way.portions():
             for part, shape, quads, cells in way.quads(pieces, self._grid, self._top):

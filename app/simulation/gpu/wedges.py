@@ -40,7 +40,7 @@ class FacetKind(IntEnum):
     END = 2
 
 
-class Side(Enum):
+class FacetSide(Enum):
     """Which facets are kept: those that can be the lower side of what is swept, the others, or all."""
 
     DOWN = 1.0
@@ -63,7 +63,7 @@ class Tessellation:
 
     facet: float
     wedges: bool = True
-    side: Side = Side.DOWN
+    side: FacetSide = FacetSide.DOWN
     overlap: float = 0.0
 
 
@@ -174,11 +174,11 @@ def polygon_counts(course: Course, cutters: Mapping[int, Cutter], facet: float) 
     total = np.zeros(4, np.int64)
     for cutter, chains in chains_of(course, cutters, chord_of(course, cutters, facet)):
         whole, lower = _whole_counts(cutter, facet)
-        kept = {side: np.zeros(len(FacetKind), np.int64) for side in (Side.BOTH, Side.DOWN)}
+        kept = {side: np.zeros(len(FacetKind), np.int64) for side in (FacetSide.BOTH, FacetSide.DOWN)}
         for side, found in kept.items():
             for part, _ in facets_in(cutter, chains, Tessellation(facet, side=side)):
                 found += np.bincount(part.kind, minlength=len(FacetKind))
-        both, down = kept[Side.BOTH], kept[Side.DOWN]
+        both, down = kept[FacetSide.BOTH], kept[FacetSide.DOWN]
         cylinders = FacetKind.CYLINDER
         total += (
             both[cylinders] + chains.corners * whole,

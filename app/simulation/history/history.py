@@ -24,7 +24,7 @@ from ...model.motion_path import lengths
 from ..cutter import Cutter
 from ..field.workpiece import Workpiece, ensure_memory
 from ..sweeps.course import Course, Ints, Rapids, TrimOptions
-from ..sweeps.sweeps import Field, Limits, Mask, Sweeps
+from ..sweeps.sweeps import CutField, HeightLimits, Mask, Sweeps
 
 Box = tuple[int, int, int, int]
 
@@ -63,9 +63,9 @@ class _Batch:
     first: int
     last: int
     turned: Mask
-    limits: Limits
+    limits: HeightLimits
 
-    def cut(self, field: Field, first: int, last: int, progress: Progress) -> Box | None:
+    def cut(self, field: CutField, first: int, last: int, progress: Progress) -> Box | None:
         """Do the motions of this batch among first … last - 1, counted through all courses; return where the field may
         have changed.
         """
@@ -73,7 +73,7 @@ class _Batch:
         if low >= high:
             return None
         part = self.sweeps.part(low, high, int(low > self.first)).without_asking()
-        own = field if self.start == 0 else Field(field.heights, np.maximum(field.owner - np.int32(self.start), -1))
+        own = field if self.start == 0 else CutField(field.heights, np.maximum(field.owner - np.int32(self.start), -1))
         sorting = replace(part.sorting(self.limits.top), turned=self.turned)
         part.cut(own.heights, own, sorting, self.limits, progress)
         if own is not field:
@@ -115,7 +115,7 @@ class History:
         ensure_memory(workpiece.grid, 4 * BYTES_A_CELL)
         self._workpiece, self._cutters = workpiece, cutters
         self.motions = sum(len(course.motions) for course in courses)
-        self.base = Field(workpiece.heights.copy(), np.full(workpiece.heights.shape, -1, np.int32))
+        self.base = CutField(workpiece.heights.copy(), np.full(workpiece.heights.shape, -1, np.int32))
         self._batches: list[_Batch] = []
         sweeps = [Sweeps(workpiece.grid, course, cutters, TrimOptions(trace=True)) for course in courses]
         ends = _block_ends(np.concatenate([_costs(each) for each in sweeps]), options.blocks)
@@ -128,7 +128,7 @@ class History:
         """What the copies take."""
         return self._kept.bytes
 
-    def advance(self, field: Field, first: int, last: int, progress: Progress = NO_PROGRESS) -> None:
+    def advance(self, field: CutField, first: int, last: int, progress: Progress = NO_PROGRESS) -> None:
         """Do the motions first … last - 1 on a field that is as the ones before have left it.
 
         Raises:
@@ -138,7 +138,7 @@ class History:
             progress.step(0.0)
             batch.cut(field, first, last, progress)
 
-    def advance_along(self, field: Field, course: Course, motion: int) -> None:
+    def advance_along(self, field: CutField, course: Course, motion: int) -> None:
         """Cut a field along the way that one motion has gone so far.
 
         Args:
@@ -146,10 +146,10 @@ class History:
             course: that way, all of it cutting. motion: whose it is, counted through all courses.
         """
         sweeps = Sweeps(self._workpiece.grid, course, self._cutters, TrimOptions(Rapids.IGNORED, trace=True))
-        own = Field(field.heights, np.full_like(field.owner, -1))
+        own = CutField(field.heights, np.full_like(field.owner, -1))
         part = sweeps.part(0, len(course.motions))
         top = float(self._workpiece.heights.max())
-        part.cut(own.heights, own, part.sorting(top), Limits(top, float(self._workpiece.floor), LEVEL))
+        part.cut(own.heights, own, part.sorting(top), HeightLimits(top, float(self._workpiece.floor), LEVEL))
         field.owner[own.owner >= 0] = motion
 
     def behind(self, motion: int) -> tuple[int, int]:
@@ -159,25 +159,25 @@ class History:
         block = int(np.searchsorted(self.ends, motion, "right")) - 1
         return block, int(self.ends[block]) if block >= 0 else 0
 
-    def restore(self, field: Field, block: int) -> None:
+    def restore(self, field: CutField, block: int) -> None:
         """Overwrite a field with what there was behind a block; -1: before all motions."""
         self._kept.restore(field, self.base, block)
 
     def _cut_once(self, sweeps: Sequence[Sweeps], ends: NDArray[np.int64], progress: Progress) -> None:
         heights, start = self._workpiece.heights.copy(), 0
-        field = Field(heights, self.base.owner.copy())
+        field = CutField(heights, self.base.owner.copy())
         self._kept.begin(field)
         for each in sweeps:
             for first, last in each.batches:
                 top = float(field.heights.max())
                 turned = each.part(first, last).sorting(top).turned
                 self._batches.append(
-                    _Batch(each, start, first, last, turned, Limits(top, float(self._workpiece.floor), LEVEL))
+                    _Batch(each, start, first, last, turned, HeightLimits(top, float(self._workpiece.floor), LEVEL))
                 )
                 self._cut_batch(field, ends, progress)
             start += len(each.motions)
 
-    def _cut_batch(self, field: Field, ends: NDArray[np.int64], progress: Progress) -> None:
+    def _cut_batch(self, field: CutField, ends: NDArray[np.int64], progress: Progress) -> None:
         """Do the last batch, block by block."""
         batch = self._batches[-1]
         first, last = batch.start + batch.first, batch.start + batch.last
@@ -201,7 +201,7 @@ class _Copies:
         self._heights, self._owner = (np.empty((most, SIDE, SIDE), kind) for kind in (np.float32, np.int32))
         self._square, self._block = np.empty(most, np.int32), np.empty(most, np.int32)
         self._count, self._merged = 0, 0
-        self._last: Field | None = None
+        self._last: CutField | None = None
         self._stirred: list[Box] = []
         self._bounds = np.zeros(self._squares + 1, np.int64)
         self._slots, self._blocks_of_slots = (np.zeros(0, np.int32) for _ in range(2))
@@ -211,16 +211,16 @@ class _Copies:
         """What the copies take."""
         return self._count * SIDE * SIDE * BYTES_A_CELL
 
-    def begin(self, field: Field) -> None:
+    def begin(self, field: CutField) -> None:
         """Compare with this field first."""
-        self._last = Field(field.heights.copy(), field.owner.copy())
+        self._last = CutField(field.heights.copy(), field.owner.copy())
 
     def stir(self, box: Box | None) -> None:
         """Something may have changed in a box."""
         if box is not None:
             self._stirred.append(box)
 
-    def take(self, field: Field, block: int) -> None:
+    def take(self, field: CutField, block: int) -> None:
         """Keep what has changed, if the block is the last one of those that have become one."""
         from .history_kernels import keep
 
@@ -254,7 +254,7 @@ class _Copies:
         step = 1 << self._merged
         return ends[np.minimum(np.arange(step - 1, len(ends) + step - 1, step), len(ends) - 1)]
 
-    def restore(self, field: Field, base: Field, block: int) -> None:
+    def restore(self, field: CutField, base: CutField, block: int) -> None:
         """See `History.restore`."""
         from .history_kernels import restore
 
@@ -307,7 +307,7 @@ class Playhead:
 
     def __init__(self, history: History) -> None:
         self.history, self.motion = history, 0
-        self.field = Field(history.base.heights.copy(), history.base.owner.copy())
+        self.field = CutField(history.base.heights.copy(), history.base.owner.copy())
 
     def move_to(self, motion: int, progress: Progress = NO_PROGRESS) -> None:
         """Go to the place where a number of motions is done.
@@ -349,7 +349,7 @@ def _round(tiles: list[Box]) -> Box:
     return int(all_of[:, 0].min()), int(all_of[:, 1].min()), int(ends[:, 0].max()), int(ends[:, 1].max())
 
 
-def _changed(field: Field, before: Field, box: Box) -> Ints:
+def _changed(field: CutField, before: CutField, box: Box) -> Ints:
     """Return the squares in which two fields differ; the older one becomes like the newer one."""
     from .history_kernels import changed
 
@@ -359,7 +359,7 @@ def _changed(field: Field, before: Field, box: Box) -> Ints:
     return squares[:count]
 
 
-def changed_box(field: Field, before: Field) -> Box | None:
+def changed_box(field: CutField, before: CutField) -> Box | None:
     """Return first row and column, and the ends of rows and columns, round all squares in which two fields differ;
     None: they are alike.
 

@@ -13,7 +13,7 @@ from ...model.motion import Floats, MotionKind
 from ...model.motion_path import anchored
 from ..cutter import Cutter
 from .course import Course
-from .pieces import Pieces, Splitter
+from .pieces import PieceSplitter, SweepPieces
 
 LEAST = 1e-9
 """A move that is shorter, mm, is none."""
@@ -99,7 +99,7 @@ def chains_of(course: Course, cutters: Mapping[int, Cutter], chord: float) -> li
     """
     cuts = cutting(course, cutters)
     motions = anchored(course.motions) if any(course.motions.known_from) else course.motions
-    pieces = Splitter(motions, arcs_stay=False, chord=chord).pieces(0, len(motions))
+    pieces = PieceSplitter(motions, arcs_stay=False, chord=chord).pieces(0, len(motions))
     tool, does = course.tool[pieces.motion], cuts[pieces.motion]
     numbers = np.unique(course.tool[cuts]).tolist()
     return [
@@ -108,7 +108,7 @@ def chains_of(course: Course, cutters: Mapping[int, Cutter], chord: float) -> li
     ]
 
 
-def _chains(pieces: Pieces, rows: NDArray[np.intp], lift: float) -> Chains:
+def _chains(pieces: SweepPieces, rows: NDArray[np.intp], lift: float) -> Chains:
     """Return the chains of some rows of pieces."""
     start, end = pieces.start[rows], pieces.end[rows]
     joins = np.zeros(len(rows), bool)

@@ -39,7 +39,7 @@ Ints = NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class SweepPieces:
     """n pieces in the order of cutting.
 
     Attributes:
@@ -60,7 +60,7 @@ class Pieces:
 
 
 @dataclass(frozen=True, eq=False)
-class Window:
+class SweepWindow:
     """Where pieces matter.
 
     Attributes:
@@ -79,14 +79,14 @@ class Window:
         return np.asarray(beside | (high[:, 1] + radius < y0))
 
 
-class Splitter:
+class PieceSplitter:
     """The pieces of motions, any part of them at a time."""
 
     def __init__(
         self,
         motions: Motions,
         arcs_stay: bool = True,
-        window: Window | None = None,
+        window: SweepWindow | None = None,
         chord: float = CHORD,
         helix_chord: float = 0.0,
     ) -> None:
@@ -141,12 +141,12 @@ class Splitter:
         )
         return np.array(list(self._splines), np.intp), low, high
 
-    def pieces(self, first: int, last: int) -> Pieces:
+    def pieces(self, first: int, last: int) -> SweepPieces:
         """Return the pieces of the motions first … last - 1."""
         motions = self._motions
         rows = np.arange(first, last, dtype=np.int32)
         if not np.any(motions.kind[first:last] >= MotionKind.ARC_CW):
-            return Pieces(
+            return SweepPieces(
                 motions.start[first:last],
                 motions.end[first:last],
                 rows,
@@ -155,13 +155,13 @@ class Splitter:
             )
         return self._split(first, last)
 
-    def _split(self, first: int, last: int) -> Pieces:
+    def _split(self, first: int, last: int) -> SweepPieces:
         from .piece_kernels import split  # compiled: loaded where it is used
 
         counts = self.counts[first:last]
         levels = np.where(self._levelled[first:last], counts, 0)
         total, rows = int(counts.sum()), int(levels.sum())
-        found = Pieces(
+        found = SweepPieces(
             np.empty((total, 3)),
             np.empty((total, 3)),
             np.empty(total, np.int32),

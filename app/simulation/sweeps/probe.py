@@ -13,7 +13,7 @@ from ...model.motion import Floats, MotionKind
 from ..box_tree import box_tree
 from ..cutter import Cutter
 from .course import Course
-from .pieces import Pieces, Splitter
+from .pieces import PieceSplitter, SweepPieces
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +68,7 @@ def _cutting(course: Course, numbers: Sequence[int], done: int) -> tuple[Floats,
     motions = course.motions
     cuts = (motions.kind != MotionKind.RAPID) & np.isin(course.tool, np.array(numbers))
     cuts[list(course.left_out)] = False
-    pieces = Splitter(motions).pieces(0, len(motions)) if cuts.any() else None
+    pieces = PieceSplitter(motions).pieces(0, len(motions)) if cuts.any() else None
     if pieces is None:
         return np.zeros((0, 9)), np.zeros((0, 2), np.int64)
     some = cuts[pieces.motion]
@@ -76,7 +76,7 @@ def _cutting(course: Course, numbers: Sequence[int], done: int) -> tuple[Floats,
     return _rows(pieces, some), np.column_stack([rows + done, np.searchsorted(numbers, course.tool[rows])])
 
 
-def _rows(pieces: Pieces, some: NDArray[np.bool_]) -> Floats:
+def _rows(pieces: SweepPieces, some: NDArray[np.bool_]) -> Floats:
     """Return some pieces as rows (n, 9)."""
     rows = np.zeros((int(np.count_nonzero(some)), 9))
     rows[:, :3], rows[:, 3:6] = pieces.start[some], pieces.end[some]

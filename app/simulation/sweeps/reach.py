@@ -29,7 +29,7 @@ PIN = np.zeros((1, 1), np.float32)
 
 
 @dataclass(frozen=True, eq=False)
-class Reach:
+class ReachableHeights:
     """The lowest heights that some tool gets to, (rows, cols) each, mm.
 
     Attributes:
@@ -58,7 +58,7 @@ def reach_of(
     box: tuple[float, float, float, float],
     cutters: Iterable[Cutter],
     progress: Progress = NO_PROGRESS,
-) -> Reach:
+) -> ReachableHeights:
     """Return what some cutters reach of a solid with stock to leave on it.
 
     Args:
@@ -75,20 +75,20 @@ def reach_of(
     more = widest + 2 * pitch
     rows, cols = (math.ceil((side + 2 * more) / pitch) for side in (y1 - y0, x1 - x0))
     grid = Grid(x0 - more, y0 - more, pitch, rows, cols)
-    wanted, half = solid_target(solid, grid, leave, progress).wanted, pitch / math.sqrt(2.0)
-    sure = [_lowest(wanted, cutter.grown(half), cutter, pitch, progress) for cutter in cutters]
-    possible = [_lowest(wanted, cutter.shrunk(half), cutter, pitch, progress) for cutter in cutters]
-    nearest = np.minimum.reduce([_lowest(wanted, cutter, cutter, pitch, progress) for cutter in cutters])
-    over_part = np.zeros_like(wanted)
+    target, half = solid_target(solid, grid, leave, progress).heights, pitch / math.sqrt(2.0)
+    sure = [_lowest(target, cutter.grown(half), cutter, pitch, progress) for cutter in cutters]
+    possible = [_lowest(target, cutter.shrunk(half), cutter, pitch, progress) for cutter in cutters]
+    nearest = np.minimum.reduce([_lowest(target, cutter, cutter, pitch, progress) for cutter in cutters])
+    over_part = np.zeros_like(target)
     # beside the part there is none to keep away from
-    np.subtract(nearest, wanted, out=over_part, where=np.isfinite(wanted))
-    return Reach(grid, np.minimum.reduce(sure), np.minimum.reduce(possible), over_part)
+    np.subtract(nearest, target, out=over_part, where=np.isfinite(target))
+    return ReachableHeights(grid, np.minimum.reduce(sure), np.minimum.reduce(possible), over_part)
 
 
-def _lowest(wanted: Heights, led: Cutter | None, cuts: Cutter, pitch: float, progress: Progress) -> Heights:
+def _lowest(target: Heights, paths: Cutter | None, cuts: Cutter, pitch: float, progress: Progress) -> Heights:
     """Return how low a cutter gets where another one is led clear of the part."""
-    form = cutter_profile(led, pitch) if led is not None else PIN
-    tip = dilated(wanted, form, progress)
+    form = cutter_profile(paths, pitch) if paths is not None else PIN
+    tip = dilated(target, form, progress)
     return np.asarray(-dilated(-tip, cutter_profile(cuts, pitch), progress))
 
 

@@ -24,8 +24,8 @@ from ...model.motion_path import anchored
 from ..cutter import Cutter
 from ..field.workpiece import Grid, Heights
 from .course import Course, Ints, Rapids, TrimOptions
-from .outdone import outdone
-from .pieces import Splitter, Window, helix_chord
+from .pieces import PieceSplitter, SweepWindow, helix_chord
+from .superseded import superseded
 
 BATCH = 2_000_000
 """Pieces that are made at a time: about 250 MB."""
@@ -39,7 +39,7 @@ Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class CutField:
     """Heights that are being cut, and the motion that cut each cell last.
 
     Attributes:
@@ -52,7 +52,7 @@ class Field:
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class HeightLimits:
     """Between which heights there is something to cut.
 
     Attributes:
@@ -66,7 +66,7 @@ class Limits:
 
 
 @dataclass(frozen=True, eq=False)
-class Sorting:
+class TileIndex:
     """Pieces by the tiles that they meet.
 
     Attributes:
@@ -110,16 +110,18 @@ class Sweeps:
         self.does = _deeds(course, options.rapids)
         self.shapes, self.cutter = _shape_rows(course, cutters, self.does, options.touch)
         if options.heights_alone:
-            self.does[outdone(self.motions, self.cutter, self.does)] = 0
+            self.does[superseded(self.motions, self.cutter, self.does)] = 0
         radius = np.where(self.does > 0, self.shapes[self.cutter, 0], -math.inf)
-        self.splitter = Splitter(self.motions, window=Window(grid.box, radius), helix_chord=helix_chord(grid.pitch))
+        self.splitter = PieceSplitter(
+            self.motions, window=SweepWindow(grid.box, radius), helix_chord=helix_chord(grid.pitch)
+        )
         self.batches = tuple(_batches(self.splitter.counts))
 
-    def part(self, first: int, last: int, behind: int = 0) -> Part:
+    def part(self, first: int, last: int, behind: int = 0) -> CoursePart:
         """Return the motions first … last - 1; `behind` motions before them tell how the chain goes on, and are not
         cut.
         """
-        return Part(self, first, last, behind)
+        return CoursePart(self, first, last, behind)
 
     @cached_property
     def tiles(self) -> list[tuple[int, int, int, int]]:
@@ -134,7 +136,7 @@ class Sweeps:
         ]
 
 
-class Part:
+class CoursePart:
     """Some motions of a course that follow one another, in pieces."""
 
     def __init__(self, sweeps: Sweeps, first: int, last: int, behind: int) -> None:
@@ -147,7 +149,7 @@ class Part:
         self._pieces, self._cutter = pieces, sweeps.cutter[pieces.motion]
         self._where = (float(sweeps.grid.x0), float(sweeps.grid.y0), float(sweeps.grid.pitch))
 
-    def sorting(self, top: float, stop: int | None = None) -> Sorting:
+    def sorting(self, top: float, stop: int | None = None) -> TileIndex:
         """Return the pieces by tile.
 
         Args:
@@ -160,7 +162,7 @@ class Part:
             return sorting
         return replace(self._sorted(np.where(self.motion < stop, self.does, np.uint8(0)), top), turned=sorting.turned)
 
-    def without_asking(self) -> Part:
+    def without_asking(self) -> CoursePart:
         """Make motions that are only asked do nothing; return the part itself."""
         from .tile_kernels import ASKS
 
@@ -168,7 +170,12 @@ class Part:
         return self
 
     def cut(
-        self, before: Heights, field: Field, sorting: Sorting, limits: Limits, progress: Progress = NO_PROGRESS
+        self,
+        before: Heights,
+        field: CutField,
+        sorting: TileIndex,
+        limits: HeightLimits,
+        progress: Progress = NO_PROGRESS,
     ) -> Floats:
         """Cut all tiles, or, where `before` is the field's own heights, those that some piece meets.
 
@@ -218,7 +225,7 @@ class Part:
         pieces = self._pieces
         return pieces.start, pieces.end, does, self._cutter, pieces.arc, self._sweeps.shapes, pieces.arcs
 
-    def _sorted(self, does: NDArray[np.uint8], top: float) -> Sorting:
+    def _sorted(self, does: NDArray[np.uint8], top: float) -> TileIndex:
         from .tile_kernels import count, fill, survey
 
         sweeps, tiles, pieces = self._sweeps, len(self._sweeps.tiles), len(self.motion)
@@ -235,7 +242,7 @@ class Part:
         bounds = np.concatenate([[0], np.cumsum(counts.sum(axis=0))])
         places, refs = bounds[:-1] + np.cumsum(counts, axis=0) - counts, np.empty(bounds[-1], np.int32)
         in_parallel(lambda k: fill(*common, steps[k], steps[k + 1], met, places[k], refs), list(range(CHUNKS)))
-        return Sorting(bounds, refs, votes.sum(axis=0) > 0, spans)
+        return TileIndex(bounds, refs, votes.sum(axis=0) > 0, spans)
 
 
 def in_parallel(work: Callable[[int], None], parts: list[int], progress: Progress = NO_PROGRESS) -> None:

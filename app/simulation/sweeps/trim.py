@@ -13,7 +13,7 @@ from ...model.motion import Floats
 from ..cutter import Cutter
 from ..field.workpiece import Heights, Workpiece, ensure_memory
 from .course import Course, Ints, TrimOptions
-from .sweeps import Field, Limits, Part, Sweeps
+from .sweeps import CoursePart, CutField, HeightLimits, Sweeps
 
 AS_IT_IS = TrimOptions()
 
@@ -36,7 +36,7 @@ class RapidHit:
 
 
 @dataclass(frozen=True, eq=False)
-class Cut:
+class CutResult:
     """What a course has left of a work piece.
 
     Attributes:
@@ -73,7 +73,7 @@ def trim(
     cutters: Mapping[int, Cutter],
     options: TrimOptions = AS_IT_IS,
     progress: Progress = NO_PROGRESS,
-) -> Cut:
+) -> CutResult:
     """Cut a work piece.
 
     Heights are within 5e-6 mm (1 + slope of the surface) of exact for heights up to 32 mm, where a helix went within
@@ -92,13 +92,13 @@ def trim(
         ParameterError: a tool that cuts is not among the cutters, or the notes would not fit into memory.
         Cancelled: the job was asked to stop.
     """
-    job = _Job(workpiece, course, cutters, options)
+    job = _TrimJob(workpiece, course, cutters, options)
     job.run(progress)
     progress.step(1.0, "Cut")
     return job.result()
 
 
-class _Job:
+class _TrimJob:
     """The state of one trim."""
 
     def __init__(
@@ -108,7 +108,7 @@ class _Job:
         ensure_memory(workpiece.grid, 8 if options.trace else 4)
         self.sweeps = Sweeps(workpiece.grid, course, cutters, options)
         owner = np.full(workpiece.heights.shape if options.trace else (0, 0), -1, np.int32)
-        self.field = Field(np.empty_like(workpiece.heights), owner)
+        self.field = CutField(np.empty_like(workpiece.heights), owner)
         noted = len(course.motions) if options.trace else 0
         self.volume, self.engaged = np.zeros(noted), np.zeros(noted, np.int64)
         self.hits: dict[int, RapidHit] = {}
@@ -122,15 +122,15 @@ class _Job:
                 return
             part, share = sweeps.part(first, last), (ends[[first, last]] / max(ends[-1], 1)).tolist()
             sorting = part.sorting(float(before.max()), options.stop)
-            limits = Limits(float(before.max()), float(workpiece.floor), float(options.touch))
+            limits = HeightLimits(float(before.max()), float(workpiece.floor), float(options.touch))
             told = part.cut(before, self.field, sorting, limits, progress.part(*share))
             if len(told):
                 self._take_notes(part, sorting.refs, told)
             before = self.field.heights
 
-    def result(self) -> Cut:
+    def result(self) -> CutResult:
         """Return what was cut."""
-        return Cut(
+        return CutResult(
             self.workpiece,
             self.field.heights,
             tuple(self.hits[row] for row in sorted(self.hits)),
@@ -139,7 +139,7 @@ class _Job:
             self.engaged,
         )
 
-    def _take_notes(self, part: Part, refs: Ints, told: Floats) -> None:
+    def _take_notes(self, part: CoursePart, refs: Ints, told: Floats) -> None:
         from .tile_kernels import ASKS
 
         grid, motion, asks = self.workpiece.grid, part.motion[refs], part.does[refs] == ASKS

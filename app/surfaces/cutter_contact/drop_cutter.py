@@ -12,7 +12,7 @@ from ...core.errors import ParameterError
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.tool import Tool
-from ..patches.facets import NONE, Facets
+from ..patches.facets import NONE, SurfaceFacets
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -24,7 +24,7 @@ FINE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
-class Dropped:
+class DroppedCutter:
     """A cutter over m places.
 
     Attributes:
@@ -49,7 +49,9 @@ def shape_of(tool: Tool) -> Floats:
     return np.array((profile.flat, profile.fillet, profile.cone, radius, rim))
 
 
-def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progress: Progress = NO_PROGRESS) -> Dropped:
+def drop(
+    facets: SurfaceFacets, tool: Tool, places: Floats, fine: float = FINE, progress: Progress = NO_PROGRESS
+) -> DroppedCutter:
     """Return how low a cutter comes at places (m, 2), mm: over faces, edges and corners, each exactly.
 
     Args:
@@ -60,7 +62,7 @@ def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progres
         Cancelled: the job was asked to stop.
     """
     from . import drop_kernels as kernels
-    from .desk_kernels import ANY
+    from .facet_tree_kernels import ANY
 
     tree, shape, places = facets.tree, shape_of(tool), np.ascontiguousarray(places, np.float64)
     height, touched = np.empty(len(places)), np.empty(len(places), np.int64)
@@ -78,4 +80,4 @@ def drop(facets: Facets, tool: Tool, places: Floats, fine: float = FINE, progres
         for part in parts:
             part.cancel()
         raise
-    return Dropped(height, np.where(touched >= 0, tree.order[np.maximum(touched, 0)], NONE))
+    return DroppedCutter(height, np.where(touched >= 0, tree.order[np.maximum(touched, 0)], NONE))

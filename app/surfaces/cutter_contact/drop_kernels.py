@@ -13,7 +13,7 @@ import math
 from ...core.jit import kernel
 from ..patches.patch_kernels import copy_row, quarter
 from .contact_kernels import RADIUS, contact, height, length, over_triangle, rise, thicken
-from .desk_kernels import (
+from .facet_tree_kernels import (
     ANY,
     BOUNDS,
     BOXES,

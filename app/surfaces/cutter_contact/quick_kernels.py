@@ -12,7 +12,8 @@ import math
 from ...core.jit import kernel
 from ..patches.patch_kernels import copy_row, quarter
 from .contact_kernels import CONE, DISC, over_triangle
-from .desk_kernels import (
+from .drop_kernels import bound, open_node
+from .facet_tree_kernels import (
     ANY,
     BOUNDS,
     BOXES,
@@ -39,7 +40,6 @@ from .desk_kernels import (
     lay,
     put_quarters,
 )
-from .drop_kernels import bound, open_node
 from .touch_kernels import touch
 
 _R = "float64[::1]"

@@ -14,8 +14,8 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import contour_rows, sample
 from ...model.part import Region
 from ...model.scene import KeptSide
-from ..patches.build import Built, BuiltTrim
-from ..patches.facets import NONE, Facets, joined, joined_parts
+from ..patches.build import BuiltSurface, BuiltTrim
+from ..patches.facets import NONE, SurfaceFacets, joined, joined_parts
 from ..patches.patch import patches_of
 from ..patches.tessellate import tessellate
 from ..patches.trim import trimmed_mesh, trimmed_patches
@@ -40,13 +40,13 @@ class SceneFacets:
         areas: where in XY a trimmed surface counts, by its number.
     """
 
-    facets: Facets
-    uncut: Facets
+    facets: SurfaceFacets
+    uncut: SurfaceFacets
     areas: Mapping[int, shapely.Geometry]
 
 
 def scene_facets(
-    built: Sequence[Built], tolerance: float | None = None, progress: Progress = NO_PROGRESS
+    built: Sequence[BuiltSurface], tolerance: float | None = None, progress: Progress = NO_PROGRESS
 ) -> SceneFacets:
     """Return the facets of surfaces.
 
@@ -65,7 +65,7 @@ def scene_facets(
     parts = [tessellate(patches, near, progress)] if len(patches) else []
     for number, each in enumerate(built):
         if each.surface.enabled and each.triangles is not None:
-            parts.append(Facets.of_mesh(each.triangles, number))
+            parts.append(SurfaceFacets.of_mesh(each.triangles, number))
     uncut = joined(parts)
     areas = {number: area_of(each.trims) for number, each in enumerate(built) if each.surface.enabled and each.trims}
     facets = _trimmed(uncut, areas, near, progress) if areas else uncut
@@ -77,7 +77,9 @@ def scene_facets(
     return SceneFacets(facets, uncut, areas)
 
 
-def _trimmed(facets: Facets, areas: Mapping[int, shapely.Geometry], near: float, progress: Progress) -> Facets:
+def _trimmed(
+    facets: SurfaceFacets, areas: Mapping[int, shapely.Geometry], near: float, progress: Progress
+) -> SurfaceFacets:
     """Return facets, those of some surfaces as areas leave them."""
     smooth = np.isin(facets.patches.owner, list(areas))
     parts = [facets.only(~np.isin(facets.owner, list(areas)))]
@@ -91,7 +93,7 @@ def _trimmed(facets: Facets, areas: Mapping[int, shapely.Geometry], near: float,
     return joined(parts)
 
 
-def _near(control: Floats, built: Sequence[Built]) -> float:
+def _near(control: Floats, built: Sequence[BuiltSurface]) -> float:
     """Return how far facets may be off: a part of the surfaces' extent."""
     places = [(control[..., :3] / control[..., 3:]).reshape(-1, 3)]
     places += [each.triangles.reshape(-1, 3) for each in built if each.triangles is not None]

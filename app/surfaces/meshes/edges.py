@@ -14,7 +14,7 @@ Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
-class Edges:
+class MeshEdges:
     """The edges of n triangles, 3 n uses of them.
 
     Attributes:
@@ -28,17 +28,17 @@ class Edges:
     count: Ints
 
     @staticmethod
-    def of(triangles: Floats) -> Edges:
+    def of(triangles: Floats) -> MeshEdges:
         """Return the edges of triangles (n, 3, 3); corners at exactly the same place are one."""
-        return Edges.between(numbered(triangles.reshape(-1, 3)))
+        return MeshEdges.between(numbered(triangles.reshape(-1, 3)))
 
     @staticmethod
-    def between(start: Ints) -> Edges:
+    def between(start: Ints) -> MeshEdges:
         """Return the edges of triangles by the numbers (3 n,) of their corners."""
         end = np.roll(start.reshape(-1, 3), -1, axis=1).ravel()
         both = np.minimum(start, end) * (int(start.max(initial=0)) + 1) + np.maximum(start, end)
         edge = numbered_rows(both[:, None])
-        return Edges(edge, np.asarray(start < end), np.bincount(edge))
+        return MeshEdges(edge, np.asarray(start < end), np.bincount(edge))
 
     def open_uses(self) -> Ints:
         """Return the uses of edges that belong to an odd number of triangles: there the surface ends."""

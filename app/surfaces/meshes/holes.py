@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from .corners import doubled_areas
-from .edges import Edges
+from .edges import MeshEdges
 
 Floats = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _FLAT = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Hole:
+class MeshHole:
     """A hole.
 
     Attributes:
@@ -41,7 +41,7 @@ class Hole:
     edges: int
 
 
-def holes(triangles: Floats) -> tuple[Hole, ...]:
+def holes(triangles: Floats) -> tuple[MeshHole, ...]:
     """Return the holes in the surface of triangles (n, 3, 3), the largest first.
 
     A ring of open edges is a hole where most of its length has its triangles outside of the ring, or upright above it,
@@ -49,7 +49,7 @@ def holes(triangles: Floats) -> tuple[Hole, ...]:
     """
     some = doubled_areas(triangles) > 0
     corners = triangles if some.all() else triangles[some]
-    uses = Edges.of(corners).open_uses() if len(corners) else np.zeros(0, np.int64)
+    uses = MeshEdges.of(corners).open_uses() if len(corners) else np.zeros(0, np.int64)
     if not len(uses):
         return ()
     face, k = np.divmod(uses, 3)
@@ -75,7 +75,7 @@ def holes(triangles: Floats) -> tuple[Hole, ...]:
 
 def _hole(
     ring: shapely.Polygon, sides: dict[tuple[float, ...], float], low: dict[tuple[float, ...], float]
-) -> Hole | None:
+) -> MeshHole | None:
     """Return what a ring of open edges is, None where it is the rim of a surface.
 
     Args:
@@ -90,4 +90,4 @@ def _hole(
     disc = shapely.maximum_inscribed_circle(ring, tolerance=max(1e-6, 1e-3 * float(long.max())))
     x, y = shapely.get_coordinates(disc)[0].tolist()
     x0, y0, x1, y1 = ring.bounds
-    return Hole(x, y, min(low.get(key, np.inf) for key in keys), float(disc.length), x1 - x0, y1 - y0, len(keys))
+    return MeshHole(x, y, min(low.get(key, np.inf) for key in keys), float(disc.length), x1 - x0, y1 - y0, len(keys))

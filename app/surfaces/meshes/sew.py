@@ -30,7 +30,7 @@ _SIDES = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Sewn:
+class SewnMesh:
     """A surface without open edges.
 
     Attributes:
@@ -41,21 +41,21 @@ class Sewn:
     origin: Ints
 
 
-def sewn(triangles: Floats) -> Sewn | None:
+def sew_mesh(triangles: Floats) -> SewnMesh | None:
     """Return a torn surface sewn together; None where edges stay open."""
-    from .edges import Edges
+    from .edges import MeshEdges
 
     within = ROUNDED * float(np.abs(triangles).max())
-    found = Sewn(triangles, np.arange(len(triangles)))
-    uses = Edges.of(triangles).open_uses()
+    found = SewnMesh(triangles, np.arange(len(triangles)))
+    uses = MeshEdges.of(triangles).open_uses()
     if len(uses) > _MOST:
         return None
     welded = _welded(triangles, uses, within)
     if welded is None:
         return None
-    found = Sewn(welded, found.origin)
+    found = SewnMesh(welded, found.origin)
     for _ in range(_SIDES):
-        uses = _real(found.triangles, Edges.of(found.triangles).open_uses())
+        uses = _real(found.triangles, MeshEdges.of(found.triangles).open_uses())
         if not len(uses):
             break
         split = _split(found, uses, within)
@@ -63,7 +63,7 @@ def sewn(triangles: Floats) -> Sewn | None:
             return None
         found = split
     found = _with_area(found)
-    return None if len(Edges.of(found.triangles).open_uses()) else found
+    return None if len(MeshEdges.of(found.triangles).open_uses()) else found
 
 
 def _ends(triangles: Floats, uses: Ints) -> tuple[Floats, Floats]:
@@ -78,10 +78,10 @@ def _real(triangles: Floats, uses: Ints) -> Ints:
     return uses[np.all(np.any(sides != np.roll(sides, -1, axis=1), axis=2), axis=1)]
 
 
-def _with_area(found: Sewn) -> Sewn:
+def _with_area(found: SewnMesh) -> SewnMesh:
     """Return a surface without the triangles that have lost their area by welding."""
     some = np.all(np.any(found.triangles != np.roll(found.triangles, -1, axis=1), axis=2), axis=1)
-    return Sewn(found.triangles[some], found.origin[some])
+    return SewnMesh(found.triangles[some], found.origin[some])
 
 
 def _welded(triangles: Floats, uses: Ints, within: float) -> Floats | None:
@@ -108,7 +108,7 @@ def _welded(triangles: Floats, uses: Ints, within: float) -> Floats | None:
     return np.ascontiguousarray(one[at.ravel()].reshape(-1, 3, 3))
 
 
-def _split(found: Sewn, uses: Ints, within: float) -> Sewn | None:
+def _split(found: SewnMesh, uses: Ints, within: float) -> SewnMesh | None:
     """Return a surface whose triangles are split at the corners that lie on one open edge of each; None: there are far
     too many.
     """
@@ -132,7 +132,7 @@ def _split(found: Sewn, uses: Ints, within: float) -> Sewn | None:
         rows.append(np.full(len(chain) - 1, found.origin[face]))
     if not parts:
         return found
-    return Sewn(np.concatenate([found.triangles[~gone], *parts]), np.concatenate([found.origin[~gone], *rows]))
+    return SewnMesh(np.concatenate([found.triangles[~gone], *parts]), np.concatenate([found.origin[~gone], *rows]))
 
 
 def _on(begin: Floats, end: Floats, places: Floats, within: float) -> Floats:

@@ -12,8 +12,8 @@ import math
 
 from ...core.jit import kernel
 from ..cutter_contact.contact_kernels import CONE, DISC, RADIUS, over_triangle, thicken
-from ..cutter_contact.desk_kernels import DESK, SHAPES
 from ..cutter_contact.distance_kernels import square_from_curtain
+from ..cutter_contact.facet_tree_kernels import DESK, SHAPES
 
 _R = "float64[::1]"
 APART, _TOGETHER, _OPEN = 0, 1, 2

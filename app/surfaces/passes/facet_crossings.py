@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..patches.facets import Facets
-from ..sections.compound import Planes
+from ..patches.facets import SurfaceFacets
+from ..sections.compound import CuttingPlanes
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,7 @@ class FacetCrossings:
     crossings: float
 
 
-def facet_crossings(facets: Facets, planes: Planes) -> FacetCrossings:
+def facet_crossings(facets: SurfaceFacets, planes: CuttingPlanes) -> FacetCrossings:
     """Return how often planes cross facets, as if they lay evenly over all of them."""
     count = len(planes.offsets)
     if not count or not len(facets.triangles):

@@ -14,8 +14,8 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ..cutter_contact.desk_kernels import ANY, CHORDS, CONTROL, DESK, PATCH, PLACES, TREE, new_desk
 from ..cutter_contact.drop_kernels import drop_one
+from ..cutter_contact.facet_tree_kernels import ANY, CHORDS, CONTROL, DESK, PATCH, PLACES, TREE, new_desk
 from ..cutter_contact.touch_kernels import tip_over, touch_within
 from .meet_kernels import FOUND, OTHER, mark, meet
 from .point_kernels import (

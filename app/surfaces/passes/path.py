@@ -18,11 +18,11 @@ from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.tool import Tool
 from ..cutter_contact.drop_cutter import shape_of
-from ..patches.facets import Facets, surface_parameters
+from ..patches.facets import SurfaceFacets, surface_parameters
 from ..sections.boundary_kinds import kinds_of
-from ..sections.compound import Boundaries, BoundaryKind, Compound, Planes, Run
+from ..sections.compound import BoundaryKind, BoundaryPoints, CompoundSurface, CuttingPlanes, SectionRun
 from ..sections.planes import Stretch, extent_on, stretches
-from .thinning import Thinning, thinned
+from .simplification import PathSimplification, simplified
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -86,7 +86,7 @@ class FollowOptions:
 class Follower:
     """One tool over surfaces, along any line."""
 
-    def __init__(self, facets: Facets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
+    def __init__(self, facets: SurfaceFacets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
         from ..cutter_contact import contact_kernels
 
         self.facets, self.options = facets, options
@@ -110,7 +110,7 @@ class Follower:
             ]
         )
 
-    def along(self, planes: Planes, plane: int, part: Stretch) -> Floats:
+    def along(self, planes: CuttingPlanes, plane: int, part: Stretch) -> Floats:
         """Return the rows (n, COLUMNS) of points on a plane, facets by their numbers."""
         return self._rows(np.array([*planes.place(plane, 0.0), *planes.along, *part]))
 
@@ -135,7 +135,9 @@ class Follower:
     ) -> list[Floats]:
         """Return rows along lines of one direction with as few points as the tolerance allows."""
         room = self.options.tolerance - _TWICE * self.tolerance
-        return thinned(rows, Thinning(along, room, self.options.grid, self.facets.owner, self._proven), progress)
+        return simplified(
+            rows, PathSimplification(along, room, self.options.grid, self.facets.owner, self._proven), progress
+        )
 
     def _proven(self, chords: Floats, progress: Progress) -> NDArray[np.bool_]:
         return self.proven(chords, progress, _WHILE_MADE)
@@ -182,11 +184,11 @@ class Follower:
 
 def cutter_path(
     follower: Follower,
-    planes: Planes,
+    planes: CuttingPlanes,
     area: shapely.Geometry | None = None,
     progress: Progress = NO_PROGRESS,
     overrun: Overrun = Overrun(0.0),
-) -> Compound:
+) -> CompoundSurface:
     """Return the path of a cutter's tip over surfaces: one run or more on each plane, rising along it.
 
     Its centre stays within the box round the surfaces, seen along the planes, but for the overrun. Where it passes from
@@ -235,7 +237,9 @@ def _z() -> int:
     return Z
 
 
-def _allowed(planes: Planes, outer: Stretch, overrun: Overrun, area: shapely.Geometry | None) -> shapely.Geometry:
+def _allowed(
+    planes: CuttingPlanes, outer: Stretch, overrun: Overrun, area: shapely.Geometry | None
+) -> shapely.Geometry:
     """Return where the centre may be in the overrun."""
     far = (
         max(abs(outer[0]), abs(outer[1]))
@@ -248,7 +252,7 @@ def _allowed(planes: Planes, outer: Stretch, overrun: Overrun, area: shapely.Geo
 
 
 def _followed(
-    follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], progress: Progress
+    follower: Follower, planes: CuttingPlanes, jobs: Sequence[tuple[int, Stretch]], progress: Progress
 ) -> list[Floats]:
     """Return the rows of points of each stretch of a plane."""
     waiting = [pool().submit(follower.along, planes, plane, part) for plane, part in jobs]
@@ -270,7 +274,7 @@ def _followed(
 
 
 def _outside(
-    follower: Follower, planes: Planes, jobs: Sequence[tuple[int, Stretch]], lowest: float, progress: Progress
+    follower: Follower, planes: CuttingPlanes, jobs: Sequence[tuple[int, Stretch]], lowest: float, progress: Progress
 ) -> tuple[list[tuple[int, Stretch]], list[Floats]]:
     """Return stretches of planes as far as the tip is no lower than a height on them, and the rows of points there."""
     rows = _followed(follower, planes, jobs, progress)
@@ -326,7 +330,9 @@ def _in_a_row(
     return found, made
 
 
-def _used(planes: Planes, beside: Sequence[bool], touched: Sequence[int]) -> tuple[Planes, dict[int, int]]:
+def _used(
+    planes: CuttingPlanes, beside: Sequence[bool], touched: Sequence[int]
+) -> tuple[CuttingPlanes, dict[int, int]]:
     """Return the planes without those beside the surfaces on which nothing is touched, and the new number of each."""
     kept = [plane for plane in range(len(beside)) if not beside[plane] or plane in set(touched)]
     return replace(planes, offsets=tuple(planes.offsets[plane] for plane in kept)), {
@@ -334,11 +340,13 @@ def _used(planes: Planes, beside: Sequence[bool], touched: Sequence[int]) -> tup
     }
 
 
-def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Compound:
+def _compound(
+    facets: SurfaceFacets, planes: CuttingPlanes, numbers: Sequence[int], parts: Sequence[Floats]
+) -> CompoundSurface:
     """Return rows of points as runs and boundary points."""
     from . import point_kernels as k
 
-    runs: list[Run] = []
+    runs: list[SectionRun] = []
     for plane, rows in zip(numbers, parts, strict=True):
         starts = np.flatnonzero(rows[:, k.NEW] == k.BEGINS)
         for first, stop in pairwise([*starts.tolist(), len(rows)]):
@@ -348,11 +356,13 @@ def _compound(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Seq
             )
             apart = (np.diff(points, axis=0) != 0).any(axis=1)  # a boundary point may be written where its neighbour is
             if apart.any():
-                runs.append(Run(plane, points[np.append(apart, True)], owner[apart]))
-    return Compound(planes, tuple(runs), _boundaries(facets, planes, numbers, parts))
+                runs.append(SectionRun(plane, points[np.append(apart, True)], owner[apart]))
+    return CompoundSurface(planes, tuple(runs), _boundaries(facets, planes, numbers, parts))
 
 
-def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: Sequence[Floats]) -> Boundaries:
+def _boundaries(
+    facets: SurfaceFacets, planes: CuttingPlanes, numbers: Sequence[int], parts: Sequence[Floats]
+) -> BoundaryPoints:
     """Return where the path passes from surface to surface: where it touches both, and where it jumps from one to the
     other.
     """
@@ -370,7 +380,7 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
                 found.append((plane, rows[n - 1], rows[n + 1], True))
     found.sort(key=lambda each: (each[0], each[1][k.MET]))
     if not found:
-        return Boundaries.none()
+        return BoundaryPoints.none()
     where = np.array([each[0] for each in found])
     here, there = np.array([each[1] for each in found]), np.array([each[2] for each in found])
     jump = np.array([each[3] for each in found])
@@ -386,4 +396,4 @@ def _boundaries(facets: Facets, planes: Planes, numbers: Sequence[int], parts: S
     )
     sides = (surface_parameters(facets, one, at_one), surface_parameters(facets, other, at_other))
     kind = np.where(jump, BoundaryKind.JUMP, kinds_of(facets, (one, other), sides))
-    return Boundaries(where, facets.owner[one], facets.owner[other], place, end, *sides, kind.astype(np.uint8))
+    return BoundaryPoints(where, facets.owner[one], facets.owner[other], place, end, *sides, kind.astype(np.uint8))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ...core.jit import kernel
-from ..cutter_contact.desk_kernels import DESK, NONE, OWNER, TREE
+from ..cutter_contact.facet_tree_kernels import DESK, NONE, OWNER, TREE
 from ..cutter_contact.quick_kernels import quick_one
 
 _R = "float64[::1]"

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
 from ...model.tool import Tool
-from ..patches.facets import Facets
-from ..sections.compound import Planes
+from ..patches.facets import SurfaceFacets
+from ..sections.compound import CuttingPlanes
 from ..sections.planes import MOST_PLANES, extent_on
 
 Floats = NDArray[np.float64]
@@ -62,8 +62,8 @@ def corner_radius(tool: Tool) -> float:
 
 
 def scallop_planes(
-    facets: Facets, tool: Tool, scallop_height: float, origin: tuple[float, float], angle: float
-) -> Planes:
+    facets: SurfaceFacets, tool: Tool, scallop_height: float, origin: tuple[float, float], angle: float
+) -> CuttingPlanes:
     """Return planes as far apart as a scallop height allows, nearer to each other where surfaces are steeper across
     them.
 
@@ -79,7 +79,7 @@ def scallop_planes(
             planes.
     """
     flat = stepover_for_scallop(corner_radius(tool), scallop_height)
-    bare = Planes(origin, angle, ())
+    bare = CuttingPlanes(origin, angle, ())
     _, (low, high) = extent_on(bare, facets.triangles[:, :, :2].reshape(-1, 2))
     first, last, steep = _slopes(facets, bare)
     order = np.argsort(first)
@@ -88,10 +88,10 @@ def scallop_planes(
     up = _steps(begin, high, flat, (first, last, steep))
     down = [-at for at in _steps(-begin, -low, flat, _mirrored(first, last, steep))]
     offsets = sorted({*up, *down})
-    return Planes(origin, angle, tuple(offsets))
+    return CuttingPlanes(origin, angle, tuple(offsets))
 
 
-def _slopes(facets: Facets, planes: Planes) -> tuple[Floats, Floats, Floats]:
+def _slopes(facets: SurfaceFacets, planes: CuttingPlanes) -> tuple[Floats, Floats, Floats]:
     """Return from where to where across the planes each facet (n,) lies, and how steep it is across them."""
     c, s = planes.along
     t = facets.triangles

@@ -14,7 +14,8 @@ import math
 
 from ...core.jit import kernel
 from ..cutter_contact.contact_kernels import CONE, DISC, RADIUS, thicken
-from ..cutter_contact.desk_kernels import (
+from ..cutter_contact.drop_kernels import bound
+from ..cutter_contact.facet_tree_kernels import (
     ANY,
     BOXES,
     BULGE,
@@ -41,7 +42,6 @@ from ..cutter_contact.desk_kernels import (
     lay,
     new_desk,
 )
-from ..cutter_contact.drop_kernels import bound
 from ..patches.patch_kernels import copy_row, quarter
 from .chord_kernels import APART, apart, by_middle
 

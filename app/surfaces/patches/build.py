@@ -14,17 +14,17 @@ from ...geometry.region import nest, polygon_contour
 from ...model.curves import Circle
 from ...model.part import Contour, Region
 from ...model.scene import KeptSide, Scene, SceneOutline, Surface
-from ...model.scene_curves import Sources
+from ...model.scene_curves import SceneFiles
 from ...model.scene_shapes import (
     BicubicShape,
     BilinearShape,
     BsplineShape,
     ConeShape,
     CylinderShape,
-    Keep,
     LoftShape,
     MeshShape,
     PlaneShape,
+    ProfileOrientation,
     RevolvedShape,
     RuledShape,
     SphereShape,
@@ -38,7 +38,7 @@ from .loft import lofted
 from .patch import BsplineSurface
 from .revolve import revolved
 from .ruled import ruled
-from .section_curve import Resolved, contours_of, resolve, resolve_all
+from .section_curve import ResolvedCurve, contours_of, resolve, resolve_all
 from .step_faces import step_triangles
 from .sweep import TOLERANCE, following_sweep, parallel_sweep
 
@@ -67,7 +67,7 @@ class BuiltTrim:
 
 
 @dataclass(frozen=True, eq=False)
-class Built:
+class BuiltSurface:
     """A surface as engines take it: either B-spline surfaces, or triangles.
 
     Attributes:
@@ -84,7 +84,7 @@ class Built:
     deviation: float = 0.0
 
 
-def build(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) -> tuple[Built, ...]:
+def build(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS) -> tuple[BuiltSurface, ...]:
     """Return every surface of a scene, in its order.
 
     Raises:
@@ -97,7 +97,7 @@ def build(scene: Scene, sources: Sources, progress: Progress = NO_PROGRESS) -> t
     return tuple(made)
 
 
-def build_surface(surface: Surface, sources: Sources) -> Built:
+def build_surface(surface: Surface, sources: SceneFiles) -> BuiltSurface:
     """Return one surface.
 
     Raises:
@@ -140,11 +140,11 @@ def _quarters(angle: float) -> tuple[float, float]:
     return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(angle / 90) % 4]
 
 
-def _shaped(surface: Surface, sources: Sources) -> Built:
+def _shaped(surface: Surface, sources: SceneFiles) -> BuiltSurface:
     """Return a surface before it is placed, without its trims."""
     shape = surface.shape
     if make := _ANALYTIC.get(type(shape)):
-        return Built(surface, (make(shape),))  # type: ignore[operator]
+        return BuiltSurface(surface, (make(shape),))  # type: ignore[operator]
     if isinstance(shape, LoftShape):
         sections = resolve_all(shape.sections, sources)
         return _of(surface, (lofted([each.curve for each in sections], shape.degree, shape.closed),), *sections)
@@ -157,22 +157,22 @@ def _shaped(surface: Surface, sources: Sources) -> Built:
         return _of(surface, (revolved(profile.curve, np.array(shape.centre), np.array(shape.axis), turn),), profile)
     if isinstance(shape, SweptShape):
         profile, guide = resolve(shape.profile, sources), resolve(shape.guide, sources)
-        if shape.keep is Keep.PARALLEL:
+        if shape.keep is ProfileOrientation.PARALLEL:
             return _of(surface, (parallel_sweep(profile.curve, guide.curve),), profile, guide)
         built = _of(surface, following_sweep(profile.curve, guide.curve), profile, guide)
         return replace(built, deviation=built.deviation + TOLERANCE)
     if isinstance(shape, StepShape):
         triangles = step_triangles(shape.file, sources.data(shape.file), shape.faces, shape.tolerance)
-        return Built(surface, triangles=triangles, deviation=shape.tolerance)
+        return BuiltSurface(surface, triangles=triangles, deviation=shape.tolerance)
     assert isinstance(shape, MeshShape)
-    return Built(surface, triangles=triangles_of(shape, sources))
+    return BuiltSurface(surface, triangles=triangles_of(shape, sources))
 
 
-def _of(surface: Surface, splines: tuple[BsplineSurface, ...], *sections: Resolved) -> Built:
-    return Built(surface, splines, deviation=sum(each.deviation for each in sections))
+def _of(surface: Surface, splines: tuple[BsplineSurface, ...], *sections: ResolvedCurve) -> BuiltSurface:
+    return BuiltSurface(surface, splines, deviation=sum(each.deviation for each in sections))
 
 
-def triangles_of(shape: MeshShape, sources: Sources) -> Floats:
+def triangles_of(shape: MeshShape, sources: SceneFiles) -> Floats:
     """Return the triangles (n, 3, 3) of a mesh's file, mm.
 
     Raises:
@@ -183,7 +183,7 @@ def triangles_of(shape: MeshShape, sources: Sources) -> Floats:
     return triangles
 
 
-def regions_of(outline: SceneOutline, sources: Sources) -> tuple[Region, ...]:
+def regions_of(outline: SceneOutline, sources: SceneFiles) -> tuple[Region, ...]:
     """Return the regions of an outline; arcs and circles stay exact.
 
     Raises:
@@ -195,7 +195,7 @@ def regions_of(outline: SceneOutline, sources: Sources) -> tuple[Region, ...]:
     return regions
 
 
-def _contours(outline: SceneOutline, sources: Sources) -> tuple[Contour, ...]:
+def _contours(outline: SceneOutline, sources: SceneFiles) -> tuple[Contour, ...]:
     """Return the closed contours of an outline."""
     if outline.circle:
         x, y, radius = outline.circle

@@ -29,7 +29,7 @@ _STEEP = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class Facets:
+class SurfaceFacets:
     """n facets of surfaces.
 
     Attributes:
@@ -59,12 +59,12 @@ class Facets:
         return len(self.owner)
 
     @staticmethod
-    def of_mesh(triangles: Floats, owner: int = 0) -> Facets:
+    def of_mesh(triangles: Floats, owner: int = 0) -> SurfaceFacets:
         """Return the facets of triangles (n, 3, 3) that are the surface themselves."""
         count = len(triangles)
         if not count:
             raise GeometryError("surfaces of no triangles; at least one was expected.")
-        return Facets(
+        return SurfaceFacets(
             np.ascontiguousarray(triangles, np.float64),
             np.full(count, owner, np.int64),
             np.full(count, NONE, np.int64),
@@ -75,9 +75,9 @@ class Facets:
         )
 
     @staticmethod
-    def none(patches: Patches) -> Facets:
+    def none(patches: Patches) -> SurfaceFacets:
         """Return no facets, of patches of the same degrees."""
-        return Facets(
+        return SurfaceFacets(
             np.zeros((0, 3, 3)),
             np.zeros(0, np.int64),
             np.zeros(0, np.int64),
@@ -87,7 +87,7 @@ class Facets:
             patches.only(np.zeros(len(patches), np.bool_)),
         )
 
-    def only(self, rows: Ints | NDArray[np.bool_]) -> Facets:
+    def only(self, rows: Ints | NDArray[np.bool_]) -> SurfaceFacets:
         """Return some of them."""
         return replace(
             self,
@@ -100,12 +100,12 @@ class Facets:
         )
 
     @cached_property
-    def tree(self) -> Tree:
+    def tree(self) -> FacetTree:
         """The facets in a tree."""
         return _tree(self)
 
 
-def surface_parameters(facets: Facets, facet: Ints, at: Floats) -> Floats:
+def surface_parameters(facets: SurfaceFacets, facet: Ints, at: Floats) -> Floats:
     """Return a surface's parameters (m, 2), from 0 to 1, of places of facets (m,) at their patches' parameters; NaN on
     meshes.
 
@@ -118,7 +118,7 @@ def surface_parameters(facets: Facets, facet: Ints, at: Floats) -> Floats:
     return np.where((patch >= 0)[:, None], facets.patches.of_surface(np.maximum(patch, 0), inner), np.nan)
 
 
-def joined(parts: Sequence[Facets]) -> Facets:
+def joined(parts: Sequence[SurfaceFacets]) -> SurfaceFacets:
     """Return facets of one or more sets of patches as those of one set.
 
     Raises:
@@ -135,7 +135,7 @@ def joined(parts: Sequence[Facets]) -> Facets:
     return joined_parts(numbered, joined_patches(patches) if patches else patches_of(()))
 
 
-def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
+def joined_parts(parts: Sequence[SurfaceFacets], patches: Patches) -> SurfaceFacets:
     """Return facets of the same patches as one."""
 
     def every(name: str) -> NDArray[Any]:
@@ -143,13 +143,13 @@ def joined_parts(parts: Sequence[Facets], patches: Patches) -> Facets:
 
     if len(parts) == 1:
         return replace(parts[0], patches=patches)
-    return Facets(
+    return SurfaceFacets(
         every("triangles"), every("owner"), every("patch"), every("corners"), every("error"), every("bulge"), patches
     )
 
 
 @dataclass(frozen=True, eq=False)
-class Tree:
+class FacetTree:
     """A balanced binary tree over facets that lie near one another.
 
     Attributes:
@@ -189,7 +189,7 @@ class Tree:
         )
 
 
-def _tree(facets: Facets) -> Tree:
+def _tree(facets: SurfaceFacets) -> FacetTree:
     error = facets.error
     low, high = facets.triangles.min(axis=1) - error[:, None], facets.triangles.max(axis=1) + error[:, None]
     order = np.argsort(_interleaved((low + high) / 2), kind="stable")
@@ -205,7 +205,7 @@ def _tree(facets: Facets) -> Tree:
     slopes, counts = _slopes(triangles.reshape(-1, 3, 3)), [len(level) for level in levels[::-1]]
     planes = np.concatenate([_planes(triangles.reshape(-1, 3, 3), error, slopes, count) for count in counts])
     patch = np.where(np.append(facets.patches.whole, False)[facets.patch], facets.patch, NONE)
-    return Tree(
+    return FacetTree(
         np.column_stack([np.concatenate(levels[::-1]), planes]),
         triangles,
         np.ascontiguousarray(_taken(facets.corners.reshape(-1, 6), order)),

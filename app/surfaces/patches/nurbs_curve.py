@@ -55,12 +55,12 @@ def brought(points: Floats, knots: tuple[Floats, int], target: tuple[Floats, int
     """Return control points in another space, of knots and degree, which holds that of the spline's own."""
     from scipy.interpolate import make_interp_spline
 
-    (own, own_degree), (wanted, degree) = knots, target
-    if own_degree == degree and len(own) == len(wanted) and np.array_equal(own, wanted):
+    (own, own_degree), (requested, degree) = knots, target
+    if own_degree == degree and len(own) == len(requested) and np.array_equal(own, requested):
         return points
-    peaks = np.array([wanted[k + 1 : k + 1 + degree].mean() for k in range(len(wanted) - degree - 1)])
-    peaks[0], peaks[-1] = wanted[0], wanted[-1]
-    made: Floats = make_interp_spline(peaks, spline_of(points, own, own_degree)(peaks), k=degree, t=wanted).c
+    peaks = np.array([requested[k + 1 : k + 1 + degree].mean() for k in range(len(requested) - degree - 1)])
+    peaks[0], peaks[-1] = requested[0], requested[-1]
+    made: Floats = make_interp_spline(peaks, spline_of(points, own, own_degree)(peaks), k=degree, t=requested).c
     return made
 
 
@@ -174,20 +174,20 @@ def compatible(curves: Sequence[Nurbs]) -> tuple[list[Floats], Floats, int]:
     rounding.
     """
     degree = max(curve.degree for curve in curves)
-    wanted: list[list[float]] = []
+    requested: list[list[float]] = []
     for curve in curves:
         for knot, times in _multiplicities(unit_knots(curve.knots)):
-            known = next((each for each in wanted if abs(each[0] - knot) <= _ALIKE), None)
+            known = next((each for each in requested if abs(each[0] - knot) <= _ALIKE), None)
             more = times + degree - curve.degree
             if known is None:
-                wanted.append([knot, more])
+                requested.append([knot, more])
             else:
                 known[1] = max(known[1], more)
-    wanted.sort()
-    knots = np.concatenate([np.full(int(times), knot) for knot, times in wanted])
+    requested.sort()
+    knots = np.concatenate([np.full(int(times), knot) for knot, times in requested])
     made = []
     for curve in curves:
-        own = _snapped(unit_knots(curve.knots), [knot for knot, _ in wanted])
+        own = _snapped(unit_knots(curve.knots), [knot for knot, _ in requested])
         made.append(brought(homogeneous(curve), (own, curve.degree), (knots, degree)))
     return made, knots, degree
 
@@ -202,8 +202,8 @@ def _multiplicities(knots: Floats) -> list[tuple[float, int]]:
     return values
 
 
-def _snapped(knots: Floats, wanted: list[float]) -> Floats:
-    known = np.array(wanted)
+def _snapped(knots: Floats, requested: list[float]) -> Floats:
+    known = np.array(requested)
     made: Floats = known[np.abs(known[None, :] - knots[:, None]).argmin(axis=1)]
     return made
 

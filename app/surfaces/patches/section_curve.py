@@ -13,21 +13,21 @@ from ...geometry.chaining.chain import chain
 from ...model.curves import Spline
 from ...model.motion import Nurbs
 from ...model.part import Contour, Part
-from ...model.scene_curves import CurveForm, SectionCurve, Sources, Spacing
+from ...model.scene_curves import CurveForm, SceneFiles, SectionCurve, Spacing
 from .nurbs_curve import brought, even_knots, of_homogeneous, of_primitives, parameters, through
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Resolved:
+class ResolvedCurve:
     """A section curve in space, and how far it may be off what was drawn, mm (0: exact but for rounding)."""
 
     curve: Nurbs
     deviation: float = 0.0
 
 
-def resolve(section: SectionCurve, sources: Sources) -> Resolved:
+def resolve(section: SectionCurve, sources: SceneFiles) -> ResolvedCurve:
     """Return a section as a curve.
 
     Raises:
@@ -36,17 +36,17 @@ def resolve(section: SectionCurve, sources: Sources) -> Resolved:
     if section.drawing:
         return _drawn(section, sources)
     if section.form is CurveForm.CONTROL:
-        return Resolved(_controlled(section))
-    return Resolved(_through(section, own_parameters(section)))
+        return ResolvedCurve(_controlled(section))
+    return ResolvedCurve(_through(section, own_parameters(section)))
 
 
-def resolve_all(sections: Sequence[SectionCurve], sources: Sources) -> list[Resolved]:
+def resolve_all(sections: Sequence[SectionCurve], sources: SceneFiles) -> list[ResolvedCurve]:
     """Return sections as curves; tables of as many points each share the mean of their parameters, so that no knots are
     added.
     """
     if shared_parameters(sections):
         at = np.mean([own_parameters(section) for section in sections], axis=0)
-        return [Resolved(_through(section, at)) for section in sections]
+        return [ResolvedCurve(_through(section, at)) for section in sections]
     return [resolve(section, sources) for section in sections]
 
 
@@ -116,7 +116,7 @@ def contours_of(part: Part, layer: str, name: str) -> tuple[Contour, ...]:
     return tuple(found)
 
 
-def _drawn(section: SectionCurve, sources: Sources) -> Resolved:
+def _drawn(section: SectionCurve, sources: SceneFiles) -> ResolvedCurve:
     part = sources.part(section.drawing)
     contours = contours_of(part, section.layer, section.drawing)
     if section.number > len(contours):
@@ -125,21 +125,21 @@ def _drawn(section: SectionCurve, sources: Sources) -> Resolved:
             f"use 1 to {len(contours)}."
         )
     flat = flat_curve(contours[section.number - 1], part)
-    return Resolved(
+    return ResolvedCurve(
         Nurbs(placed(flat.curve.points, section), flat.curve.weights, flat.curve.knots, flat.curve.degree),
         flat.deviation,
     )
 
 
-def flat_curve(contour: Contour, part: Part) -> Resolved:
+def flat_curve(contour: Contour, part: Part) -> ResolvedCurve:
     """Return a contour of a drawing as a curve in the plane z = 0: splines as they are, lines, arcs and circles
     exactly.
     """
     curve = part.curve(contour.entity_ids[0]) if len(contour.entity_ids) == 1 else None
     return (
-        Resolved(_spline(curve))
+        ResolvedCurve(_spline(curve))
         if isinstance(curve, Spline)
-        else Resolved(of_primitives(contour.primitives), contour.deviation)
+        else ResolvedCurve(of_primitives(contour.primitives), contour.deviation)
     )
 
 

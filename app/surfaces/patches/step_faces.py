@@ -45,12 +45,12 @@ def step_triangles(name: str, data: bytes, numbers: tuple[int, ...], tolerance: 
     if missing:
         raise InputError(f"{name} has {len(faces)} faces, so none with number {missing[0]}; use 1 to {len(faces)}.")
     chosen = [faces[number - 1] for number in numbers] or faces
-    asked = tolerance
+    requested = tolerance
     for _ in range(_TIMES):
-        found, off = _meshed(shape, chosen, asked)
+        found, off = _meshed(shape, chosen, requested)
         if off <= tolerance:
             return found
-        asked *= _FINER
+        requested *= _FINER
     raise GeometryError(
         f"{name}: a face stays {off:.4g} mm from its triangles, more than {tolerance:g} mm; make tolerance larger."
     )

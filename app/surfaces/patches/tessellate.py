@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
-from .facets import Facets
+from .facets import SurfaceFacets
 from .patch import Patches, bernstein
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ _AT_ONCE = 100_000
 """Facets whose bulge is asked at once."""
 
 
-def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGRESS) -> Facets:
+def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGRESS) -> SurfaceFacets:
     """Return facets no farther from their patches than a tolerance, mm, > 0.
 
     Raises:
@@ -54,10 +54,10 @@ def tessellate(patches: Patches, tolerance: float, progress: Progress = NO_PROGR
         bulges = np.minimum(np.concatenate(bulge), np.repeat(error, each)[:, None])
         made.append((triangles, np.repeat(number[rows], each), corners, np.repeat(error, each), bulges))
     triangles, patch, corners, error, bulges = (np.concatenate(column) for column in zip(*made, strict=True))
-    return Facets(triangles, patches.owner[patch], patch, corners, error, bulges, patches)
+    return SurfaceFacets(triangles, patches.owner[patch], patch, corners, error, bulges, patches)
 
 
-def facets_alone(patches: Patches) -> Facets:
+def facets_alone(patches: Patches) -> SurfaceFacets:
     """Return two facets for each patch, and how far the surface is off them, seen as a whole: parameters may be
     elsewhere.
 
@@ -75,7 +75,9 @@ def facets_alone(patches: Patches) -> Facets:
     sides = [_from_chord(places[:, k]) for k in (0, -1)] + [_from_chord(places[:, :, k]) for k in (0, -1)]
     error = np.repeat(np.minimum(np.maximum.reduce([bulge, *sides]), (uu + 2 * uv + vv) / 8), 2)
     patch = np.repeat(np.arange(len(patches)), 2)
-    return Facets(triangles, patches.owner[patch], patch, corners, error, np.repeat(error[:, None], 2, axis=1), patches)
+    return SurfaceFacets(
+        triangles, patches.owner[patch], patch, corners, error, np.repeat(error[:, None], 2, axis=1), patches
+    )
 
 
 def _from_chord(places: Floats) -> Floats:
@@ -123,8 +125,8 @@ def _counts(bounds: Floats, tolerance: float) -> Ints:
     uu, uv, vv = np.maximum(bounds, 1e-30).T
     uu, vv = uu + 0.1 * uv, vv + 0.1 * uv
     each = 8 * tolerance / (2 + 2 * uv / np.sqrt(uu * vv))
-    wanted = np.maximum(np.sqrt(np.column_stack([uu / each, vv / each])), 1.0)
-    return np.asarray(np.ceil(np.minimum(wanted, 1e6) * (1 - 1e-9)), np.int64)
+    requested = np.maximum(np.sqrt(np.column_stack([uu / each, vv / each])), 1.0)
+    return np.asarray(np.ceil(np.minimum(requested, 1e6) * (1 - 1e-9)), np.int64)
 
 
 def second_derivatives(control: Floats, signed: bool = False) -> Floats:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
-from .facets import Facets, joined, joined_parts
+from .facets import SurfaceFacets, joined, joined_parts
 from .patch import Patches, joined_patches
 from .tessellate import MOST_FACETS, facets_alone, halves, second_derivatives
 
@@ -34,7 +34,7 @@ _UPRIGHT = 1e-9
 
 def trimmed_patches(
     patches: Patches, areas: Mapping[int, shapely.Geometry], progress: Progress = NO_PROGRESS
-) -> tuple[Patches, Facets]:
+) -> tuple[Patches, SurfaceFacets]:
     """Return the patches that trims leave whole, some of them divided, and facets along the outlines.
 
     Args:
@@ -43,7 +43,7 @@ def trimmed_patches(
     Raises:
         GeometryError: outlines would want more than MOST_FACETS. Cancelled: the job was asked to stop.
     """
-    done, cuts, count = [patches.only(np.zeros(len(patches), np.bool_))], [Facets.none(patches)], 0
+    done, cuts, count = [patches.only(np.zeros(len(patches), np.bool_))], [SurfaceFacets.none(patches)], 0
     todo, inside = patches, np.array([areas[owner] for owner in patches.owner.tolist()], np.object_)
     while len(todo):
         progress.step(0.0, "Trimming")
@@ -96,7 +96,7 @@ def _halved(patches: Patches) -> tuple[Patches, Ints]:
     return joined_patches(parts), np.concatenate(source)
 
 
-def trimmed_mesh(facets: Facets, area: shapely.Geometry) -> Facets:
+def trimmed_mesh(facets: SurfaceFacets, area: shapely.Geometry) -> SurfaceFacets:
     """Return what an area leaves of facets that are the surface themselves."""
     shapely.prepare(area)
     ends = [
@@ -112,7 +112,7 @@ def trimmed_mesh(facets: Facets, area: shapely.Geometry) -> Facets:
     return joined_parts([kept, cut(crossed, np.full(len(crossed), area, np.object_))], facets.patches)
 
 
-def cut(facets: Facets, inside: NDArray[np.object_]) -> Facets:
+def cut(facets: SurfaceFacets, inside: NDArray[np.object_]) -> SurfaceFacets:
     """Return what areas (n,) in XY leave of n facets, in triangles within their own planes; patches are not asked."""
     a, b, c = facets.triangles.swapaxes(0, 1)
     normal = np.cross(b - a, c - a)

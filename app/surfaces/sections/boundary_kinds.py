@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..patches.facets import Facets
+from ..patches.facets import SurfaceFacets
 from .compound import BoundaryKind
 
 Floats = NDArray[np.float64]
@@ -17,7 +17,7 @@ _PARALLEL = 1e-6
 """Sine of the angle between surfaces that touch rather than cross."""
 
 
-def kinds_of(facets: Facets, facet: tuple[Ints, Ints], parameters: tuple[Floats, Floats]) -> NDArray[np.uint8]:
+def kinds_of(facets: SurfaceFacets, facet: tuple[Ints, Ints], parameters: tuple[Floats, Floats]) -> NDArray[np.uint8]:
     """Return the kind (m,) of places where two facets (m,) each are touched, at parameters (m, 2) of their surfaces."""
     edge = _on_side(facets, facet[0], parameters[0]) | _on_side(facets, facet[1], parameters[1])
     across = np.linalg.norm(np.cross(_normals(facets, facet[0]), _normals(facets, facet[1])), axis=1)
@@ -25,7 +25,7 @@ def kinds_of(facets: Facets, facet: tuple[Ints, Ints], parameters: tuple[Floats,
     return np.asarray(np.where(edge, BoundaryKind.EDGE, kind), np.uint8)
 
 
-def _on_side(facets: Facets, facet: Ints, parameters: Floats) -> NDArray[np.bool_]:
+def _on_side(facets: SurfaceFacets, facet: Ints, parameters: Floats) -> NDArray[np.bool_]:
     """Return which places are on a side of their surface where it ends: neither a seam nor a pole."""
     ends = _ends(facets)
     owner = facets.owner[facet]
@@ -40,7 +40,7 @@ def _on_side(facets: Facets, facet: Ints, parameters: Floats) -> NDArray[np.bool
     return np.asarray((near & ends[owner]).any(axis=1))
 
 
-def _ends(facets: Facets) -> NDArray[np.bool_]:
+def _ends(facets: SurfaceFacets) -> NDArray[np.bool_]:
     """Return at which sides (u = 0, u = 1, v = 0, v = 1) each surface (n, 4) ends."""
     count = int(facets.owner.max()) + 1
     found = np.ones((count, 4), np.bool_)
@@ -63,7 +63,7 @@ def _alike(a: Floats, b: Floats) -> bool:
     return bool(np.abs(a - b).max() <= 1e-9 * (1 + np.abs(a).max()))
 
 
-def _normals(facets: Facets, facet: Ints) -> Floats:
+def _normals(facets: SurfaceFacets, facet: Ints) -> Floats:
     t = facets.triangles[facet]
     normal = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
     return np.asarray(normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300))

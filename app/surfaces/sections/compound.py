@@ -34,7 +34,7 @@ class BoundaryKind(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Planes:
+class CuttingPlanes:
     """Parallel cutting planes, upright on the XY plane.
 
     Attributes:
@@ -72,7 +72,7 @@ class Planes:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class SectionRun:
     """A sequence of points on one plane without a gap.
 
     Attributes:
@@ -87,7 +87,7 @@ class Run:
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class PlaneSection:
     """Where a plane cuts one surface.
 
     Attributes:
@@ -103,7 +103,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Boundaries:
+class BoundaryPoints:
     """m boundary points CRij, in the order of generation.
 
     Attributes:
@@ -128,14 +128,14 @@ class Boundaries:
         return len(self.kind)
 
     @staticmethod
-    def none() -> Boundaries:
+    def none() -> BoundaryPoints:
         """Return none."""
         number, place, at = np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 2))
-        return Boundaries(number, number, number, place, place, at, at, np.zeros(0, np.uint8))
+        return BoundaryPoints(number, number, number, place, place, at, at, np.zeros(0, np.uint8))
 
 
 @dataclass(frozen=True, eq=False)
-class Compound:
+class CompoundSurface:
     """A compound surface, or the path of a cutter over one, which is that of the offset surfaces.
 
     Attributes:
@@ -144,16 +144,16 @@ class Compound:
         curves: of every surface on every plane, also below others; none for the path of a cutter.
     """
 
-    planes: Planes
-    runs: tuple[Run, ...]
-    boundaries: Boundaries
-    curves: tuple[Curve, ...] = ()
+    planes: CuttingPlanes
+    runs: tuple[SectionRun, ...]
+    boundaries: BoundaryPoints
+    curves: tuple[PlaneSection, ...] = ()
 
-    def numbered(self, numbers: Ints) -> Compound:
+    def numbered(self, numbers: Ints) -> CompoundSurface:
         """Return it with other numbers of surfaces: `numbers[k]` for k."""
         at = np.append(numbers, NO_SURFACE)
         marks = self.boundaries
-        return Compound(
+        return CompoundSurface(
             self.planes,
             tuple(replace(run, owner=at[run.owner]) for run in self.runs),
             replace(marks, before=at[marks.before], after=at[marks.after]),

@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from ...core.errors import ParameterError
-from .compound import Planes
+from .compound import CuttingPlanes
 
 Floats = NDArray[np.float64]
 Stretch = tuple[float, float]
@@ -21,14 +21,14 @@ _NEAR = 1e-9
 _PART = 1 << 17
 
 
-def extent_on(planes: Planes, places: Floats) -> tuple[Stretch, Stretch]:
+def extent_on(planes: CuttingPlanes, places: Floats) -> tuple[Stretch, Stretch]:
     """Return the stretch along the planes, and across them, in which places (n, 2) lie, mm."""
     ends = [_extent(planes, places[first : first + _PART]) for first in range(0, len(places), _PART)]
     low, high = np.min([low for low, _ in ends], axis=0), np.max([high for _, high in ends], axis=0)
     return (float(low[0]), float(high[0])), (float(low[1]), float(high[1]))
 
 
-def _extent(planes: Planes, places: Floats) -> tuple[Floats, Floats]:
+def _extent(planes: CuttingPlanes, places: Floats) -> tuple[Floats, Floats]:
     """Return (low, high), each along and across the planes, mm."""
     c, s = planes.along
     dx, dy = places[:, 0] - planes.origin[0], places[:, 1] - planes.origin[1]
@@ -36,7 +36,7 @@ def _extent(planes: Planes, places: Floats) -> tuple[Floats, Floats]:
     return both.min(axis=1), both.max(axis=1)
 
 
-def even_planes(origin: tuple[float, float], angle: float, pitch: float, places: Floats) -> Planes:
+def even_planes(origin: tuple[float, float], angle: float, pitch: float, places: Floats) -> CuttingPlanes:
     """Return planes at one distance from each other, one of them through a place, as many as meet places (n, 2).
 
     Args:
@@ -45,7 +45,7 @@ def even_planes(origin: tuple[float, float], angle: float, pitch: float, places:
     Raises:
         ParameterError: there would be more than MOST_PLANES.
     """
-    bare = Planes(origin, angle, ())
+    bare = CuttingPlanes(origin, angle, ())
     _, (low, high) = extent_on(bare, places)
     first, last = math.ceil(low / pitch - _NEAR), math.floor(high / pitch + _NEAR)
     if last - first >= MOST_PLANES:
@@ -54,10 +54,10 @@ def even_planes(origin: tuple[float, float], angle: float, pitch: float, places:
             "use a larger one."
         )
     offsets = [min(max(k * pitch, low), high) for k in range(first, last + 1)]
-    return Planes(origin, angle, tuple(offsets) or ((low + high) / 2,))
+    return CuttingPlanes(origin, angle, tuple(offsets) or ((low + high) / 2,))
 
 
-def stretches(planes: Planes, plane: int, whole: Stretch, area: shapely.Geometry | None) -> Sequence[Stretch]:
+def stretches(planes: CuttingPlanes, plane: int, whole: Stretch, area: shapely.Geometry | None) -> Sequence[Stretch]:
     """Return from where to where, along one plane, it lies over an area; None: everywhere."""
     if area is None:
         return (whole,)
@@ -72,7 +72,7 @@ def stretches(planes: Planes, plane: int, whole: Stretch, area: shapely.Geometry
     return sorted(found)
 
 
-def widened(planes: Planes, places: Floats, far: float, step: float) -> Planes:
+def widened(planes: CuttingPlanes, places: Floats, far: float, step: float) -> CuttingPlanes:
     """Return planes with more of them on both sides, up to so far beyond places (n, 2), mm, one step from one
     another.
     """

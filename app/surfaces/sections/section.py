@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
-from ..patches.facets import Facets, surface_parameters
-from .compound import Boundaries, Compound, Curve, Planes, Run
+from ..patches.facets import SurfaceFacets, surface_parameters
+from .compound import BoundaryPoints, CompoundSurface, CuttingPlanes, PlaneSection, SectionRun
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,12 +41,12 @@ class _Pieces:
 
 
 def compound_surface(
-    facets: Facets,
-    planes: Planes,
+    facets: SurfaceFacets,
+    planes: CuttingPlanes,
     tolerance: float,
     areas: Mapping[int, shapely.Geometry] | None = None,
     progress: Progress = NO_PROGRESS,
-) -> Compound:
+) -> CompoundSurface:
     """Return the compound surface: on every plane the section curve of each surface, and the topmost of them.
 
     Points lie on their surfaces; between two of them the curve is within the tolerance of the chord. Where the topmost
@@ -60,9 +60,9 @@ def compound_surface(
         Cancelled: the job was asked to stop.
     """
     found = _cut(facets, planes, tolerance / 4, progress.part(0.0, 0.6))
-    runs: list[Run] = []
-    curves: list[Curve] = []
-    marks: list[Boundaries] = []
+    runs: list[SectionRun] = []
+    curves: list[PlaneSection] = []
+    marks: list[BoundaryPoints] = []
     for plane, pieces in enumerate(found):
         progress.step(0.6 + 0.4 * plane / len(found), "Finding the topmost")
         if not len(pieces.rows):
@@ -72,10 +72,10 @@ def compound_surface(
         here, there = _topmost(facets, planes, plane, within, tolerance)
         runs += here
         marks.append(there)
-    return Compound(planes, tuple(runs), _joined(marks), tuple(curves))
+    return CompoundSurface(planes, tuple(runs), _joined(marks), tuple(curves))
 
 
-def _cut(facets: Facets, planes: Planes, near: float, progress: Progress) -> list[_Pieces]:
+def _cut(facets: SurfaceFacets, planes: CuttingPlanes, near: float, progress: Progress) -> list[_Pieces]:
     """Return the pieces on each plane."""
     from . import section_kernels as kernels
 
@@ -123,7 +123,7 @@ def _cut(facets: Facets, planes: Planes, near: float, progress: Progress) -> lis
     return [_Pieces(rows[a:b], facet[a:b]) for a, b in pairwise(edges)]
 
 
-def _pairs(facets: Facets, planes: Planes) -> tuple[Ints, Ints]:
+def _pairs(facets: SurfaceFacets, planes: CuttingPlanes) -> tuple[Ints, Ints]:
     """Return the facets and the planes (k,) that may cut what they stand for, plane by plane."""
     (c, s), (x, y) = planes.along, planes.origin
     across = (facets.triangles[:, :, 1] - y) * c - (facets.triangles[:, :, 0] - x) * s
@@ -138,12 +138,12 @@ def _pairs(facets: Facets, planes: Planes) -> tuple[Ints, Ints]:
     return facet[order], plane[order]
 
 
-def _line(planes: Planes, plane: int) -> Floats:
+def _line(planes: CuttingPlanes, plane: int) -> Floats:
     return np.array([*planes.place(plane, 0.0), *planes.along])
 
 
 def _within(
-    facets: Facets, planes: Planes, plane: int, pieces: _Pieces, areas: Mapping[int, shapely.Geometry]
+    facets: SurfaceFacets, planes: CuttingPlanes, plane: int, pieces: _Pieces, areas: Mapping[int, shapely.Geometry]
 ) -> _Pieces:
     """Return what of pieces lies where their surfaces count, cut at the borders."""
     from .envelope_kernels import over
@@ -175,8 +175,8 @@ def _within(
 
 
 def _topmost(
-    facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolerance: float
-) -> tuple[list[Run], Boundaries]:
+    facets: SurfaceFacets, planes: CuttingPlanes, plane: int, pieces: _Pieces, tolerance: float
+) -> tuple[list[SectionRun], BoundaryPoints]:
     """Return the runs of the topmost on one plane, and its boundary points."""
     from . import envelope_kernels as kernels
 
@@ -194,7 +194,7 @@ def _topmost(
     return runs, _boundaries(facets, planes, plane, pieces, marks[:marked])
 
 
-def _runs(planes: Planes, plane: int, spans: Floats, owner: Ints, tolerance: float) -> list[Run]:
+def _runs(planes: CuttingPlanes, plane: int, spans: Floats, owner: Ints, tolerance: float) -> list[SectionRun]:
     """Return spans without a gap or a jump between them as runs; of points on one surface only those that the tolerance
     needs.
     """
@@ -216,24 +216,26 @@ def _runs(planes: Planes, plane: int, spans: Floats, owner: Ints, tolerance: flo
             )
             parts.append(kept[1:])
             owners.append(np.full(len(kept) - 1, number[a]))
-        runs.append(Run(plane, _places(planes, plane, np.concatenate(parts)), np.concatenate(owners)))
+        runs.append(SectionRun(plane, _places(planes, plane, np.concatenate(parts)), np.concatenate(owners)))
     return runs
 
 
-def _places(planes: Planes, plane: int, at: Floats) -> Floats:
+def _places(planes: CuttingPlanes, plane: int, at: Floats) -> Floats:
     """Return places (n, 3) for distances along a plane and heights (n, 2)."""
     (x, y), (c, s) = planes.place(plane, 0.0), planes.along
     return np.column_stack([x + at[:, 0] * c, y + at[:, 0] * s, at[:, 1]])
 
 
-def _boundaries(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, marks: Floats) -> Boundaries:
+def _boundaries(
+    facets: SurfaceFacets, planes: CuttingPlanes, plane: int, pieces: _Pieces, marks: Floats
+) -> BoundaryPoints:
     """Return marks as boundary points."""
     from . import envelope_kernels as k
 
     if not len(marks):
-        return Boundaries.none()
+        return BoundaryPoints.none()
     before, after = (pieces.facet[marks[:, column].astype(np.int64)] for column in (k.BEFORE, k.AFTER))
-    return Boundaries(
+    return BoundaryPoints(
         np.full(len(marks), plane),
         facets.owner[before],
         facets.owner[after],
@@ -245,20 +247,24 @@ def _boundaries(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, mar
     )
 
 
-def _joined(parts: Sequence[Boundaries]) -> Boundaries:
+def _joined(parts: Sequence[BoundaryPoints]) -> BoundaryPoints:
     """Return boundary points of several planes, one after the other."""
-    every = [Boundaries.none(), *parts]
-    return Boundaries(*(np.concatenate([getattr(part, field.name) for part in every]) for field in fields(Boundaries)))
+    every = [BoundaryPoints.none(), *parts]
+    return BoundaryPoints(
+        *(np.concatenate([getattr(part, field.name) for part in every]) for field in fields(BoundaryPoints))
+    )
 
 
-def _curves(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, tolerance: float) -> list[Curve]:
+def _curves(
+    facets: SurfaceFacets, planes: CuttingPlanes, plane: int, pieces: _Pieces, tolerance: float
+) -> list[PlaneSection]:
     """Return the section curve of each surface on one plane, in one part or several; points that the tolerance
     needs.
     """
     from .section_kernels import S0, S1, U0, V0, V1, Z0, Z1, chains
 
     owner = facets.owner[pieces.facet]
-    found: list[Curve] = []
+    found: list[PlaneSection] = []
     for number in np.unique(owner).tolist():
         mine = np.flatnonzero(owner == number)
         rows = pieces.rows[mine]
@@ -272,7 +278,7 @@ def _curves(facets: Facets, planes: Planes, plane: int, pieces: _Pieces, toleran
         for first, stop in pairwise(starts[: count + 1].tolist()):
             chain = np.append(out[first:stop:2], out[stop - 1])
             kept = _needed(ends[chain], tolerance / 2)
-            found.append(Curve(plane, number, _places(planes, plane, ends[chain][kept]), at[chain][kept]))
+            found.append(PlaneSection(plane, number, _places(planes, plane, ends[chain][kept]), at[chain][kept]))
     return found
 
 

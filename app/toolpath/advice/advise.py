@@ -16,10 +16,10 @@ from ...geometry.primitives import TURN, R, pack, points_at, signed_area
 from ...model.part import Region
 from ...model.tool import Tool
 from ..coverage.flat import region_shapes
-from .reach import FITS, Centres, Reach, centres, reach
-from .time import Plan, Times, distances, times
+from .reach import FITS, CentreArea, RegionReach, centres, reach
+from .time import CuttingPlan, CuttingTimes, distances, times
 from .walls import KINK, Floats, Walls
-from .width import Widths, widths
+from .width import RegionWidths, widths
 
 _CHORD = 1e-3
 
@@ -28,7 +28,7 @@ SERIES = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 2
 
 
 @dataclass(frozen=True)
-class Spot:
+class SizedPlace:
     """A place and a size there, mm."""
 
     x: float
@@ -57,13 +57,13 @@ class RegionAdvice:
 
     number: int
     area_mm2: float
-    passage: Spot
-    disc: Spot
-    clearing: Spot
+    passage: SizedPlace
+    disc: SizedPlace
+    clearing: SizedPlace
     corners: int
-    corner: Spot | None
-    inner_radius: Spot | None
-    reaches: tuple[Reach, ...]
+    corner: SizedPlace | None
+    inner_radius: SizedPlace | None
+    reaches: tuple[RegionReach, ...]
 
     @property
     def smallest_radius(self) -> float:
@@ -74,7 +74,7 @@ class RegionAdvice:
 
 
 @dataclass(frozen=True)
-class Choice:
+class ToolChoice:
     """What one tool does in all regions together.
 
     Attributes:
@@ -91,7 +91,7 @@ class Choice:
     parts: int
     left_mm2: float
     left_disc: float
-    times: Times | None
+    times: CuttingTimes | None
 
 
 @dataclass(frozen=True)
@@ -108,10 +108,10 @@ class Advice:
     """
 
     regions: tuple[RegionAdvice, ...]
-    choices: tuple[Choice, ...]
+    choices: tuple[ToolChoice, ...]
     pocket: Tool
     contour: Tool
-    times: Times
+    times: CuttingTimes
     why: str
 
 
@@ -121,7 +121,10 @@ def standard_tools() -> tuple[Tool, ...]:
 
 
 def advise(
-    regions: Sequence[Region], tools: Sequence[Tool] = (), plan: Plan | None = None, progress: Progress = NO_PROGRESS
+    regions: Sequence[Region],
+    tools: Sequence[Tool] = (),
+    plan: CuttingPlan | None = None,
+    progress: Progress = NO_PROGRESS,
 ) -> Advice:
     """Return what some regions ask of their tools, and which of the tools to take.
 
@@ -140,7 +143,7 @@ def advise(
     if not usable:
         raise ParameterError("None of the tools clears a flat floor; add a flat end mill to choose from.")
     usable.sort(key=lambda tool: (tool.diameter, tool.number))
-    plan = plan or Plan()
+    plan = plan or CuttingPlan()
     walls = Walls.of(pack(regions))
     found = widths(walls, progress.part(0.0, 0.3))
     numbers = [region.number for region in regions]
@@ -149,14 +152,14 @@ def advise(
         (tool for tool in usable if tool.diameter <= least + FITS), key=lambda tool: tool.diameter, default=usable[0]
     )
     clearing = [tool for tool in usable if tool.diameter >= contour.diameter]
-    wanted = {tool.radius - FITS for tool in usable} | {
+    requested = {tool.radius - FITS for tool in usable} | {
         distance for tool in clearing for distance in distances(tool, contour)
     }
-    where = centres(pack(regions), sorted(wanted), progress.part(0.3, 0.6))
+    where = centres(pack(regions), sorted(requested), progress.part(0.3, 0.6))
     shapes = [shapely.union_all(region_shapes([region], _CHORD)) for region in regions]
     bare = [_region(walls, found, k, number) for k, number in enumerate(numbers)]
     advised = _with_reaches(bare, shapes, (usable, where), progress.part(0.6, 0.9))
-    taken: dict[int, Times] = {}
+    taken: dict[int, CuttingTimes] = {}
     for done, tool in enumerate(clearing):
         progress.step(0.9 + 0.1 * done / len(clearing), f"Time with T{tool.number}")
         taken[tool.number] = times(tool, contour, where, plan)
@@ -168,11 +171,11 @@ def advise(
 def _with_reaches(
     regions: Sequence[RegionAdvice],
     shapes: Sequence[Shape],
-    tools: tuple[Sequence[Tool], Mapping[float, Centres]],
+    tools: tuple[Sequence[Tool], Mapping[float, CentreArea]],
     progress: Progress,
 ) -> tuple[RegionAdvice, ...]:
     """Return the regions with what each tool reaches of them; where its centre can be comes with the tools."""
-    found: list[list[Reach]] = [[] for _ in regions]
+    found: list[list[RegionReach]] = [[] for _ in regions]
     for done, tool in enumerate(tools[0]):
         at = tools[1][tool.radius - FITS]
         for k, (region, shape) in enumerate(zip(regions, shapes, strict=True)):
@@ -181,12 +184,12 @@ def _with_reaches(
                 found[k].append(reach(shape, tool.diameter, at.shapes[region.number]))
             else:
                 found[k].append(
-                    Reach(tool.diameter, 0.0, 0, region.area_mm2, region.disc.size, region.disc.x, region.disc.y)
+                    RegionReach(tool.diameter, 0.0, 0, region.area_mm2, region.disc.size, region.disc.x, region.disc.y)
                 )
     return tuple(replace(region, reaches=tuple(row)) for region, row in zip(regions, found, strict=True))
 
 
-def _region(walls: Walls, found: Widths, k: int, number: int) -> RegionAdvice:
+def _region(walls: Walls, found: RegionWidths, k: int, number: int) -> RegionAdvice:
     """Return what the k-th region asks of its tools."""
     rows = np.flatnonzero(walls.region == number)
     sharpest, corner = rows[np.argmax(walls.turn[rows])], None
@@ -204,15 +207,15 @@ def _region(walls: Walls, found: Widths, k: int, number: int) -> RegionAdvice:
     )
 
 
-def _spot(place: Floats, size: float) -> Spot:
-    return Spot(float(place[0]), float(place[1]), float(size))
+def _spot(place: Floats, size: float) -> SizedPlace:
+    return SizedPlace(float(place[0]), float(place[1]), float(size))
 
 
-def _choice(tool: Tool, k: int, regions: Sequence[RegionAdvice], taken: Mapping[int, Times]) -> Choice:
+def _choice(tool: Tool, k: int, regions: Sequence[RegionAdvice], taken: Mapping[int, CuttingTimes]) -> ToolChoice:
     """Return what the k-th tool does in all regions."""
     reaches = [region.reaches[k] for region in regions]
     area, left = sum(region.area_mm2 for region in regions), sum(each.left_mm2 for each in reaches)
-    return Choice(
+    return ToolChoice(
         tool,
         1 - left / area if area > 0 else 1.0,
         sum(each.parts for each in reaches),
@@ -222,7 +225,7 @@ def _choice(tool: Tool, k: int, regions: Sequence[RegionAdvice], taken: Mapping[
     )
 
 
-def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Sequence[Choice]) -> str:
+def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Sequence[ToolChoice]) -> str:
     """Return why these two, pocket and contour tool, are advised."""
     pocket, contour = (next(choice for choice in choices if choice.tool is tool) for tool in tools)
     assert pocket.times is not None and contour.times is not None
@@ -241,7 +244,7 @@ def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Seq
     )
 
 
-def _bounds(contour: Choice, regions: Sequence[RegionAdvice]) -> str:
+def _bounds(contour: ToolChoice, regions: Sequence[RegionAdvice]) -> str:
     """Return why this is the contour tool."""
     tightest = min((region.clearing for region in regions), key=lambda spot: spot.size)
     room = f"the tightest place has room for {_measured(tightest)}"
@@ -252,7 +255,7 @@ def _bounds(contour: Choice, regions: Sequence[RegionAdvice]) -> str:
     return f"{_named(contour.tool)} is the largest tool that leaves nothing{but}: {room}."
 
 
-def _measured(spot: Spot) -> str:
+def _measured(spot: SizedPlace) -> str:
     return f"{spot.size:.3f} mm at ({spot.x:.3f}, {spot.y:.3f})"
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from shapely import Geometry as Shape
 
 from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.offset.offset import Level, Ring, offset_levels
+from ...geometry.offset.offset import OffsetLevel, Ring, offset_levels
 from ...geometry.primitives import Primitives, sample
 from ..coverage.flat import grown
 
@@ -36,7 +36,7 @@ _DISC = 0.01
 
 
 @dataclass(frozen=True)
-class Reach:
+class RegionReach:
     """What one cutter reaches of one region.
 
     Attributes:
@@ -58,7 +58,7 @@ class Reach:
 
 
 @dataclass(frozen=True, eq=False)
-class Centres:
+class CentreArea:
     """Where a cutter's centre can be.
 
     Attributes:
@@ -78,23 +78,23 @@ class Centres:
 
 def centres(
     primitives: Primitives, distances: Sequence[float], progress: Progress = NO_PROGRESS
-) -> dict[float, Centres]:
+) -> dict[float, CentreArea]:
     """Return where centres can be that keep some distances, mm, > 0, from the walls.
 
     Raises:
         Cancelled: by progress.
     """
-    wanted = sorted(set(distances))
-    levels = offset_levels(primitives, wanted, progress)
-    return {distance: _centres(level) for distance, level in zip(wanted, levels, strict=True)}
+    requested = sorted(set(distances))
+    levels = offset_levels(primitives, requested, progress)
+    return {distance: _centres(level) for distance, level in zip(requested, levels, strict=True)}
 
 
-def _centres(level: Level) -> Centres:
+def _centres(level: OffsetLevel) -> CentreArea:
     rings: dict[int, list[Ring]] = {}
     for ring in level.rings:
         rings.setdefault(ring.region, []).append(ring)
     shapes = {region: _shape(own) for region, own in rings.items()}
-    return Centres(
+    return CentreArea(
         level.distance, shapes, sum(r.area for r in level.rings), sum(r.length for r in level.rings), len(level.rings)
     )
 
@@ -121,7 +121,7 @@ def covered(centres: Shape, radius: float) -> Shape:
     return grown(centres, radius, _CHORD)
 
 
-def reach(region: Shape, diameter: float, centres: Shape) -> Reach:
+def reach(region: Shape, diameter: float, centres: Shape) -> RegionReach:
     """Return what a cutter reaches of a region.
 
     Args:
@@ -138,9 +138,9 @@ def reach(region: Shape, diameter: float, centres: Shape) -> Reach:
     beyond = grown(centres, diameter / 2 - FITS + _BESIDE, _CHORD)
     x, y, disc = largest_left(shapely.difference(region, beyond))
     if disc < _DISC:
-        return Reach(diameter, 1.0, parts, 0.0, 0.0, math.nan, math.nan)
+        return RegionReach(diameter, 1.0, parts, 0.0, 0.0, math.nan, math.nan)
     done = min(float(cleared.area), area)
-    return Reach(diameter, done / area, parts, area - done, disc, x, y)
+    return RegionReach(diameter, done / area, parts, area - done, disc, x, y)
 
 
 def largest_left(left: Shape) -> tuple[float, float, float]:

@@ -17,11 +17,11 @@ from shapely import Geometry as Shape
 from ...core.errors import ParameterError
 from ...model.entry import Entry, EntryKind
 from ...model.tool import Tool
-from .reach import FITS, Centres, covered
+from .reach import FITS, CentreArea, covered
 
 
 @dataclass(frozen=True)
-class Plan:
+class CuttingPlan:
     """What is to be cut, and how fast the machine is.
 
     Attributes:
@@ -56,7 +56,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Times:
+class CuttingTimes:
     """Seconds that a pair of tools needs.
 
     Attributes:
@@ -86,7 +86,7 @@ def distances(pocket: Tool, contour: Tool) -> tuple[float, float, float]:
     return contour.radius - FITS, contour.radius + pocket.radius - FITS, contour.diameter - FITS
 
 
-def times(pocket: Tool, contour: Tool, where: Mapping[float, Centres], plan: Plan) -> Times:
+def times(pocket: Tool, contour: Tool, where: Mapping[float, CentreArea], plan: CuttingPlan) -> CuttingTimes:
     """Return how long two tools need.
 
     Args:
@@ -104,15 +104,15 @@ def times(pocket: Tool, contour: Tool, where: Mapping[float, Centres], plan: Pla
     if pocket.diameter > contour.diameter:
         area, pieces, alone = _rest(beyond, cleared, contour)
         rest = _cutting(contour, area / (plan.stepover * contour.diameter), (pieces, alone), plan)
-    return Times(seconds, wall, rest, plan.tool_change if pocket.number != contour.number else 0.0)
+    return CuttingTimes(seconds, wall, rest, plan.tool_change if pocket.number != contour.number else 0.0)
 
 
-def _areas(centres: Centres) -> int:
+def _areas(centres: CentreArea) -> int:
     """Return how many connected areas there are."""
     return sum(shapely.get_num_geometries(shape) for shape in centres.shapes.values())
 
 
-def _rest(beyond: Centres, cleared: Mapping[int, Shape], contour: Tool) -> tuple[float, int, float]:
+def _rest(beyond: CentreArea, cleared: Mapping[int, Shape], contour: Tool) -> tuple[float, int, float]:
     """Return (area, mm2, pieces, share of those that lie by themselves) of what neither the pocket tool nor the contour
     pass takes.
     """
@@ -128,7 +128,7 @@ def _rest(beyond: Centres, cleared: Mapping[int, Shape], contour: Tool) -> tuple
     return area, pieces, alone / max(pieces, 1)
 
 
-def _cutting(tool: Tool, length: float, strokes: tuple[int, float], plan: Plan) -> float:
+def _cutting(tool: Tool, length: float, strokes: tuple[int, float], plan: CuttingPlan) -> float:
     """Return the seconds for so many mm at each depth in so many strokes, of which a share goes down into metal."""
     if length <= 0:
         return 0.0

@@ -47,7 +47,7 @@ _REPEATS = 6
 
 
 @dataclass(frozen=True)
-class Widths:
+class RegionWidths:
     """What n regions are like, in the order of their numbers; places (n, 2), sizes (n,), mm.
 
     Attributes:
@@ -65,7 +65,7 @@ class Widths:
     clearing_at: Floats
 
 
-def widths(walls: Walls, progress: Progress = NO_PROGRESS) -> Widths:
+def widths(walls: Walls, progress: Progress = NO_PROGRESS) -> RegionWidths:
     """Return the widths of all regions, each within 0.001 mm.
 
     Raises:
@@ -84,7 +84,7 @@ def widths(walls: Walls, progress: Progress = NO_PROGRESS) -> Widths:
     for size, at in ((passage, passage_at), (disc, disc_at)):
         less = size < clearing
         clearing[less], clearing_at[less] = size[less], at[less]
-    return Widths(passage, passage_at, disc, disc_at, clearing, clearing_at)
+    return RegionWidths(passage, passage_at, disc, disc_at, clearing, clearing_at)
 
 
 def _largest(walls: Walls, discs: Discs, region: Indices, count: int) -> tuple[Floats, Floats]:

@@ -1,8 +1,8 @@
 """What is left on the floor: measured from the moves themselves, not from what made them.
 
 Three areas are told apart on every floor: cleared; left although a tool of the job could cut it
-(must be 0); out of reach of every tool of the job (`wanted.py`). Of paths made from pixels, the skin that they leave
-along the walls so as to be nowhere too near is a fourth: what no tool reaches that keeps their allowance from the
+(must be 0); out of reach of every tool of the job (`floor_target.py`). Of paths made from pixels, the skin that they
+leave along the walls so as to be nowhere too near is a fourth: what no tool reaches that keeps their allowance from the
 walls, next to floor that is cleared; a passage with no path in it is no skin. The swept area is the union of all
 cutting moves at full depth, each as wide as its tool. Method: polygons (shapely), arcs as chords within CHORD, wherever
 exact distances do not prove the floor cleared; strips thinner than STRIP are numeric and not counted.
@@ -22,17 +22,17 @@ from shapely import Geometry as Shape
 
 from ...core.pool import pool
 from ...core.progress import NO_PROGRESS, Progress
-from ...geometry.near import near
 from ...geometry.primitives import CX, TURN, R, Rows
+from ...geometry.tree_queries import near
 from ...model.finding import Finding, FindingKind
 from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
 from .areas import common, united, without
 from .flat import flattened, grown, lines, move_rows
+from .floor_target import CHORD, FloorTarget, floor_targets
 from .proven import uncertain
 from .reachable import Fields, reached
-from .settled import Floor, one_floor, settled
-from .wanted import CHORD, Wanted, wanted_of
+from .settled import SingleFloor, one_floor, settled
 
 STRIP = 0.01
 """mm; what is narrower than this is no material but the chords' own error."""
@@ -66,7 +66,7 @@ _RUN = 64
 
 
 @dataclass(frozen=True)
-class Place:
+class UncutPlace:
     """One connected piece of floor that is left.
 
     Attributes:
@@ -98,7 +98,7 @@ class Coverage:
         places: every piece, the largest disc first.
         area_mm2: all floors.
         floor_mm: depth of the deepest floor, mm.
-        wanted: what was to be cleared, floor by floor.
+        targets: what was to be cleared, floor by floor.
         given_up: the skin that paths made from pixels left along the walls on purpose, the largest disc first; not
             among the places.
         given_up_mm: how thick it may be, mm; 0 for exact paths.
@@ -108,12 +108,12 @@ class Coverage:
     reachable_left_mm2: float = 0.0
     unreachable_mm2: float = 0.0
     largest_disc_mm: float = 0.0
-    places: tuple[Place, ...] = ()
+    places: tuple[UncutPlace, ...] = ()
     area_mm2: float = 0.0
     floor_mm: float = 0.0
-    given_up: tuple[Place, ...] = ()
+    given_up: tuple[UncutPlace, ...] = ()
     given_up_mm: float = 0.0
-    wanted: tuple[Wanted, ...] = field(default=(), repr=False)
+    targets: tuple[FloorTarget, ...] = field(default=(), repr=False)
     on_pixels: bool = False
 
     @property
@@ -138,7 +138,7 @@ def measure_beside_clear(
     if known is None:
         return measure(program, job, progress)
     rest = measure(program, job, progress.part(0.4, 1.0), found=() if known.open is None else (known.open,))
-    return replace(rest, area_mm2=float(known.all.floor.area), floor_mm=known.all.depth, wanted=(known.all,))
+    return replace(rest, area_mm2=float(known.all.floor.area), floor_mm=known.all.depth, targets=(known.all,))
 
 
 def measure(
@@ -146,7 +146,7 @@ def measure(
     job: Job,
     progress: Progress = NO_PROGRESS,
     miss: float = _DEPTH,
-    found: tuple[Wanted, ...] | None = None,
+    found: tuple[FloorTarget, ...] | None = None,
 ) -> Coverage:
     """Measure what the moves of a program leave on the floor.
 
@@ -162,16 +162,16 @@ def measure(
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, _TEXT)
-    found = wanted_of(program, job) if found is None else found
-    inner = wanted_of(program, job, program.allowance_mm) if program.allowance_mm else found
+    found = floor_targets(program, job) if found is None else found
+    inner = floor_targets(program, job, program.allowance_mm) if program.allowance_mm else found
     fields = Fields()
-    left: list[Place] = []
-    corners: list[Place] = []
-    skins: list[Place] = []
+    left: list[UncutPlace] = []
+    corners: list[UncutPlace] = []
+    skins: list[UncutPlace] = []
     for k, (each, deeper) in enumerate(zip(found, inner, strict=True)):
         share = progress.part(k / len(found), (k + 1) / len(found))
-        wanted = each.wanted if each.out_of_reach is None else without(each.wanted, each.out_of_reach)
-        metal = _left(wanted, _paths(program.moves, job, each.depth - miss), share.part(0.0, 0.6))
+        target = each.target if each.out_of_reach is None else without(each.target, each.out_of_reach)
+        metal = _left(target, _paths(program.moves, job, each.depth - miss), share.part(0.0, 0.6))
         if program.allowance_mm:
             skin = _skin(metal, each, deeper.reach, program.allowance_mm)
             metal = _solid(without(metal, skin))
@@ -192,17 +192,17 @@ def measure(
         floor_mm=max((each.depth for each in found), default=0.0),
         given_up=tuple(skins),
         given_up_mm=program.allowance_mm,
-        wanted=found,
+        targets=found,
         on_pixels=program.given_up_mm is not None,
     )
 
 
-def _is_reached(wanted: Wanted, fields: Fields, place: Place) -> bool:
+def _is_reached(target: FloorTarget, fields: Fields, place: UncutPlace) -> bool:
     """Return whether a piece of metal is within reach of some cutter."""
-    return not wanted.cutters or reached(_inner(place), wanted.cutters, fields, place.disc_mm)
+    return not target.cutters or reached(_inner(place), target.cutters, fields, place.disc_mm)
 
 
-def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
+def _skin(left: Shape, areas: FloorTarget, inner: Shape, off: float) -> Shape:
     """Return what of the metal left is but a skin along walls that paths follow.
 
     Args:
@@ -214,7 +214,9 @@ def _skin(left: Shape, areas: Wanted, inner: Shape, off: float) -> Shape:
     return _solid(common(without(beyond, thick), cleared))
 
 
-def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, progress: Progress) -> Floor | None:
+def _settled(
+    program: Program, job: Job, clear: NDArray[np.bool_], miss: float, progress: Progress
+) -> SingleFloor | None:
     """Return the floor of a job that has but one, with what of it told apart that moves which keep off the walls do not
     cover.
     """
@@ -226,7 +228,7 @@ def _settled(program: Program, job: Job, clear: NDArray[np.bool_], miss: float, 
     return settled(program, job, [(path.rows, path.radius) for path in paths], progress)
 
 
-def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = None) -> list[_Path]:
+def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = None) -> list[_CuttingPath]:
     """Return the path of each tool's moves, or of some of them (n,), that cut as deep as so many mm, or deeper."""
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
     pointed = [tool.number for tool in job.tools if tool.kind.drills]  # their tips leave a cone
@@ -234,15 +236,16 @@ def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = 
     chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, pointed) & (True if of is None else of)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]
     return [
-        _Path.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius) for number in numbers
+        _CuttingPath.of(np.flatnonzero(chosen & (moves.tool == number)), moves, job.tool(number).radius)
+        for number in numbers
     ]
 
 
-def _left(wanted: Shape, paths: list[_Path], progress: Progress) -> Shape:
+def _left(target: Shape, paths: list[_CuttingPath], progress: Progress) -> Shape:
     """Return what of a wanted area is not cut by paths as deep as its floor, or deeper."""
-    tiles = uncertain(wanted, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
+    tiles = uncertain(target, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
     left, done = [], 0
-    for part in _Doubt(wanted, tiles, shapely.bounds(tiles), paths).parts():
+    for part in _UndecidedBoxes(target, tiles, shapely.bounds(tiles), paths).parts():
         progress.step(0.5 + done / max(len(tiles), 1) / 2, _TEXT)  # no box is in doubt where no move cuts
         left.append(part.left())
         done += len(part.tiles)
@@ -250,7 +253,7 @@ def _left(wanted: Shape, paths: list[_Path], progress: Progress) -> Shape:
 
 
 @dataclass(frozen=True, eq=False)
-class _Path:
+class _CuttingPath:
     """Cutting moves of one tool.
 
     Attributes:
@@ -264,20 +267,20 @@ class _Path:
     radius: float
 
     @staticmethod
-    def of(chosen: NDArray[np.int64], moves: Moves, radius: float) -> _Path:
+    def of(chosen: NDArray[np.int64], moves: Moves, radius: float) -> _CuttingPath:
         """Return the path of some moves."""
         rows = move_rows(moves)[chosen]
         arc = (rows[:, TURN] != 0)[:, None]
         size = rows[:, R, None]
         low = np.where(arc, rows[:, CX:R] - size, np.minimum(rows[:, :2], rows[:, 2:4]))
         high = np.where(arc, rows[:, CX:R] + size, np.maximum(rows[:, :2], rows[:, 2:4]))
-        return _Path(chosen, rows, np.hstack([low, high]), radius)
+        return _CuttingPath(chosen, rows, np.hstack([low, high]), radius)
 
-    def near(self, box: NDArray[np.float64]) -> _Path:
+    def near(self, box: NDArray[np.float64]) -> _CuttingPath:
         """Return the moves that may cut in a box (4,)."""
         reach = self.radius + STRIP
         some = np.all((self.boxes[:, :2] <= box[2:] + reach) & (self.boxes[:, 2:] >= box[:2] - reach), axis=1)
-        return _Path(self.chosen[some], self.rows[some], self.boxes[some], self.radius)
+        return _CuttingPath(self.chosen[some], self.rows[some], self.boxes[some], self.radius)
 
     def swept_near(self, tree: shapely.STRtree) -> Shape:
         """Return the area that is covered by those moves that come near some boxes."""
@@ -289,24 +292,24 @@ class _Path:
 
 
 @dataclass(frozen=True, eq=False)
-class _Doubt:
+class _UndecidedBoxes:
     """Boxes of a wanted area that may not be cut all over.
 
     It is decided in parts of a few boxes, with what is near them: the library takes more than twice the time for twice
     as much.
 
     Attributes:
-        wanted: what of the area is near the boxes.
+        target: what of the area is near the boxes.
         tiles: (n,) boxes that do not overlap. boxes: (n, 4) the same.
         paths: moves that are near.
     """
 
-    wanted: Shape
+    target: Shape
     tiles: NDArray[np.object_]
     boxes: NDArray[np.float64]
-    paths: list[_Path]
+    paths: list[_CuttingPath]
 
-    def parts(self) -> Iterator[_Doubt]:
+    def parts(self) -> Iterator[_UndecidedBoxes]:
         """Yield it in parts of few boxes each."""
         if len(self.tiles) <= _TILES:
             yield self
@@ -316,14 +319,14 @@ class _Doubt:
         order = np.argsort(self.boxes[:, axis] + self.boxes[:, axis + 2], kind="stable")
         for half in (order[: len(order) // 2], order[len(order) // 2 :]):
             box = np.concatenate([self.boxes[half, :2].min(axis=0), self.boxes[half, 2:].max(axis=0)])
-            wanted = common(self.wanted, shapely.box(*box))
-            yield from _Doubt(
-                wanted, self.tiles[half], self.boxes[half], [path.near(box) for path in self.paths]
+            target = common(self.target, shapely.box(*box))
+            yield from _UndecidedBoxes(
+                target, self.tiles[half], self.boxes[half], [path.near(box) for path in self.paths]
             ).parts()
 
     def left(self) -> Shape:
         """Return what of the wanted area no move has cut in the boxes."""
-        left = common(self.wanted, shapely.union_all(self.tiles))
+        left = common(self.target, shapely.union_all(self.tiles))
         tree = shapely.STRtree(self.tiles)
         for path in self.paths:
             left = without(left, path.swept_near(tree))
@@ -378,7 +381,7 @@ def _solid(shape: Shape) -> Shape:
     return united(shapely.intersection(shapely.buffer(kept[there], thin, join_style="mitre"), parts[there]))
 
 
-def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[Place, ...]:
+def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[UncutPlace, ...]:
     """Return the pieces of a shape, the largest disc first."""
     places = []
     pieces = [piece for piece in shapely.get_parts(shape) if piece.geom_type == "Polygon" and piece.area >= STRIP**2]
@@ -387,7 +390,9 @@ def _places(shape: Shape, reachable: bool, progress: Progress) -> tuple[Place, .
         centre, rim = (np.array(point) for point in circle.coords)
         disc = 2 * float(np.hypot(*(rim - centre)))
         outline, *holes = (shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(piece))
-        places.append(Place(float(centre[0]), float(centre[1]), piece.area, disc, reachable, outline, tuple(holes)))
+        places.append(
+            UncutPlace(float(centre[0]), float(centre[1]), piece.area, disc, reachable, outline, tuple(holes))
+        )
     return tuple(sorted(places, key=lambda place: -place.disc_mm))
 
 
@@ -396,7 +401,7 @@ def _largest_circle(piece: Shape) -> Shape:
     return shapely.maximum_inscribed_circle(piece, tolerance=CHORD)
 
 
-def _inner(place: Place) -> NDArray[np.float64]:
+def _inner(place: UncutPlace) -> NDArray[np.float64]:
     """Return points (n, 2) all over a piece, the middle of its largest disc first."""
     middle = np.array([[place.x, place.y]])
     rim = place.outline[np.unique(np.linspace(0, len(place.outline) - 1, _ASKED).astype(int))]

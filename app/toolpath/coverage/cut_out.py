@@ -57,9 +57,9 @@ def _pieces(filled: Shapes, boxes: Shapes, ring: Indices, box: Indices) -> Shape
     pieces = np.empty(len(ring), dtype=object)
     long = shapely.get_num_coordinates(filled)[ring] > _FEW_POINTS
     pieces[~long] = each_with_each(shapely.intersection, filled[ring[~long]], boxes[box[~long]])
-    asked = np.flatnonzero(long)
-    asked = asked[np.argsort(ring[asked], kind="stable")]
-    for some in np.split(asked, np.flatnonzero(np.diff(ring[asked])) + 1):
+    requested = np.flatnonzero(long)
+    requested = requested[np.argsort(ring[requested], kind="stable")]
+    for some in np.split(requested, np.flatnonzero(np.diff(ring[requested])) + 1):
         if len(some):
             for part, number in _halved(filled[ring[some[0]]], boxes[box[some]], some):
                 pieces[number] = shapely.intersection(part, boxes[box[number]])

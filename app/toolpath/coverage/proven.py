@@ -53,24 +53,24 @@ States = NDArray[np.uint8]
 
 
 def uncertain(
-    wanted: Shape, paths: Sequence[tuple[Rows, float]], progress: Progress = NO_PROGRESS
+    target: Shape, paths: Sequence[tuple[Rows, float]], progress: Progress = NO_PROGRESS
 ) -> NDArray[np.object_]:
     """Return boxes (n,) that hold every point of a wanted area that is not proven covered.
 
     Args:
-        wanted: polygons with no inside in common, mm.
+        target: polygons with no inside in common, mm.
         paths: (rows (m, 8) of a path, radius of its cutter, mm, > 0); rows may sweep up to a full turn.
         progress: looked at between sizes of squares.
     """
     from .swath_kernels import COVERED, OPEN, OUTSIDE
 
     swaths = [_Swath.of(rows, radius) for rows, radius in paths if len(rows)]
-    if wanted.is_empty or not swaths:
-        return np.array([] if wanted.is_empty else [shapely.box(*wanted.bounds)], dtype=object)
-    area, least = DistanceField.of(_edges(wanted)), min(each.radius for each in swaths)
+    if target.is_empty or not swaths:
+        return np.array([] if target.is_empty else [shapely.box(*target.bounds)], dtype=object)
+    area, least = DistanceField.of(_edges(target)), min(each.radius for each in swaths)
     most_reach = max(each.radius for each in swaths) + _SLACK
     kept: list[NDArray[np.object_]] = []
-    centres, half = _grid(wanted.bounds)
+    centres, half = _grid(target.bounds)
     waiting = [(centres, half, np.zeros(len(centres), np.bool_))]
     while waiting:
         centres, half, within = waiting.pop()
@@ -94,7 +94,8 @@ def uncertain(
         else:
             squares = _Squares.of(centres, half, within, area)
             near = [
-                _Beside(each, near[doubtful], far[doubtful]) for (far, near), each in zip(beside, swaths, strict=True)
+                _NearestRows(each, near[doubtful], far[doubtful])
+                for (far, near), each in zip(beside, swaths, strict=True)
             ]
             states = _states(area, near, squares)
         centres, within, uncut, states = (
@@ -159,7 +160,7 @@ class _Squares:
 
 
 @dataclass(frozen=True, eq=False)
-class _Beside:
+class _NearestRows:
     """A path, its row nearest to each of some squares' centres (n,), -1 for none, and how far that is (n,), mm."""
 
     swath: _Swath
@@ -181,7 +182,7 @@ def _wide_states(area: DistanceField, centres: Floats, half: float, within: NDAr
     return np.where(beside | within, np.uint8(OPEN), np.uint8(OUTSIDE))
 
 
-def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) -> States:
+def _states(area: DistanceField, paths: Sequence[_NearestRows], squares: _Squares) -> States:
     """Return what of squares is wanted and covered, by numbers of `swath_kernels`: UNCUT is what all paths leave
     something of.
     """
@@ -189,15 +190,15 @@ def _states(area: DistanceField, paths: Sequence[_Beside], squares: _Squares) ->
 
     states = np.full(len(squares.centres), UNCUT, np.uint8)
     for each in paths:
-        asked = np.flatnonzero((states != COVERED) & (states != OUTSIDE))
-        some = squares.some(asked)
-        found = _judged(area, _Beside(each.swath, each.near[asked], each.far[asked]), some)
-        squares.within[asked] = some.within
-        states[asked] = np.where((found == UNCUT) & (states[asked] == OPEN), np.uint8(OPEN), found)
+        requested = np.flatnonzero((states != COVERED) & (states != OUTSIDE))
+        some = squares.some(requested)
+        found = _judged(area, _NearestRows(each.swath, each.near[requested], each.far[requested]), some)
+        squares.within[requested] = some.within
+        states[requested] = np.where((found == UNCUT) & (states[requested] == OPEN), np.uint8(OPEN), found)
     return states
 
 
-def _judged(area: DistanceField, path: _Beside, squares: _Squares) -> States:
+def _judged(area: DistanceField, path: _NearestRows, squares: _Squares) -> States:
     """Return what of some squares is wanted and covered by one path."""
     from .swath_kernels import judge
 

@@ -36,7 +36,7 @@ _NEAR = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Cutter:
+class CutterInArea:
     """A cutter in an area.
 
     Attributes:
@@ -82,7 +82,7 @@ class Fields:
         return self._made[id(regions)]
 
 
-def reached(points: NDArray[np.float64], cutters: Sequence[Cutter], fields: Fields, size: float) -> bool:
+def reached(points: NDArray[np.float64], cutters: Sequence[CutterInArea], fields: Fields, size: float) -> bool:
     """Tell whether some cutter reaches one of some points (n, 2) of a piece of metal whose largest disc has a diameter
     `size`, mm.
 

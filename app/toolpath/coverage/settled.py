@@ -24,9 +24,9 @@ from ...model.operation import Side
 from .areas import Shapes, each_with_each, gathered, united
 from .cut_out import cut_out
 from .flat import grown, region_shapes
+from .floor_target import CHORD, FITS, FloorTarget, areas_of_operations, cutters_of
 from .proven import uncertain
-from .reachable import Cutter
-from .wanted import CHORD, FITS, Wanted, areas_of_operations, cutters_of
+from .reachable import CutterInArea
 
 _SAME = 1e-9
 """mm between floors that are one."""
@@ -36,7 +36,7 @@ _SPARE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Floor:
+class SingleFloor:
     """The one floor of a job.
 
     Attributes:
@@ -45,8 +45,8 @@ class Floor:
         tiles: boxes that hold every point of the floor that is not proven covered.
     """
 
-    open: Wanted | None
-    all: Wanted
+    open: FloorTarget | None
+    all: FloorTarget
     tiles: NDArray[np.object_]
 
 
@@ -75,7 +75,7 @@ def one_floor(program: Program, job: Job) -> Area | None:
     return first if any(each.COARSE for each, _ in works) else None
 
 
-def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], progress: Progress) -> Floor | None:
+def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], progress: Progress) -> SingleFloor | None:
     """Return the floor of a job that has but one (`one_floor`), with what of it is in doubt told apart; None where all
     is.
 
@@ -92,15 +92,15 @@ def settled(program: Program, job: Job, paths: Sequence[tuple[Rows, float]], pro
     floor = gathered(shapes)
     tiles = uncertain(floor, paths, progress)
     depth, cutters = cutters_of(program, job)
-    known = Wanted(depth, floor, floor, floor, True, cutters, shapely.Polygon())
+    known = FloorTarget(depth, floor, floor, floor, True, cutters, shapely.Polygon())
     if not len(tiles):
-        return Floor(None, known, tiles)
+        return SingleFloor(None, known, tiles)
     near, reach = _around(shapes, tiles, cutters)
-    some = Wanted(depth, near, reach, reach, True, cutters)
-    return Floor(some, replace(known, out_of_reach=some.beyond), tiles)
+    some = FloorTarget(depth, near, reach, reach, True, cutters)
+    return SingleFloor(some, replace(known, out_of_reach=some.beyond), tiles)
 
 
-def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[Cutter]) -> tuple[Shape, Shape]:
+def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[CutterInArea]) -> tuple[Shape, Shape]:
     """Return what of a floor lies in boxes, and what of that cutters reach: their openings of the floor.
 
     Boxes that touch are asked together, and as much of the floor round them as can have a say in it. It is cut off
@@ -121,7 +121,7 @@ def _around(shapes: Shapes, tiles: Shapes, cutters: Sequence[Cutter]) -> tuple[S
     return gathered(floors), united([gathered(each) for each in reached])
 
 
-def _reached(cutter: Cutter, pieces: Shapes, floors: Shapes, grid_size: float | None = None) -> Shapes:
+def _reached(cutter: CutterInArea, pieces: Shapes, floors: Shapes, grid_size: float | None = None) -> Shapes:
     """Return what a cutter reaches of floors (n,) that stays in pieces (n,) of an area; on a grid where it is asked for
     so.
     """

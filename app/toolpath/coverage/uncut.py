@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry import kernels
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level
+from ...geometry.offset.offset import OffsetLevel
 from ...geometry.primitives import Rows, boxes, within_half_turn
 from . import uncut_kernels
 
@@ -37,7 +37,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Uncut:
+class UncutSquares:
     """Squares that hold every point which a tool could cut and no path cuts.
 
     Attributes:
@@ -59,21 +59,21 @@ class Uncut:
         sure: NDArray[np.bool_] = (self.beyond_cut > 0) & (self.beyond_reach <= 0)
         return sure
 
-    def thicker(self, than: float) -> Uncut:
+    def thicker(self, than: float) -> UncutSquares:
         """Return the squares whose centres are farther than so many mm, >= 0, from what paths sweep, and within
         reach.
         """
         keep = (self.beyond_cut > than) & (self.beyond_reach <= 0)
-        return Uncut(self.centres[keep], self.halves[keep], self.beyond_cut[keep], self.beyond_reach[keep])
+        return UncutSquares(self.centres[keep], self.halves[keep], self.beyond_cut[keep], self.beyond_reach[keep])
 
 
 def uncut(
     walls: DistanceField,
-    frame: Level,
+    frame: OffsetLevel,
     radius: float,
     paths: Sequence[tuple[Rows, float]],
     progress: Progress = NO_PROGRESS,
-) -> Uncut:
+) -> UncutSquares:
     """Return what paths leave of all that a tool reaches.
 
     Args:
@@ -87,7 +87,7 @@ def uncut(
         Cancelled: by progress.
     """
     if not frame.rings:
-        return Uncut(np.zeros((0, 2)), *np.zeros((3, 0)))
+        return UncutSquares(np.zeros((0, 2)), *np.zeros((3, 0)))
     outline = DistanceField.of(np.concatenate([ring.rows for ring in frame.rings]))
     cut, radii = _together([(rows, cutter) for rows, cutter in paths if len(rows)])
     order, nodes = kernels.build_tree(np.ascontiguousarray(boxes(cut)))
@@ -114,7 +114,7 @@ def uncut(
         )
         found.append(part[:count])
     left = np.concatenate(found)
-    return Uncut(left[:, :2], left[:, 2], left[:, 3], left[:, 4])
+    return UncutSquares(left[:, :2], left[:, 2], left[:, 3], left[:, 4])
 
 
 def _together(paths: Sequence[tuple[Rows, float]]) -> tuple[Rows, Floats]:

@@ -14,12 +14,12 @@ from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.distance import DistanceField
 from ...model.entry import EntryKind
 from ...model.moves import Purpose
-from ..build import Label, MovesBuilder, Stroke, merged
-from ..entry.beside import from_cleared
-from ..entry.entry import Descent, Ground, descent
-from ..entry.hole import Hole, from_hole, in_hole
-from ..entry.told import Entries
-from ..entry.ways import Way, way_back, way_straight
+from ..build import MovesBuilder, Stroke, StrokeLabel, merged
+from ..entry.entry import Descent, EntryContext, descent
+from ..entry.entry_findings import EntryFallbacks
+from ..entry.hole import DrilledHole, from_hole, in_hole
+from ..entry.links import PassLink, way_back, way_straight
+from ..entry.side_entry import from_cleared
 
 _SAME = 1e-9
 """mm; heights and places that differ by less are one."""
@@ -39,7 +39,7 @@ def pass_heights(depth: float, stepdown: float, finish: float = 0.0) -> tuple[fl
 
 
 @dataclass(frozen=True, eq=False)
-class Levels:
+class DepthLevels:
     """Heights that an operation goes at, mm.
 
     Attributes:
@@ -67,11 +67,11 @@ class DepthPasses:
     """
 
     builder: MovesBuilder
-    label: Label
-    ground: Ground
-    levels: Levels
-    holes: Sequence[Hole] = ()
-    entries: Entries = field(default_factory=Entries)
+    label: StrokeLabel
+    ground: EntryContext
+    levels: DepthLevels
+    holes: Sequence[DrilledHole] = ()
+    entries: EntryFallbacks = field(default_factory=EntryFallbacks)
     _last: tuple[Stroke, float] | None = None
     """What was cut last, and at which height, while the tool is still where it ended."""
     _slotted: set[int] = field(default_factory=set)
@@ -124,9 +124,9 @@ class DepthPasses:
         if self._floor(stroke) <= first + _SAME:
             self._go_to_height(stroke, first, first + self.levels.retract)
             return stroke
-        asked = self.ground.entry.kind
-        found = descent(stroke, first, EntryKind.PLUNGE if drilled else asked, self.ground)
-        self.entries.note(asked, asked if drilled else found.kind, stroke.start)
+        requested = self.ground.entry.kind
+        found = descent(stroke, first, EntryKind.PLUNGE if drilled else requested, self.ground)
+        self.entries.note(requested, requested if drilled else found.kind, stroke.start)
         self._descend(found, first)
         return found.stroke
 
@@ -174,13 +174,13 @@ class DepthPasses:
         if self.levels.retract < self.levels.travel and not self._beside_clamp(x, y):
             self.builder.straight((x, y, self.levels.retract), Purpose.RAPID, self.label)
 
-    def _ways_to(self, stroke: Stroke, last: Stroke, z: float) -> tuple[Way, ...]:
+    def _ways_to(self, stroke: Stroke, last: Stroke, z: float) -> tuple[PassLink, ...]:
         """Return the ways one after the other: straight, or first back along what was cut last; none where the air is
         quicker.
         """
         x, y, height = self.builder.at
         if math.dist((x, y), stroke.start) < _SAME:
-            return (Way(stroke.part(0, 0), height),)
+            return (PassLink(stroke.part(0, 0), height),)
         air = (self.levels.travel, self.levels.retract)
         straight = way_straight(stroke, (x, y, height), air, self.ground, self.label.feed)
         if straight is not None:
@@ -195,7 +195,7 @@ class DepthPasses:
             return ()
         return (back,) if on is None else (back, on)
 
-    def _follow(self, way: Way) -> None:
+    def _follow(self, way: PassLink) -> None:
         x, y, height = self.builder.at
         if way.height > height + _SAME:
             self.builder.straight((x, y, way.height), Purpose.RAPID, self.label)

@@ -22,8 +22,8 @@ from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
 from ...model.stock_box import StockBox, stock_box
 from ...model.tool import Tool
-from .field import Field
-from .places import CELL, Floats, Indices, Places, cutting_radius, places, runs
+from .field import EngagementField
+from .places import CELL, Floats, Indices, PathPlaces, cutting_radius, places, runs
 
 STEPS = 100
 """Equal steps of the share in which lengths are counted."""
@@ -72,7 +72,7 @@ class Engagement:
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class EngagementSamples:
     """What was seen along the path of a program, n moves in m cells.
 
     Attributes:
@@ -115,7 +115,7 @@ def engagement(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> 
         ParameterError: the job has no such tool.
         Cancelled: by progress.
     """
-    seen, moves = look(program, job, progress), program.moves
+    seen, moves = sample_engagement(program, job, progress), program.moves
     shares, operations = np.zeros(len(moves)), max(len(job.operations), 1)
     lengths, largest, bounds = np.zeros((operations, STEPS)), np.zeros(operations), np.zeros(operations)
     for number in seen.radii:
@@ -132,21 +132,21 @@ def engagement(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> 
     return Engagement(shares, lengths, largest, bounds)
 
 
-def look(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Seen:
+def sample_engagement(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> EngagementSamples:
     """Return what is seen along the path of a program; arguments and errors are those of `engagement`."""
     moves = program.moves
     cutting = moves.kind != MoveKind.RAPID
     begin, end = np.zeros(len(moves)), np.zeros(len(moves))
     if not cutting.any():
         none, no = np.zeros(0), np.zeros(0, np.int64)
-        return Seen(begin, end, none, none, none, no, no, {}, {})
+        return EngagementSamples(begin, end, none, none, none, no, no, {}, {})
     lowest = np.minimum(moves.start[:, 2], moves.end[:, 2])
     numbers = np.unique(moves.tool[cutting]).tolist()
     radii = {
         number: _radius(job.tool(number), -float(lowest[cutting & (moves.tool == number)].min())) for number in numbers
     }
-    path = _Path(moves, radii, stock_box(job, program.regions, program.lines))
-    found: dict[int, tuple[Places, Floats]] = {}
+    path = _CuttingRuns(moves, radii, stock_box(job, program.regions, program.lines))
+    found: dict[int, tuple[PathPlaces, Floats]] = {}
     pitches = {}
     for k, number in enumerate(numbers):
         pitches[number] = path.along(number, found, progress.part(k / len(numbers), (k + 1) / len(numbers)))
@@ -157,37 +157,39 @@ def look(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Seen:
         cells.append((run.first + at, run.last + at, share, run.block + blocks, run.owner))
         at, blocks = float(end[run.moves[-1]]), blocks + (int(run.block[-1]) + 1 if len(run.block) else 0)
     first, last, share, block, owner = (np.concatenate(column) for column in zip(*cells, strict=True))
-    return Seen(begin, end, first, last, share, block, owner, radii, pitches)
+    return EngagementSamples(begin, end, first, last, share, block, owner, radii, pitches)
 
 
 def _radius(tool: Tool, depth: float) -> float:
     return max(cutting_radius(tool, depth), _THINNEST * tool.radius) if depth > 0 else tool.radius
 
 
-class _Path:
+class _CuttingRuns:
     """The cutting moves of all tools, run by run."""
 
     def __init__(self, moves: Moves, radii: dict[int, float], stock: StockBox) -> None:
         self._moves, self._radii, self._stock = moves, radii, stock
         self._runs = list(runs(moves, {number: CELL * radius for number, radius in radii.items()}))
         self._tools = [int(moves.tool[chosen[0]]) for chosen in self._runs]
-        self._kept: dict[int, Places] = {}
+        self._kept: dict[int, PathPlaces] = {}
 
-    def along(self, number: int, found: dict[int, tuple[Places, Floats]], progress: Progress) -> float:
+    def along(self, number: int, found: dict[int, tuple[PathPlaces, Floats]], progress: Progress) -> float:
         """Put what is seen along the path of one tool, run by run, into `found`; return the side of the cells, mm."""
         own = [k for k, tool in enumerate(self._tools) if tool == number]
         radii = self._radii[number], max(self._radii.values())
-        metal = Field.along(self._moves, radii, self._stock, lambda: (self._places(k, progress).rows[:-1] for k in own))
+        material = EngagementField.along(
+            self._moves, radii, self._stock, lambda: (self._places(k, progress).rows[:-1] for k in own)
+        )
         for k, tool in enumerate(self._tools[: own[-1] + 1]):
             here = progress.part(k / (own[-1] + 1), (k + 1) / (own[-1] + 1))
             run = self._places(k, here)
             if tool == number:
-                found[k] = replace(run, rows=run.rows[:0]), metal.engaged(run.rows, here)[run.seen]
+                found[k] = replace(run, rows=run.rows[:0]), material.engaged(run.rows, here)[run.seen]
             else:
-                metal.cut(run.rows, self._radii[tool], here)
-        return metal.pitch
+                material.cut(run.rows, self._radii[tool], here)
+        return material.pitch
 
-    def _places(self, k: int, progress: Progress) -> Places:
+    def _places(self, k: int, progress: Progress) -> PathPlaces:
         """Return where run k is looked at; the first ones are kept, since every tool asks for them."""
         progress.step(0.0, "Measuring engagement")
         if k in self._kept:
@@ -198,7 +200,7 @@ class _Path:
         return run
 
 
-def _own(seen: Seen, going: Indices) -> tuple[Indices, Indices]:
+def _own(seen: EngagementSamples, going: Indices) -> tuple[Indices, Indices]:
     """Return (first, behind the last) of the cells whose middles lie on each move, or else of one that the move lies
     in.
     """

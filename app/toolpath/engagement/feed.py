@@ -16,7 +16,7 @@ from ...model.job import Job
 from ...model.moves import MoveKind, Moves, Program
 from ...model.tool import LEAST_RATE
 from ..coverage.flat import move_rows
-from .engagement import Seen, look, spans
+from .engagement import EngagementSamples, sample_engagement, spans
 from .places import BLOCK, Floats, Indices
 
 LEAST_FEED = 0.3
@@ -48,7 +48,7 @@ def followed(program: Program, job: Job, progress: Progress = NO_PROGRESS) -> Pr
     limits = np.array([operation.engagement_limit for operation in job.operations] or [1.0])[moves.operation]
     if not np.any((limits < 1) & (moves.kind != MoveKind.RAPID)):
         return program
-    seen = look(program, job, progress.part(0.0, 0.9))
+    seen = sample_engagement(program, job, progress.part(0.0, 0.9))
     going, low, high, blocks = _blocks(seen)
     if not len(going):
         return program
@@ -84,7 +84,7 @@ class _Blocks:
     share: Floats
 
 
-def _blocks(seen: Seen) -> tuple[Indices, Indices, Indices, _Blocks]:
+def _blocks(seen: EngagementSamples) -> tuple[Indices, Indices, Indices, _Blocks]:
     """Return (moves, the first block of each, behind the last, blocks)."""
     going = np.flatnonzero(seen.end > seen.begin)
     if not len(going):
@@ -96,7 +96,9 @@ def _blocks(seen: Seen) -> tuple[Indices, Indices, Indices, _Blocks]:
     return going, low, high, blocks
 
 
-def _allowed(moves: Moves, owner: Indices, shares: tuple[Floats, Floats], ground: tuple[Seen, Job]) -> Floats:
+def _allowed(
+    moves: Moves, owner: Indices, shares: tuple[Floats, Floats], ground: tuple[EngagementSamples, Job]
+) -> Floats:
     """Return the feed of parts of moves, mm/min.
 
     Args:
@@ -105,11 +107,11 @@ def _allowed(moves: Moves, owner: Indices, shares: tuple[Floats, Floats], ground
     """
     (engaged, limit), (seen, job) = shares, ground
     numbers, place = np.unique(moves.tool[owner], return_inverse=True)
-    asked = np.array([job.tool(int(number)).feed_rate for number in numbers])[place]
+    requested = np.array([job.tool(int(number)).feed_rate for number in numbers])[place]
     bound = np.array([seen.bound(int(number)) for number in numbers])[place]
     part = np.floor(limit / np.maximum(engaged, limit) * _STEPS + _SLACK) / _STEPS
     over = (limit < 1) & (engaged > limit + bound)
-    rate = np.maximum(np.maximum(part, LEAST_FEED) * asked, LEAST_RATE)
+    rate = np.maximum(np.maximum(part, LEAST_FEED) * requested, LEAST_RATE)
     return np.where(over, np.minimum(moves.feed[owner], rate), moves.feed[owner])
 
 

@@ -46,7 +46,7 @@ _SLICE = 1 << 13
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class EngagementField:
     """The metal along the path of one tool; cutting changes it.
 
     Attributes:
@@ -64,7 +64,7 @@ class Field:
     @staticmethod
     def along(
         moves: Moves, radii: tuple[float, float], stock: StockBox, places: Callable[[], Iterable[Floats]]
-    ) -> Field:
+    ) -> EngagementField:
         """Return the uncut field along the path of a tool.
 
         Args:
@@ -89,7 +89,7 @@ class Field:
                 count = int((index == 0).sum())
                 if count <= _MOST_TILES:
                     index[index == 0] = np.arange(count)
-                    return Field(radius, (x, y, pitch), _metal(index, (x, y, pitch), stock), index)
+                    return EngagementField(radius, (x, y, pitch), _metal(index, (x, y, pitch), stock), index)
             pitch *= max(math.sqrt(2), math.sqrt(count / _MOST_TILES))
 
     @property

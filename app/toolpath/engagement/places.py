@@ -39,7 +39,7 @@ _SLACK = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class PathPlaces:
     """A run of cutting moves of one tool.
 
     Positions are lengths in the plane along the path, mm, with a gap between chains.
@@ -110,7 +110,7 @@ def chain_begins(chosen: Indices, flat: Floats) -> NDArray[np.bool_]:
     return np.concatenate([[True], apart | still[1:] | still[:-1]])
 
 
-def places(moves: Moves, chosen: Indices, radius: float) -> Places:
+def places(moves: Moves, chosen: Indices, radius: float) -> PathPlaces:
     """Return where to look at cutting moves of one tool.
 
     Args:
@@ -141,7 +141,7 @@ def places(moves: Moves, chosen: Indices, radius: float) -> Places:
     tail = np.array([[0.0, 0.0, 0.0, math.inf, 0.0, 0.0]])
     seen = np.empty(len(order), np.int64)
     seen[order] = np.arange(len(order))
-    return Places(
+    return PathPlaces(
         chosen,
         begin,
         end,

@@ -18,7 +18,7 @@ from ...model.moves import Tab
 from ...model.operation import Direction
 from ...model.tool import Tool
 from ..build import Stroke
-from ..cleared import Cleared
+from ..cleared_ground import ClearedGround
 
 Floats = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ _PLACES = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
+class EntryContext:
     """What an entry must know of where it is.
 
     Attributes:
@@ -66,7 +66,7 @@ class Ground:
     keep: float
     beside: bool
     direction: Direction
-    cleared: Cleared
+    cleared: ClearedGround
     tabs: Sequence[Tab] = ()
 
     def allowed(self, place: Point) -> float:
@@ -98,7 +98,7 @@ class Descent:
     well: tuple[tuple[float, float, float], float] | None = None
 
 
-def descent(stroke: Stroke, z: float, kind: EntryKind, ground: Ground) -> Descent:
+def descent(stroke: Stroke, z: float, kind: EntryKind, ground: EntryContext) -> Descent:
     """Return the way down to the beginning of a stroke that is cut at z: of the kind that is wanted, or the next best
     that fits.
     """
@@ -111,11 +111,11 @@ def descent(stroke: Stroke, z: float, kind: EntryKind, ground: Ground) -> Descen
     return found
 
 
-def _above(metal: float) -> float:
+def _above(material: float) -> float:
     """Return from which height an entry goes into metal that is so high: ground that was cut is where it is said to
     be.
     """
-    return _ABOVE if metal >= 0 else metal
+    return _ABOVE if material >= 0 else material
 
 
 def heading(rows: Rows) -> Floats:
@@ -126,7 +126,7 @@ def heading(rows: Rows) -> Floats:
     return ahead / length if length > 0 else np.full(2, np.nan)
 
 
-def _helix(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
+def _helix(stroke: Stroke, z: float, ground: EntryContext) -> Descent | None:
     """Return turns of a circle that touches the path where it begins, all of it clear of walls."""
     ahead = heading(stroke.rows)
     if not ground.beside or np.isnan(ahead[0]):
@@ -142,21 +142,21 @@ def _helix(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
     return None
 
 
-def _over_tab(centre: Floats, radius: float, ground: Ground) -> bool:
+def _over_tab(centre: Floats, radius: float, ground: EntryContext) -> bool:
     reach = radius + 2 * ground.tool.radius
     return any(math.dist(centre, (tab.x, tab.y)) < reach + tab.width / 2 for tab in ground.tabs)
 
 
-def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground: Ground) -> Descent:
+def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground: EntryContext) -> Descent:
     radius, side, centre = circle
     x, y = centre.tolist()
     disc = (x, y, radius + ground.tool.radius)
-    metal = (
+    material = (
         ground.cleared.wells[disc]
         if disc in ground.cleared.wells
         else ground.cleared.floor(ground.tool, (x, y), radius)
     )
-    top = _above(metal)
+    top = _above(material)
     count = max(1, math.ceil((top - z) / (math.tau * radius * math.tan(ground.entry.angle)) - 1e-9))
     across = 2 * centre - np.array(stroke.start)
     there = [*stroke.start, *across, *centre, radius, side]
@@ -168,15 +168,17 @@ def _turns(stroke: Stroke, z: float, circle: tuple[float, float, Floats], ground
     return Descent(EntryKind.HELIX, top, path, heights, stroke, (disc, min(0.0, z + (top - z) / count)))
 
 
-def _ramp(stroke: Stroke, z: float, ground: Ground) -> Descent | None:
+def _ramp(stroke: Stroke, z: float, ground: EntryContext) -> Descent | None:
     """Return a way along the path: on round a closed one, there and back along the first rows of another."""
     head = _free_head(stroke, z)
     size = lengths(head.rows)
     if not len(size) or size.sum() <= _CRUMB:
         return None
     most = (_ABOVE - z) / math.tan(ground.entry.angle)
-    metal = max(ground.cleared.floor(ground.tool, place) for place in _places(head.rows, min(most, float(size.sum()))))
-    top = _above(metal)
+    material = max(
+        ground.cleared.floor(ground.tool, place) for place in _places(head.rows, min(most, float(size.sum())))
+    )
+    top = _above(material)
     long = (top - z) / math.tan(ground.entry.angle)
     if stroke.closed and stroke.least_z is None:
         return _round(stroke, z, top, max(long, min(2 * ground.tool.radius, float(size.sum()))))

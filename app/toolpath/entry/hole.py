@@ -14,8 +14,8 @@ from ...model.moves import Moves, Purpose
 from ...model.tool import Tool
 from ..build import Stroke
 from ..linking.bridge import fraction_at
-from .entry import Ground
-from .ways import keeps_off_walls
+from .entry import EntryContext
+from .links import keeps_off_walls
 
 _WIDE = 0.5
 """Of the cutter's diameter that a hole must be wide at least: its centre, which cuts badly, meets no metal then."""
@@ -30,7 +30,7 @@ _SAME = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Hole:
+class DrilledHole:
     """A drilled hole: its centre and radius, and the height of the drill's tip at its bottom, mm."""
 
     x: float
@@ -44,24 +44,24 @@ class Hole:
         return self.x, self.y
 
 
-def drilled(moves: Moves, tools: Mapping[int, Tool]) -> tuple[Hole, ...]:
+def drilled(moves: Moves, tools: Mapping[int, Tool]) -> tuple[DrilledHole, ...]:
     """Return the holes that moves drill."""
     deepest: dict[tuple[float, float, int], float] = {}
     for k in np.flatnonzero(moves.purpose == Purpose.DRILL).tolist():
         x, y, z = moves.end[k].tolist()
         place = (x, y, int(moves.tool[k]))
         deepest[place] = min(deepest.get(place, math.inf), z)
-    return tuple(Hole(x, y, tools[tool].radius, z) for (x, y, tool), z in deepest.items() if z < 0)
+    return tuple(DrilledHole(x, y, tools[tool].radius, z) for (x, y, tool), z in deepest.items() if z < 0)
 
 
-def usable(holes: Sequence[Hole], ground: Ground, floor: float) -> tuple[Hole, ...]:
+def usable(holes: Sequence[DrilledHole], ground: EntryContext, floor: float) -> tuple[DrilledHole, ...]:
     """Return the holes that a cutter can go straight down in to a height, mm."""
     return tuple(
         hole for hole in holes if hole.radius >= _WIDE * ground.tool.radius - _SAME and hole.bottom <= floor + _SAME
     )
 
 
-def from_hole(stroke: Stroke, holes: Sequence[Hole], ground: Ground) -> Stroke:
+def from_hole(stroke: Stroke, holes: Sequence[DrilledHole], ground: EntryContext) -> Stroke:
     """Return a stroke that begins in a hole and goes straight to where it began before, or the stroke itself where that
     cannot be.
     """
@@ -93,6 +93,6 @@ def from_hole(stroke: Stroke, holes: Sequence[Hole], ground: Ground) -> Stroke:
     return stroke
 
 
-def in_hole(place: Point, holes: Sequence[Hole]) -> bool:
+def in_hole(place: Point, holes: Sequence[DrilledHole]) -> bool:
     """Tell whether a place is the centre of a hole."""
     return any(math.dist(place, hole.place) < _SAME for hole in holes)

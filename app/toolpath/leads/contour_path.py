@@ -33,7 +33,7 @@ _MISS = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
+class ContourPath:
     """A path in the direction of travel.
 
     Attributes:
@@ -54,9 +54,9 @@ class Path:
     loop: int = 0
 
     @cached_property
-    def alone(self) -> Paths:
+    def alone(self) -> ContourPaths:
         """The path as the only one of many."""
-        return Paths.of([self])
+        return ContourPaths.of([self])
 
     @property
     def sizes(self) -> Floats:
@@ -112,7 +112,7 @@ class Path:
 
 
 @dataclass(frozen=True, eq=False)
-class Paths:
+class ContourPaths:
     """Many paths, measured all at once.
 
     Attributes:
@@ -124,9 +124,9 @@ class Paths:
     closed: NDArray[np.bool_]
 
     @staticmethod
-    def of(paths: Sequence[Path]) -> Paths:
+    def of(paths: Sequence[ContourPath]) -> ContourPaths:
         """Return some paths as one."""
-        return Paths(
+        return ContourPaths(
             Outlines.joined([path.rows for path in paths]), np.array([path.closed for path in paths], np.bool_)
         )
 

@@ -13,7 +13,7 @@ from ...model.entry import Lead, LeadKind
 from ...model.finding import Finding, FindingKind
 from ...model.tool import Tool
 from . import contour_path_kernels as path_kernels
-from .contour_path import Floats, Path, Paths, keep_clear, left_of
+from .contour_path import ContourPath, ContourPaths, Floats, keep_clear, left_of
 
 _SMALLEST = 0.125
 """Of the cutter's radius, or of a lead that is smaller than that: leads are halved down to it."""
@@ -37,7 +37,7 @@ def lead_size(lead: Lead, tool: Tool) -> float:
 
 
 @dataclass(frozen=True)
-class Around:
+class LeadContext:
     """What leads go by.
 
     Attributes:
@@ -61,7 +61,7 @@ class Around:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class PathWithLeads:
     """A path with its beginning, its end and its leads.
 
     Attributes:
@@ -72,7 +72,7 @@ class Run:
         bent: True for arcs.
     """
 
-    path: Path
+    path: ContourPath
     start: float
     stop: float
     way_in: Rows
@@ -82,11 +82,11 @@ class Run:
 
 
 def runs(
-    paths: Sequence[Path],
+    paths: Sequence[ContourPath],
     taken: Sequence[Sequence[tuple[float, float]]],
-    around: Around,
+    around: LeadContext,
     wished: Sequence[Sequence[float]] = (),
-) -> tuple[Run, ...]:
+) -> tuple[PathWithLeads, ...]:
     """Return each path with its beginning and its leads.
 
     A lead is tried at several beginnings of a closed path, the best first, then smaller, then as a straight line; every
@@ -100,28 +100,29 @@ def runs(
     starts = _starts(paths, around, taken)
     for path, own, better in zip(paths, starts, wished, strict=False):
         own[:0] = better if path.closed else []
-    joined = Paths.of(paths)
+    joined = ContourPaths.of(paths)
     lengths = joined.lengths.tolist()
-    made: dict[int, Run] = {}
+    made: dict[int, PathWithLeads] = {}
     for bent, share in _tries(around):
         if share * around.size < _LEAST:
             continue
         # the best beginning of every path, then the next of those still without
         for turn in range(max(map(len, starts), default=0)):
-            asked = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
-            for k, start, way in _fitting(joined, asked, around, (bent, share)):
-                made[k] = Run(
+            requested = [(k, starts[k][turn]) for k in range(len(paths)) if k not in made and turn < len(starts[k])]
+            for k, start, way in _fitting(joined, requested, around, (bent, share)):
+                made[k] = PathWithLeads(
                     paths[k], start, _stop(paths[k], lengths[k], start, around), way[:1], way[1:], share, bent
                 )
     none = np.zeros((0, 8))
     return tuple(
-        made.get(k) or Run(path, starts[k][0], _stop(path, lengths[k], starts[k][0], around), none, none, 0.0, False)
+        made.get(k)
+        or PathWithLeads(path, starts[k][0], _stop(path, lengths[k], starts[k][0], around), none, none, 0.0, False)
         for k, path in enumerate(paths)
     )
 
 
 def _fitting(
-    paths: Paths, asked: Sequence[tuple[int, float]], around: Around, how: tuple[bool, float]
+    paths: ContourPaths, requested: Sequence[tuple[int, float]], around: LeadContext, how: tuple[bool, float]
 ) -> list[tuple[int, float, Rows]]:
     """Return the beginnings (path, mm along it) both of whose leads are clear all along, and their rows (2, 8): to the
     wall, away from it.
@@ -131,9 +132,9 @@ def _fitting(
     Args:
         how: (arc, share of the size).
     """
-    if not asked:
+    if not requested:
         return []
-    number, start = np.array([k for k, _ in asked]), np.array([at for _, at in asked])
+    number, start = np.array([k for k, _ in requested]), np.array([at for _, at in requested])
     points, ahead = _spots(paths, number, start, around)
     ways = _ways(points, ahead, around, how)
     near = around.field.nearest(points.reshape(-1, 2))[0].reshape(-1, 2).min(axis=1)
@@ -142,10 +143,10 @@ def _fitting(
         .reshape(-1, 2)
         .all(axis=1)
     )
-    return [(*asked[k], ways[k]) for k in np.flatnonzero(good).tolist()]
+    return [(*requested[k], ways[k]) for k in np.flatnonzero(good).tolist()]
 
 
-def _spots(paths: Paths, number: Indices, start: Floats, around: Around) -> tuple[Floats, Floats]:
+def _spots(paths: ContourPaths, number: Indices, start: Floats, around: LeadContext) -> tuple[Floats, Floats]:
     """Return beginning and end (k, 2, 2) of paths that begin at places (k,), mm along them, and the directions
     there.
     """
@@ -157,7 +158,7 @@ def _spots(paths: Paths, number: Indices, start: Floats, around: Around) -> tupl
     return np.where(closed[:, None, None], points, outer), ahead  # an open path's end is the end of its last row
 
 
-def _ways(points: Floats, ahead: Floats, around: Around, how: tuple[bool, float]) -> Rows:
+def _ways(points: Floats, ahead: Floats, around: LeadContext, how: tuple[bool, float]) -> Rows:
     """Return the rows (k, 2, 8) to the wall and away from it; args as `_spots` returns them and `_fitting` takes
     them.
     """
@@ -176,7 +177,7 @@ def _ways(points: Floats, ahead: Floats, around: Around, how: tuple[bool, float]
     return rows
 
 
-def _tries(around: Around) -> list[tuple[bool, float]]:
+def _tries(around: LeadContext) -> list[tuple[bool, float]]:
     """Return (arc, share of the size) in the order of trying."""
     if around.lead.kind is LeadKind.NONE:
         return []
@@ -188,23 +189,25 @@ def _tries(around: Around) -> list[tuple[bool, float]]:
     return arcs + [(False, share) for share in shares]
 
 
-def _stop(path: Path, length: float, start: float, around: Around) -> float:
+def _stop(path: ContourPath, length: float, start: float, around: LeadContext) -> float:
     """Return where a path of a length ends that begins at a place, mm along it."""
     return start + length + min(_overlap(around), length / 2) if path.closed else length
 
 
-def _overlap(around: Around) -> float:
+def _overlap(around: LeadContext) -> float:
     """Return how far a path is to go on over its beginning, mm."""
     return around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
 
 
-def _starts(paths: Sequence[Path], around: Around, taken: Sequence[Sequence[tuple[float, float]]]) -> list[list[float]]:
+def _starts(
+    paths: Sequence[ContourPath], around: LeadContext, taken: Sequence[Sequence[tuple[float, float]]]
+) -> list[list[float]]:
     """Return places where each path may begin, the best first: far from corners, on straight rows, where there is
     room.
     """
     found = [[0.0] for _ in paths]
     number = [k for k, path in enumerate(paths) if path.closed]
-    closed = Paths.of([paths[k] for k in number])
+    closed = ContourPaths.of([paths[k] for k in number])
     corners = _corners(closed, around, _CORNER)
     owner, places = _middles(closed, corners)
     bounds = np.searchsorted(owner, np.arange(len(number) + 1))
@@ -222,7 +225,7 @@ def _starts(paths: Sequence[Path], around: Around, taken: Sequence[Sequence[tupl
     return found
 
 
-def _middles(paths: Paths, corners: tuple[Floats, Indices]) -> tuple[Indices, Floats]:
+def _middles(paths: ContourPaths, corners: tuple[Floats, Indices]) -> tuple[Indices, Floats]:
     """Return (path, mm along it), path by path, of the middles of all rows, and of what lies between one corner and the
     next.
     """
@@ -237,7 +240,9 @@ def _middles(paths: Paths, corners: tuple[Floats, Indices]) -> tuple[Indices, Fl
     return both[order], np.concatenate([paths.ends - paths.outlines.sizes / 2, between])[order]
 
 
-def _score(paths: Paths, path: Indices, places: Floats, corners: tuple[Floats, Indices], around: Around) -> Floats:
+def _score(
+    paths: ContourPaths, path: Indices, places: Floats, corners: tuple[Floats, Indices], around: LeadContext
+) -> Floats:
     """Return how good places are to begin at: up to 1 for the way to the next corner, as much for room, a little for
     straight rows.
     """
@@ -267,7 +272,7 @@ def _to_corners(path: Indices, places: Floats, corners: tuple[Floats, Indices], 
     return far
 
 
-def corners_of(path: Path, around: Around, least: float) -> Floats:
+def corners_of(path: ContourPath, around: LeadContext, least: float) -> Floats:
     """Return where the corners of a closed path are, in order, mm along it: joints that turn, and where it goes round
     corners of the wall.
 
@@ -277,7 +282,7 @@ def corners_of(path: Path, around: Around, least: float) -> Floats:
     return _corners(path.alone, around, least)[0]
 
 
-def _corners(paths: Paths, around: Around, least: float) -> tuple[Floats, Indices]:
+def _corners(paths: ContourPaths, around: LeadContext, least: float) -> tuple[Floats, Indices]:
     """Return the corners of all of some closed paths, one path after the other, and (m + 1,) where those of each
     begin.
     """
@@ -294,12 +299,14 @@ def _corners(paths: Paths, around: Around, least: float) -> tuple[Floats, Indice
     return at[new], np.searchsorted(path[new], np.arange(len(paths.closed) + 1))
 
 
-def reach(around: Around) -> float:
+def reach(around: LeadContext) -> float:
     """Return how far along the path a lead and its cutter reach, mm."""
     return around.size + around.tool.radius if around.lead.kind is not LeadKind.NONE else 0.0
 
 
-def _is_taken(path: Path, places: Floats, around: Around, taken: Sequence[tuple[float, float]]) -> np.ndarray:
+def _is_taken(
+    path: ContourPath, places: Floats, around: LeadContext, taken: Sequence[tuple[float, float]]
+) -> np.ndarray:
     """Return (m,) whether a path that begins at a place, overlap and leads and all, comes into what is taken."""
     beside = reach(around)
     found = np.zeros(len(places), np.bool_)
@@ -310,7 +317,7 @@ def _is_taken(path: Path, places: Floats, around: Around, taken: Sequence[tuple[
     return found
 
 
-def _freest(path: Path, taken: Sequence[tuple[float, float]]) -> float:
+def _freest(path: ContourPath, taken: Sequence[tuple[float, float]]) -> float:
     """Return the place farthest from everything that is taken."""
     if not taken:
         return 0.0
@@ -320,13 +327,13 @@ def _freest(path: Path, taken: Sequence[tuple[float, float]]) -> float:
     return float((middles[k] + between[k] / 2) % path.length)
 
 
-def about_leads(made: Sequence[Run], around: Around) -> list[Finding]:
+def lead_findings(made: Sequence[PathWithLeads], around: LeadContext) -> list[Finding]:
     """Return one remark about leads that do not fit as they were asked for."""
     if around.lead.kind is LeadKind.NONE:
         return []
-    wanted = around.lead.kind is LeadKind.ARC
+    requested = around.lead.kind is LeadKind.ARC
     none = [run for run in made if run.share == 0]
-    other = [run for run in made if run.share > 0 and (run.share < 1 or run.bent != wanted)]
+    other = [run for run in made if run.share > 0 and (run.share < 1 or run.bent != requested)]
     if not none and not other:
         return []
     x, y = points_at((none or other)[0].path.rows[:1], np.zeros(1))[0]
@@ -342,16 +349,16 @@ def about_leads(made: Sequence[Run], around: Around) -> list[Finding]:
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(none) + len(other)))]
 
 
-def about_overlaps(made: Sequence[Run], around: Around) -> list[Finding]:
+def overlap_findings(made: Sequence[PathWithLeads], around: LeadContext) -> list[Finding]:
     """Return one remark about closed paths so short that they go over their beginning by less than was asked."""
-    wanted = around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
-    short = [run for run in made if run.path.closed and run.stop - run.start - run.path.length < wanted - _SAME]
+    requested = around.lead.overlap if around.lead.kind is not LeadKind.NONE else 0.0
+    short = [run for run in made if run.path.closed and run.stop - run.start - run.path.length < requested - _SAME]
     if not short:
         return []
     x, y = points_at(short[0].path.rows[:1], np.zeros(1))[0]
     text = (
         f"Of {len(made)} {'path' if len(made) == 1 else 'paths'} of T{around.tool.number} {around.tool.label}, "
         f"{len(short)} {'goes' if len(short) == 1 else 'go'} on over the beginning by half the length, less than the "
-        f"{wanted:g} mm asked for; the first is at ({x:.3f}, {y:.3f})."
+        f"{requested:g} mm asked for; the first is at ({x:.3f}, {y:.3f})."
     )
     return [Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=False, amount=float(len(short)))]

@@ -18,8 +18,8 @@ from ...model.moves import Tab
 from ...model.operation import LEAST_LENGTH, ContourOperation
 from ...model.stock_box import StockBox
 from ...model.tool import Tool
-from .contour_path import Floats, Path, fractions_at
-from .lead import Around, Run, corners_of, reach
+from .contour_path import ContourPath, Floats, fractions_at
+from .lead import LeadContext, PathWithLeads, corners_of, reach
 
 _CORNER = 0.3
 """Radians; a tab keeps off joints that turn more than this."""
@@ -48,12 +48,12 @@ class TabShape:
     """What all tabs of an operation have in common.
 
     Attributes:
-        wanted: what was asked for.
+        tabs: what was asked for.
         tool: the cutter.
         top: height of their tops, mm, <= -0.001.
     """
 
-    wanted: Tabs
+    tabs: Tabs
     tool: Tool
     top: float
 
@@ -65,11 +65,11 @@ class TabShape:
     @property
     def half(self) -> float:
         """How far before and behind its middle a path goes over a tab, mm: half the metal, and the cutter's radius."""
-        return (self.wanted.width + self.tool.diameter) / 2
+        return (self.tabs.width + self.tool.diameter) / 2
 
 
 def by_hand(
-    paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point], walls: DistanceField | None
+    paths: Sequence[ContourPath], shape: TabShape, shifts: Sequence[Point], walls: DistanceField | None
 ) -> tuple[list[list[float]], list[Finding]]:
     """Return for each path where tabs are put by hand, mm along it, at what is nearest to each place, on every copy;
     and which are not.
@@ -80,10 +80,10 @@ def by_hand(
         walls: what the paths follow; a place goes to the wall nearest to it, and then to the path along that.
     """
     found: list[list[float]] = [[] for _ in paths]
-    told: list[Finding] = []
-    if not shape.wanted.places or not paths or walls is None:
-        return found, told
-    places = np.array([(x + dx, y + dy) for dx, dy in shifts for x, y in shape.wanted.places])
+    reported: list[Finding] = []
+    if not shape.tabs.places or not paths or walls is None:
+        return found, reported
+    places = np.array([(x + dx, y + dy) for dx, dy in shifts for x, y in shape.tabs.places])
     row = walls.nearest(places)[1]
     feet = points_at(walls.rows[row], fractions_at(walls.rows[row], places))
     near = [path.nearest(feet) for path in paths]
@@ -98,11 +98,13 @@ def by_hand(
             f"The tab by hand at ({x:.3f}, {y:.3f}) is left out: the path of T{shape.tool.number} {shape.tool.label} "
             f"nearest to it is {paths[path].length:.3f} mm long, and it takes more than {least:.3f} mm."
         )
-        told.append(Finding(FindingKind.LEFT_OUT, text, x, y, counts=paths[path].area < 0, amount=paths[path].length))
-    return found, told
+        reported.append(
+            Finding(FindingKind.LEFT_OUT, text, x, y, counts=paths[path].area < 0, amount=paths[path].length)
+        )
+    return found, reported
 
 
-def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> list[float]:
+def spread(run: PathWithLeads, own: Sequence[float], shape: TabShape, around: LeadContext) -> list[float]:
     """Return where an operation's tabs go on a path that goes round something, mm along it, besides those that are put
     there by hand.
 
@@ -115,12 +117,12 @@ def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> l
         around: what the leads went by.
     """
     path, half, beside = run.path, shape.half, reach(around)
-    if not shape.wanted.count or not goes_round(path):
+    if not shape.tabs.count or not goes_round(path):
         return []
     overlap = run.stop - run.start - path.length
     free = path.length - overlap - 2 * (beside + half)
     apart = 2 * half + shape.tool.diameter
-    count = min(shape.wanted.count, int(free / apart) + 1 if free >= 0 else 0)
+    count = min(shape.tabs.count, int(free / apart) + 1 if free >= 0 else 0)
     if count <= 0:
         return []
     first = run.start + overlap + beside + half
@@ -133,15 +135,15 @@ def spread(run: Run, own: Sequence[float], shape: TabShape, around: Around) -> l
     good = np.concatenate([good % path.length, even[_in_spans(even, spans, path.length)] % path.length])
     good = good[(good - first) % path.length <= free + _ROUNDING]
     made: list[float] = []
-    for wanted in even.tolist():
+    for requested in even.tolist():
         for each in (*made, *own) if not made else made[-1:]:
             good = good[_apart(good, each, path.length) >= apart - _ROUNDING]
         if len(good):
-            made.append(float(good[int(np.argmin(_apart(good, wanted, path.length)))]))
+            made.append(float(good[int(np.argmin(_apart(good, requested, path.length)))]))
     return made
 
 
-def goes_round(path: Path) -> bool:
+def goes_round(path: ContourPath) -> bool:
     """Tell whether a path cuts something out: it is closed, or was before clamps cut it open."""
     return path.closed or path.area != 0
 
@@ -156,7 +158,7 @@ def _in_spans(places: Floats, spans: Sequence[tuple[float, float]], length: floa
     return within
 
 
-def _off_corners(path: Path, half: float, corners: Floats) -> list[tuple[float, float]]:
+def _off_corners(path: ContourPath, half: float, corners: Floats) -> list[tuple[float, float]]:
     """Return (from, to), mm along a closed path, where a tab's middle may be with no corner under it; all of it where
     there is none.
     """
@@ -164,14 +166,14 @@ def _off_corners(path: Path, half: float, corners: Floats) -> list[tuple[float, 
     return [(float(a) + half, float(b) - half) for a, b in edges if b - a >= 2 * half] or [(0.0, path.length)]
 
 
-def tabs_at(path: Path, places: Sequence[float], shape: TabShape) -> list[Tab]:
+def tabs_at(path: ContourPath, places: Sequence[float], shape: TabShape) -> list[Tab]:
     """Return the record of tabs on a path."""
     points = path.points(np.array(places, dtype=np.float64))
-    return [Tab(float(x), float(y), shape.wanted.width, shape.top, shape.tool.diameter) for x, y in points]
+    return [Tab(float(x), float(y), shape.tabs.width, shape.top, shape.tool.diameter) for x, y in points]
 
 
-def about_tabs(
-    made: Sequence[Run], tabs: Sequence[Sequence[float]], shape: TabShape, operation: ContourOperation
+def tab_findings(
+    made: Sequence[PathWithLeads], tabs: Sequence[Sequence[float]], shape: TabShape, operation: ContourOperation
 ) -> list[Finding]:
     """Return what there is to say about tabs: which paths have fewer than asked for, and tabs that are as high as the
     cut is deep.
@@ -184,7 +186,7 @@ def about_tabs(
     few = [
         (run.path, len(places))
         for run, places in zip(made, tabs, strict=True)
-        if goes_round(run.path) and len(places) < shape.wanted.count
+        if goes_round(run.path) and len(places) < shape.tabs.count
     ]
     for loose in (True, False):
         which = [
@@ -194,7 +196,7 @@ def about_tabs(
         ]
         if which:
             x, y = which[0].rows[0, :2]
-            what = "no tab though a part comes loose there" if loose else f"fewer than {shape.wanted.count} tabs"
+            what = "no tab though a part comes loose there" if loose else f"fewer than {shape.tabs.count} tabs"
             who = f"of T{shape.tool.number} {shape.tool.label}"
             text = (
                 f"1 path {who} has {what}, because it is too short for them; it begins at ({x:.3f}, {y:.3f})."
@@ -205,11 +207,11 @@ def about_tabs(
             findings.append(
                 Finding(FindingKind.LEFT_OUT, text, float(x), float(y), counts=loose, amount=float(len(which)))
             )
-    if shape.wanted.wanted and shape.wanted.height >= operation.cut.floor:
+    if shape.tabs.enabled and shape.tabs.height >= operation.cut.floor:
         findings.append(
             Finding(
                 FindingKind.LEFT_OUT,
-                f"Tabs of {shape.wanted.height:g} mm are as high as the cut is deep "
+                f"Tabs of {shape.tabs.height:g} mm are as high as the cut is deep "
                 f"({operation.cut.floor:g} mm), so there the whole metal stays.",
                 counts=False,
             )
@@ -217,7 +219,7 @@ def about_tabs(
     return findings
 
 
-def about_unheld(tabs: Sequence[Tab], walls: DistanceField, box: StockBox) -> list[Finding]:
+def unheld_findings(tabs: Sequence[Tab], walls: DistanceField, box: StockBox) -> list[Finding]:
     """Return the remark that tabs round a part hold nothing, as the stock ends where they would hold on to it.
 
     Args:
@@ -241,16 +243,16 @@ def about_unheld(tabs: Sequence[Tab], walls: DistanceField, box: StockBox) -> li
     return [Finding(FindingKind.LEFT_OUT, text, first.x, first.y, counts=False, amount=float(len(loose)))]
 
 
-def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -> list[Finding]:
+def far_tab_findings(paths: Sequence[ContourPath], shape: TabShape, shifts: Sequence[Point]) -> list[Finding]:
     """Return a finding for each place by hand that is far from every path, where it may not be what was meant; on
     copies too.
 
     The tab is made all the same, on what is nearest, since one too many holds and one too few does not.
     """
-    if not shape.wanted.places or not paths:
+    if not shape.tabs.places or not paths:
         return []
     findings = []
-    for x, y in shape.wanted.places:
+    for x, y in shape.tabs.places:
         points = np.array([(x + dx, y + dy) for dx, dy in shifts])
         far = np.min([path.nearest(points)[1] for path in paths], axis=0)
         worst = int(np.argmax(far))
@@ -264,14 +266,14 @@ def about_far(paths: Sequence[Path], shape: TabShape, shifts: Sequence[Point]) -
     return findings
 
 
-def spans_of(path: Path, places: Sequence[float], half: float) -> list[tuple[float, float]]:
+def spans_of(path: ContourPath, places: Sequence[float], half: float) -> list[tuple[float, float]]:
     """Return (from, to) of tabs along a path, mm; on a closed one they may go past its ends."""
     if path.closed:
         return [(place - half, place + half) for place in places]
     return [(max(place - half, 0.0), min(place + half, path.length)) for place in places]
 
 
-def under_tabs(path: Path, where: Floats, spans: Sequence[tuple[float, float]]) -> np.ndarray:
+def under_tabs(path: ContourPath, where: Floats, spans: Sequence[tuple[float, float]]) -> np.ndarray:
     """Return (m,) whether places along a path are under a tab."""
     found = np.zeros(len(where), np.bool_)
     for low, high in spans:

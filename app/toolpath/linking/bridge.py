@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from ...core import tolerances
 from ...geometry import kernels
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level, Ring
+from ...geometry.offset.offset import OffsetLevel, Ring
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import CX, CY, TURN, X0, X1, Y0, Y1, Indices, Rows, fraction_on, points_at
 from ...geometry.triangulation import neighbours
-from .rows import Place
+from .rows import RingPlace
 
 _LONGEST = 64
 """Rows of a ring from whose middles a bridge to the level outside it is looked for, the longest ones."""
@@ -26,7 +26,7 @@ _TRIED_OUTWARD = 16
 
 
 @dataclass(frozen=True)
-class Bridge:
+class RingBridge:
     """A straight way between two rings that keeps the outermost frame's distance from all walls.
 
     Attributes:
@@ -34,12 +34,14 @@ class Bridge:
         length: mm.
     """
 
-    a: Place
-    b: Place
+    a: RingPlace
+    b: RingPlace
     length: float
 
 
-def inward_bridges(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField) -> list[Bridge]:
+def inward_bridges(
+    levels: Sequence[OffsetLevel], halves: Sequence[OffsetLevel], field: DistanceField
+) -> list[RingBridge]:
     """Return bridges from every ring to rings of the level before.
 
     From any point of a level the way towards its nearest point on the drawing keeps the distance rule by
@@ -50,7 +52,7 @@ def inward_bridges(levels: Sequence[Level], halves: Sequence[Level], field: Dist
         halves: closed runs inside each level, numbered on after all levels.
         field: distances from the drawing.
     """
-    bridges: list[Bridge] = []
+    bridges: list[RingBridge] = []
     first, half_first = 0, sum(len(level.rings) for level in levels)
     for k, outer in enumerate(levels):
         if not outer.rings:
@@ -86,7 +88,7 @@ class RingField:
             np.concatenate([np.arange(len(r.rows)) for r in rings]),
         )
 
-    def nearest(self, point: NDArray[np.float64]) -> tuple[float, Place, NDArray[np.float64]]:
+    def nearest(self, point: NDArray[np.float64]) -> tuple[float, RingPlace, NDArray[np.float64]]:
         """Return (distance, place, point there) of the nearest point (2,) of any ring."""
         distance, rows, parts, places = self.nearest_of(point[None])
         return float(distance[0]), self.place(int(rows[0]), float(parts[0])), places[0]
@@ -102,9 +104,9 @@ class RingField:
         parts = fractions_at(rows, points)
         return distance, found, parts, points_at(rows, parts)
 
-    def place(self, row: int, part: float) -> Place:
+    def place(self, row: int, part: float) -> RingPlace:
         """Return the place at a fraction of a row of the field."""
-        return Place(int(self.ring[row]), int(self.row[row]), part)
+        return RingPlace(int(self.ring[row]), int(self.row[row]), part)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +145,7 @@ class _Middles:
 
 def _from_rings(
     rings: Sequence[Ring], number: int, target: RingField, field: DistanceField, step: float
-) -> list[Bridge]:
+) -> list[RingBridge]:
     """Return the best bridge from each of some rings, numbered from `number`, to each ring of the level before that it
     can reach.
     """
@@ -158,12 +160,12 @@ def _from_rings(
     parts = fractions_at(target.field.rows[rows[best]], arrived[best])
     begins = zip((number + middles.ring[best]).tolist(), middles.row[best].tolist(), strict=True)
     ends = zip(target.ring[rows[best]].tolist(), target.row[rows[best]].tolist(), parts.tolist(), strict=True)
-    return [Bridge(Place(*begin, 0.5), Place(*end), step) for begin, end in zip(begins, ends, strict=True)]
+    return [RingBridge(RingPlace(*begin, 0.5), RingPlace(*end), step) for begin, end in zip(begins, ends, strict=True)]
 
 
 def outward(
     rings: Mapping[int, Ring], counts: Indices, targets: Sequence[tuple[float, RingField]], field: DistanceField
-) -> dict[int, list[Bridge]]:
+) -> dict[int, list[RingBridge]]:
     """Return for each of some rings bridges in one straight line from it out to the outermost level, the innermost
     first; none if there is no such line.
 
@@ -176,7 +178,7 @@ def outward(
         targets: (distance from the drawing, rings there) of the levels, outermost first.
         field: distances from the drawing.
     """
-    lines: dict[int, list[Bridge]] = {number: [] for number in rings}
+    lines: dict[int, list[RingBridge]] = {number: [] for number in rings}
     if not rings:
         return lines
     numbers, middles = np.fromiter(rings, np.int64), _Middles.of(list(rings.values()), _TRIED_OUTWARD, field)
@@ -189,16 +191,16 @@ def outward(
         missing[middles.ring[some[there]]] = False
         for k, line in zip(some[there].tolist(), crossed, strict=True):
             number = int(numbers[middles.ring[k]])
-            at, before = Place(number, int(middles.row[k]), 0.5), float(middles.distance[k])
+            at, before = RingPlace(number, int(middles.row[k]), 0.5), float(middles.distance[k])
             for level, place in line:
-                lines[number].append(Bridge(at, place, before - level))
+                lines[number].append(RingBridge(at, place, before - level))
                 at, before = place, level
     return lines
 
 
 def _crossed(
     middles: _Middles, some: Indices, counts: Indices, targets: Sequence[tuple[float, RingField]]
-) -> tuple[Indices, list[list[tuple[float, Place]]]]:
+) -> tuple[Indices, list[list[tuple[float, RingPlace]]]]:
     """Return (which of some middles come out to the outermost level straight (k,), where each of these crosses the
     levels on the way, with these levels' distances, the innermost first).
     """
@@ -210,9 +212,9 @@ def _crossed(
         off, rows, parts, _ = target.nearest_of(middles.towards_wall(some[at], middles.distance[some[at]] - level))
         there[at[off > tolerances.LEVEL]] = False
         found.append((level, target, at, rows, parts.tolist()))
-    crossed: dict[int, list[tuple[float, Place]]] = {k: [] for k in np.flatnonzero(there).tolist()}
-    for level, target, asked, row_of, part_of in found:
-        for one, row, part in zip(asked.tolist(), row_of.tolist(), part_of, strict=True):
+    crossed: dict[int, list[tuple[float, RingPlace]]] = {k: [] for k in np.flatnonzero(there).tolist()}
+    for level, target, requested, row_of, part_of in found:
+        for one, row, part in zip(requested.tolist(), row_of.tolist(), part_of, strict=True):
             if there[one]:
                 crossed[one].append((level, target.place(row, part)))
     return np.flatnonzero(there), list(crossed.values())
@@ -247,10 +249,10 @@ def fraction_at(row: Rows, point: NDArray[np.float64]) -> float:
     return fraction_on(row.tolist(), (x, y))
 
 
-def nearest_on(ring: Ring, number: int, point: NDArray[np.float64]) -> tuple[float, Place]:
+def nearest_on(ring: Ring, number: int, point: NDArray[np.float64]) -> tuple[float, RingPlace]:
     """Return (distance, place) of what of a ring is nearest to a point (2,), mm."""
     distance, row = kernels.nearest_of_few(np.ascontiguousarray(ring.rows), *point.tolist())
-    return float(distance), Place(number, int(row), fraction_at(ring.rows[row], point))
+    return float(distance), RingPlace(number, int(row), fraction_at(ring.rows[row], point))
 
 
 class RingEdges:
@@ -306,7 +308,7 @@ class _Edges:
 
 def level_bridges(
     edges: RingEdges, some: Sequence[int], group: Callable[[int], int], spacing: float, most: int | None = None
-) -> Iterator[tuple[Bridge, NDArray[np.float64]]]:
+) -> Iterator[tuple[RingBridge, NDArray[np.float64]]]:
     """Yield candidates between some rings with their ends (2, 2), shortest first; clearance is not checked.
 
     Args:
@@ -329,9 +331,9 @@ def level_bridges(
             continue
         ends = found.ends[k]
         start, end = (
-            Place(ring, int(found.row[i]), float(found.part[i])) for ring, i in zip((a, b), ends, strict=True)
+            RingPlace(ring, int(found.row[i]), float(found.part[i])) for ring, i in zip((a, b), ends, strict=True)
         )
-        yield Bridge(start, end, float(found.size[k])), found.points[ends]
+        yield RingBridge(start, end, float(found.size[k])), found.points[ends]
 
 
 def _rank(keys: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -12,9 +12,9 @@ from ...core.pool import in_bands
 from ...geometry.distance import DistanceField
 from ...geometry.primitives import Indices, Rows, sweeps
 from ...geometry.triangulation import neighbours
-from ..rest_left import Ground
+from ..rest_material import CutGround
 from . import chain_kernels
-from .rest_runs import Chunks, Run
+from .rest_runs import RingChunks, RingRun
 
 STRAIGHT, ALONG, BACK = 0, 1, 2
 """How an edge of the net goes: straight, along a ring, back along a ring."""
@@ -46,7 +46,7 @@ class Corridor:
 
     walls: DistanceField
     closest: float
-    ground: Ground
+    ground: CutGround
     radius: float
 
     def clear(self, ways: Floats) -> NDArray[np.bool_]:
@@ -82,7 +82,7 @@ class Corridor:
 
 
 @dataclass(frozen=True, eq=False)
-class Net:
+class LinkGraph:
     """Places on rings, and the ways between them.
 
     Attributes:
@@ -105,7 +105,7 @@ class Net:
     ends: Indices
 
     @staticmethod
-    def of(chunks: Chunks, runs: list[Run], corridor: Corridor, longest: float) -> Net:
+    def of(chunks: RingChunks, runs: list[RingRun], corridor: Corridor, longest: float) -> LinkGraph:
         """Return the net over all rings that runs are on, and over every ring a cutter's radius farther from the walls.
 
         Args:
@@ -125,7 +125,9 @@ class Net:
         order = np.argsort(start, kind="stable")
         first = np.concatenate([[0], np.cumsum(np.bincount(start, minlength=len(spots)))]).astype(np.int64)
         kinds, counts = np.concatenate([kind, np.full(2 * len(c), STRAIGHT)]), np.concatenate([count, zero, zero])
-        return Net(places, spots, first, end[order], cost[order], kinds[order], start[order], counts[order], air, ends)
+        return LinkGraph(
+            places, spots, first, end[order], cost[order], kinds[order], start[order], counts[order], air, ends
+        )
 
     def way(self, start: int, goal: int, limit: float) -> Indices:
         """Return the edges of the cheapest way between two places."""
@@ -133,7 +135,7 @@ class Net:
         count = chain_kernels.cheapest_way(self.first, self.to, self.cost, start, goal, limit, out)
         return out[:count][::-1]
 
-    def rows(self, chunks: Chunks, edge: int) -> Rows:
+    def rows(self, chunks: RingChunks, edge: int) -> Rows:
         """Return the rows of an edge."""
         a, b = int(self.come_from[edge]), int(self.to[edge])
         if self.kind[edge] == ALONG:
@@ -143,7 +145,7 @@ class Net:
         return np.array([[*self.places[a], *self.places[b], 0.0, 0.0, 0.0, 0.0]])
 
 
-def _spots(chunks: Chunks, runs: list[Run], radius: float) -> tuple[Indices, Indices]:
+def _spots(chunks: RingChunks, runs: list[RingRun], radius: float) -> tuple[Indices, Indices]:
     """Return (rows of the rings at which a place of the net is, places of the ends of each run)."""
     begins = np.array([run.chunk for run in runs])
     stops = np.array([chunks.after(run.chunk, run.count) for run in runs])
@@ -160,12 +162,12 @@ def _spots(chunks: Chunks, runs: list[Run], radius: float) -> tuple[Indices, Ind
     return spots, np.stack([np.searchsorted(spots, begins), np.searchsorted(spots, stops)], 1)
 
 
-def _road_levels(chunks: Chunks) -> Indices:
+def _road_levels(chunks: RingChunks) -> Indices:
     """Return the levels all rings of which belong to the net: every fourth."""
     return np.unique(chunks.level)[::4]
 
 
-def _along(chunks: Chunks, spots: Indices) -> tuple[Indices, Indices, Indices, Indices, Floats]:
+def _along(chunks: RingChunks, spots: Indices) -> tuple[Indices, Indices, Indices, Indices, Floats]:
     """Return (from, to, kind, rows, length) of the ways from each place to the next round its ring, there and back."""
     ring = chunks.ring[spots]
     last = np.concatenate([np.diff(ring) != 0, [True]])

@@ -19,8 +19,8 @@ from ...geometry.primitives import Indices, Rows
 from ...model.moves import Purpose
 from ..build import Stroke
 from . import chain_kernels
-from .chain_net import Corridor, Net
-from .rest_runs import Chunks, Run
+from .chain_net import Corridor, LinkGraph
+from .rest_runs import RingChunks, RingRun
 
 _MOST = 6
 """Ends nearest to each that are looked at before ends farther off."""
@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 
 
 def chains(
-    chunks: Chunks, runs: list[Run], corridor: Corridor, longest: float, progress: Progress = NO_PROGRESS
+    chunks: RingChunks, runs: list[RingRun], corridor: Corridor, longest: float, progress: Progress = NO_PROGRESS
 ) -> tuple[Stroke, ...]:
     """Return strokes that run through all runs.
 
@@ -44,14 +44,14 @@ def chains(
     if not runs:
         return ()
     progress.step(0.0, "Ways between runs")
-    net = Net.of(chunks, runs, corridor, longest)
+    net = LinkGraph.of(chunks, runs, corridor, longest)
     progress.step(0.5, "Chaining runs")
     tied = _tied(net, np.array([run.sense for run in runs]), longest, progress)
     thread = _Thread(chunks, runs, corridor, net, longest)
     return tuple(proven for chain in tied.chains() for proven in _proven(thread.stroke(*chain), corridor))
 
 
-def _tied(net: Net, senses: Indices, longest: float, progress: Progress) -> _Ties:
+def _tied(net: LinkGraph, senses: Indices, longest: float, progress: Progress) -> _Ties:
     """Return runs joined until no two ends are near enough, or as many chains are left as of runs without senses."""
     tied, fewest = _Ties.of(senses), 0
     for limit in (longest, np.inf):
@@ -153,7 +153,7 @@ class _Ties:
         return chains
 
 
-def _candidates(net: Net, tied: _Ties, longest: float) -> Indices:
+def _candidates(net: LinkGraph, tied: _Ties, longest: float) -> Indices:
     """Return pairs of free ends, the last of a chain and the first of another, those with the cheapest ways between
     them first.
     """
@@ -180,10 +180,10 @@ def _candidates(net: Net, tied: _Ties, longest: float) -> Indices:
 class _Thread:
     """Makes the path of a chain."""
 
-    chunks: Chunks
-    runs: list[Run]
+    chunks: RingChunks
+    runs: list[RingRun]
     corridor: Corridor
-    net: Net
+    net: LinkGraph
     longest: float
 
     def stroke(self, chain: list[int], sense: bool) -> Stroke:

@@ -15,20 +15,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level, Ring
+from ...geometry.offset.offset import OffsetLevel, Ring
 from ...model.operation import Direction
 from ..build import Stroke
-from .bridge import Bridge, RingEdges, RingField, inward_bridges, is_clear, level_bridges, outward
-from .runs import NOTHING, Filling
-from .tree import Tree
-from .walk import Walk, Walked
+from .bridge import RingBridge, RingEdges, RingField, inward_bridges, is_clear, level_bridges, outward
+from .runs import NOTHING, GapFilling
+from .tree import BridgeForest
+from .walk import TreeWalk, WalkedTree
 
 _TRIED = 32
 """Bridges between two rings that are looked at before they are taken to have none."""
 
 
 @dataclass(frozen=True)
-class Manner:
+class LinkOptions:
     """How rings are cut.
 
     Attributes:
@@ -41,7 +41,11 @@ class Manner:
 
 
 def link(
-    levels: Sequence[Level], field: DistanceField, manner: Manner, filling: Filling = NOTHING, step: float = 0.0
+    levels: Sequence[OffsetLevel],
+    field: DistanceField,
+    options: LinkOptions,
+    filling: GapFilling = NOTHING,
+    step: float = 0.0,
 ) -> tuple[Stroke, ...]:
     """Return as few strokes as there are connected areas that the tool's centre can be in.
 
@@ -60,14 +64,16 @@ def link(
     bridges = inward_bridges(levels, filling.halves, field)
     areas = sum(ring.area > 0 for ring in levels[0].rings)
     known = RingEdges(rings)
-    tree = _grown(_Apart(known, Tree(len(rings)), areas), bridges, levels, field)
-    lines = _lines_out(tree.roots(depth), _Numbered(rings, depth), levels, field)
+    tree = _grown(_SeparateRings(known, BridgeForest(len(rings)), areas), bridges, levels, field)
+    lines = _lines_out(tree.roots(depth), _NumberedRings(rings, depth), levels, field)
     bridges = [*(bridge for line in lines.values() for bridge in line), *bridges]
-    tree = _grown(_Apart(known, Tree(len(rings)), areas), bridges, levels, field)
-    return _strokes(Walked(rings, depth, tree, filling.trips, (field, levels[0].distance), step), manner, lines)
+    tree = _grown(_SeparateRings(known, BridgeForest(len(rings)), areas), bridges, levels, field)
+    return _strokes(WalkedTree(rings, depth, tree, filling.detours, (field, levels[0].distance), step), options, lines)
 
 
-def _grown(apart: _Apart, bridges: Sequence[Bridge], levels: Sequence[Level], field: DistanceField) -> Tree:
+def _grown(
+    apart: _SeparateRings, bridges: Sequence[RingBridge], levels: Sequence[OffsetLevel], field: DistanceField
+) -> BridgeForest:
     for bridge in bridges:
         apart.tree.add(bridge)
     _join_across(levels, apart, field)
@@ -75,8 +81,8 @@ def _grown(apart: _Apart, bridges: Sequence[Bridge], levels: Sequence[Level], fi
 
 
 def _lines_out(
-    roots: Sequence[int], walked: _Numbered, levels: Sequence[Level], field: DistanceField
-) -> dict[int, list[Bridge]]:
+    roots: Sequence[int], walked: _NumberedRings, levels: Sequence[OffsetLevel], field: DistanceField
+) -> dict[int, list[RingBridge]]:
     """Return the straight line of bridges from each root out to the outermost level, innermost first; roots without one
     have none.
     """
@@ -91,7 +97,7 @@ def _lines_out(
 
 
 def link_by_proof(
-    levels: Sequence[Level], field: DistanceField, direction: Direction, spacing: float
+    levels: Sequence[OffsetLevel], field: DistanceField, direction: Direction, spacing: float
 ) -> tuple[Stroke, ...]:
     """Return few strokes through rings that are no exact levels, such as those of pixels.
 
@@ -104,28 +110,28 @@ def link_by_proof(
         spacing: between points of rings that bridges may begin at, mm.
     """
     rings = [ring for level in levels for ring in level.rings]
-    tree = Tree(len(rings))
+    tree = BridgeForest(len(rings))
     if levels:
-        apart = _Apart(RingEdges(rings), tree, sum(ring.area > 0 for ring in levels[0].rings))
+        apart = _SeparateRings(RingEdges(rings), tree, sum(ring.area > 0 for ring in levels[0].rings))
         _join(range(len(rings)), apart, (field, levels[0].distance), (spacing, _TRIED))
     depth = [float(k) for k, level in enumerate(levels) for _ in level.rings]
     return _strokes(
-        Walked(rings, depth, tree, (), (field, levels[0].distance if levels else 0.0)), Manner(direction), {}
+        WalkedTree(rings, depth, tree, (), (field, levels[0].distance if levels else 0.0)), LinkOptions(direction), {}
     )
 
 
-def _strokes(walked: Walked, manner: Manner, lines: Mapping[int, Sequence[Bridge]]) -> tuple[Stroke, ...]:
+def _strokes(walked: WalkedTree, options: LinkOptions, lines: Mapping[int, Sequence[RingBridge]]) -> tuple[Stroke, ...]:
     """Return the walks through all trees of a forest.
 
     Args:
         lines: bridges that a tree's walk goes along, by root; the longest way through the tree where there are none.
     """
-    walk = Walk(walked, manner.direction, manner.outside_in)
+    walk = TreeWalk(walked, options.direction, options.outside_in)
     return tuple(walk.stroke(root, lines.get(root, ())) for root in walked.tree.roots(walked.depth))
 
 
 @dataclass(frozen=True)
-class _Numbered:
+class _NumberedRings:
     """All rings, and how far inside each is: the number of its level."""
 
     rings: Sequence[Ring]
@@ -133,7 +139,7 @@ class _Numbered:
 
 
 @dataclass
-class _Apart:
+class _SeparateRings:
     """Rings that should be in as many groups as there are connected areas.
 
     Attributes:
@@ -142,7 +148,7 @@ class _Apart:
     """
 
     edges: RingEdges
-    tree: Tree
+    tree: BridgeForest
     areas: int
 
     @property
@@ -151,7 +157,7 @@ class _Apart:
         return len({self.tree.group(k) for k in range(len(self.edges.rings))}) - self.areas
 
 
-def _join_across(levels: Sequence[Level], apart: _Apart, field: DistanceField) -> None:
+def _join_across(levels: Sequence[OffsetLevel], apart: _SeparateRings, field: DistanceField) -> None:
     """Join what bridges from level to level left apart, over ridges: between rings with nothing inside, outermost ones,
     or any.
     """
@@ -166,7 +172,7 @@ def _join_across(levels: Sequence[Level], apart: _Apart, field: DistanceField) -
 
 
 def _join(
-    some: Sequence[int], apart: _Apart, clear: tuple[DistanceField, float], spacing: tuple[float, int | None]
+    some: Sequence[int], apart: _SeparateRings, clear: tuple[DistanceField, float], spacing: tuple[float, int | None]
 ) -> None:
     """Join groups of rings by the shortest bridges between some of them that are clear, until there are no more than
     areas.

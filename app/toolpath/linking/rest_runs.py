@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from ...core.pool import in_bands
 from ...geometry.distance import DistanceField
-from ...geometry.offset.offset import Level
+from ...geometry.offset.offset import OffsetLevel
 from ...geometry.primitives import X1, Y1, Indices, Rows, lengths, points_at, reversed_rows
 from .. import rest_kernels
-from ..rest_left import Reach
+from ..rest_material import CentreReach
 
 _LONGEST = 6.0
 """Radii; runs are chosen in pieces of this length, and those side by side joined again."""
@@ -37,7 +37,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Chunks:
+class RingChunks:
     """Rings, cut into short rows.
 
     Attributes:
@@ -56,7 +56,7 @@ class Chunks:
     region: Indices
 
     @staticmethod
-    def of(levels: Sequence[Level], longest: float) -> Chunks:
+    def of(levels: Sequence[OffsetLevel], longest: float) -> RingChunks:
         """Return the rings of levels in rows no longer than `longest`, mm."""
         rings = [ring for level in levels for ring in level.rings]
         rows = np.concatenate([np.zeros((0, 8)), *(ring.rows for ring in rings)])
@@ -72,7 +72,7 @@ class Chunks:
         first = np.append(before, len(source))[starts]
         level = np.repeat(np.arange(len(levels)), [len(level.rings) for level in levels])
         region = np.array([ring.region for ring in rings], np.int64)
-        return Chunks(np.ascontiguousarray(cut), source, lengths(cut), first, level, region)
+        return RingChunks(np.ascontiguousarray(cut), source, lengths(cut), first, level, region)
 
     @property
     def ring(self) -> Indices:
@@ -97,7 +97,7 @@ class Chunks:
 
 
 @dataclass(frozen=True)
-class Run:
+class RingRun:
     """A piece of a ring to be cut: so many short rows from one on.
 
     Attributes:
@@ -110,7 +110,7 @@ class Run:
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class RestCells:
     """Cells in which metal is left.
 
     Attributes:
@@ -122,7 +122,7 @@ class Cells:
     need: Floats
 
     @staticmethod
-    def of(centres: Floats, cutting: Rows, within: float) -> Cells:
+    def of(centres: Floats, cutting: Rows, within: float) -> RestCells:
         """Return cells that are cleared by runs within a distance, mm, or by the row nearest to them if none is as
         near.
 
@@ -130,10 +130,10 @@ class Cells:
             cutting: (n, 8) all rows that there are to choose from, n > 0.
         """
         nearest = DistanceField.of(cutting).nearest(centres, enough=within - 2 * _AS_NEAR)[0]
-        return Cells(centres, np.maximum(within, nearest + _AS_NEAR))
+        return RestCells(centres, np.maximum(within, nearest + _AS_NEAR))
 
 
-def runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Reach) -> list[Run]:
+def runs(chunks: RingChunks, cutting: NDArray[np.bool_], cells: RestCells, reach: CentreReach) -> list[RingRun]:
     """Return runs that clear all cells, each time the one that clears most for its length.
 
     Args:
@@ -155,18 +155,20 @@ def runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Reach)
     return _joined(chosen[:count], order, group)
 
 
-def all_runs(chunks: Chunks, cutting: NDArray[np.bool_], cells: Cells, reach: Reach) -> list[Run]:
+def all_runs(chunks: RingChunks, cutting: NDArray[np.bool_], cells: RestCells, reach: CentreReach) -> list[RingRun]:
     """Return all pieces of rings that cut anything within the cutter's radius of some cell."""
     kept = np.flatnonzero(cutting)
-    buckets = _Buckets.of(Cells(cells.centres, np.full(len(cells.centres), reach.radius + reach.corner)), reach.radius)
+    buckets = _Buckets.of(
+        RestCells(cells.centres, np.full(len(cells.centres), reach.radius + reach.corner)), reach.radius
+    )
     order, group = _in_order(chunks, kept[buckets.counts(chunks.rows[kept]) > 0])
     edges = (
         np.flatnonzero(np.concatenate([[True], np.diff(group) != 0, [True]])) if len(order) else np.zeros(1, np.int64)
     )
-    return [Run(int(order[a]), b - a) for a, b in pairwise(edges.tolist())]
+    return [RingRun(int(order[a]), b - a) for a, b in pairwise(edges.tolist())]
 
 
-def _in_order(chunks: Chunks, kept: Indices) -> tuple[Indices, Indices]:
+def _in_order(chunks: RingChunks, kept: Indices) -> tuple[Indices, Indices]:
     """Return (rows, number of the group of each): groups of rows that follow one another round a ring, in their
     order.
     """
@@ -200,15 +202,15 @@ def _spans(group: Indices, size: Floats, longest: float) -> Indices:
     )
 
 
-def _joined(chosen: Indices, order: Indices, group: Indices) -> list[Run]:
+def _joined(chosen: Indices, order: Indices, group: Indices) -> list[RingRun]:
     """Return chosen pieces as runs; those side by side are one."""
-    runs: list[Run] = []
+    runs: list[RingRun] = []
     last = -1
     for a, b in sorted(map(tuple, chosen.tolist())):
         if runs and a == last and group[a] == group[a - 1]:
-            runs[-1] = Run(runs[-1].chunk, runs[-1].count + b - a)
+            runs[-1] = RingRun(runs[-1].chunk, runs[-1].count + b - a)
         else:
-            runs.append(Run(int(order[a]), b - a))
+            runs.append(RingRun(int(order[a]), b - a))
         last = b
     return runs
 
@@ -220,7 +222,7 @@ class _Buckets:
     arrays: tuple[Floats, Floats, Indices, Floats]
 
     @staticmethod
-    def of(cells: Cells, radius: float) -> _Buckets:
+    def of(cells: RestCells, radius: float) -> _Buckets:
         centres = cells.centres
         x0, y0 = centres.min(axis=0)
         wide, high = (np.ptp(centres, axis=0) + radius).tolist()

@@ -14,7 +14,7 @@ _SAME = 1e-9  # fraction of a row
 
 
 @dataclass(frozen=True)
-class Place:
+class RingPlace:
     """A point of a ring: fraction in [0, 1] of one of its rows."""
 
     ring: int
@@ -22,12 +22,12 @@ class Place:
     fraction: float
 
 
-def point_of(rows: Rows, place: Place) -> Rows:
+def point_of(rows: Rows, place: RingPlace) -> Rows:
     """Return the point (2,) at a place of a ring's rows."""
     return np.array(point_on(rows[place.row].tolist(), place.fraction))
 
 
-def position(place: Place, count: int, forward: bool) -> float:
+def position(place: RingPlace, count: int, forward: bool) -> float:
     """Return where a place is along a ring of `count` rows, in rows from its beginning."""
     at = place.row + place.fraction
     return at if forward else count - at
@@ -36,7 +36,7 @@ def position(place: Place, count: int, forward: bool) -> float:
 def point_at(rows: Rows, at: float) -> Rows:
     """Return the point (2,) at a position along a closed ring, in rows from its beginning or past it."""
     row = math.floor(at)
-    return point_of(rows, Place(0, row % len(rows), at - row))
+    return point_of(rows, RingPlace(0, row % len(rows), at - row))
 
 
 def along(rows: Rows, start: float, distance: float) -> float:

@@ -26,13 +26,13 @@ from numpy.typing import NDArray
 from ...core.pool import pool
 from ...geometry.distance import DistanceField
 from ...geometry.near_points import groups, pairs_within
-from ...geometry.offset.offset import Level, Ring
+from ...geometry.offset.offset import OffsetLevel, Ring
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import Indices, Rows, lengths, path_length, points_at, reversed_rows, samples
 from ..coverage import uncut_kernels
 from . import runs_kernels
 from .bridge import RingField, is_clear
-from .rows import Place, part_of, straight
+from .rows import RingPlace, part_of, straight
 
 TOUCH = 1e-6
 """mm by which a point may be farther from a ring than the tool's radius and still counts as cut by it."""
@@ -47,7 +47,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Trip:
+class Detour:
     """A way from a place of a ring to what rings leave, and back to that place.
 
     Attributes:
@@ -57,7 +57,7 @@ class Trip:
         length: mm.
     """
 
-    place: Place
+    place: RingPlace
     rows: Rows
     cuts: NDArray[np.bool_]
 
@@ -68,24 +68,26 @@ class Trip:
 
 
 @dataclass(frozen=True, eq=False)
-class Filling:
+class GapFilling:
     """What cuts all that some levels leave.
 
     Attributes:
         halves: closed runs just inside each level, aligned with the levels.
-        trips: the others.
+        detours: the others.
     """
 
-    halves: tuple[Level, ...] = ()
-    trips: tuple[Trip, ...] = ()
+    halves: tuple[OffsetLevel, ...] = ()
+    detours: tuple[Detour, ...] = ()
 
     @property
     def length(self) -> float:
         """mm."""
-        return sum(ring.length for half in self.halves for ring in half.rings) + sum(trip.length for trip in self.trips)
+        return sum(ring.length for half in self.halves for ring in half.rings) + sum(
+            detour.length for detour in self.detours
+        )
 
 
-NOTHING = Filling()
+NOTHING = GapFilling()
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +111,9 @@ def between(distances: Sequence[float], stepover: float, radius: float) -> tuple
     return tuple(level + stepover - max(stepover - radius, radius**2 / (level + stepover)) for level in distances)
 
 
-def fill(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField, radius: float) -> Filling:
+def fill(
+    levels: Sequence[OffsetLevel], halves: Sequence[OffsetLevel], field: DistanceField, radius: float
+) -> GapFilling:
     """Return closed runs and trips that cut all that the levels leave.
 
     Args:
@@ -133,11 +137,11 @@ def fill(levels: Sequence[Level], halves: Sequence[Level], field: DistanceField,
         space.filled(some, corners)
         for space, some, corners in zip(spaces, gaps, pool().map(_Space.corners, spaces, gaps), strict=True)
     ]
-    rings = tuple(Level(half.distance, tuple(closed)) for half, (closed, _) in zip(halves, filled, strict=True))
-    return Filling(rings, tuple(trip for _, trips in filled for trip in trips))
+    rings = tuple(OffsetLevel(half.distance, tuple(closed)) for half, (closed, _) in zip(halves, filled, strict=True))
+    return GapFilling(rings, tuple(detour for _, detours in filled for detour in detours))
 
 
-def gaps_of(half: Level, inner: RingField | None, radius: float) -> list[_Gap]:
+def gaps_of(half: OffsetLevel, inner: RingField | None, radius: float) -> list[_Gap]:
     """Return the parts of rings between two levels that the inner one's rings do not cover."""
     if inner is None:
         return [_Gap(ring.rows, True, ring) for ring in half.rings]
@@ -196,7 +200,7 @@ class _Space:
     def __init__(
         self,
         sides: tuple[RingField | None, RingField | None],
-        levels: tuple[Level | None, Level],
+        levels: tuple[OffsetLevel | None, OffsetLevel],
         clear: tuple[DistanceField, float],
         radius: float,
     ) -> None:
@@ -273,22 +277,22 @@ class _Space:
         cells = _different((_different(np.floor(points / size).astype(np.int64))[:, None] + around).reshape(-1, 2))
         return np.column_stack([(cells + 0.5) * size, np.full(len(cells), size / 2)])
 
-    def filled(self, gaps: _Gaps, corners: Sequence[Floats]) -> tuple[list[Ring], list[Trip]]:
+    def filled(self, gaps: _Gaps, corners: Sequence[Floats]) -> tuple[list[Ring], list[Detour]]:
         """Return (closed runs, trips) for all gaps, given the `corners` of their groups."""
         rings: list[Ring] = []
-        trips: list[Trip] = []
+        detours: list[Detour] = []
         for group, spur in zip(gaps.groups, self._spurs(corners), strict=True):
             if spur is not None:
-                trips.append(spur)
+                detours.append(spur)
                 continue
             runs = [gap.rows for gap in group if not gap.closed]
             rings += [gap.ring for gap in group if gap.closed]
             alone = [self._run(run) for run in runs]
             both = self._round(runs) if len(runs) == 2 else None
-            trips += [both] if both and both.length < sum(trip.length for trip in alone) else alone
-        return rings, trips
+            detours += [both] if both and both.length < sum(detour.length for detour in alone) else alone
+        return rings, detours
 
-    def _spurs(self, places: Sequence[Floats]) -> list[Trip | None]:
+    def _spurs(self, places: Sequence[Floats]) -> list[Detour | None]:
         """Return for each set of points (m, 2) the shortest straight way there and back that comes within the radius of
         all of them.
         """
@@ -296,8 +300,8 @@ class _Space:
             return []
         counts = np.array([len(each) for each in places])
         probes = np.concatenate([_far_apart(each) for each in places])
-        asked = [side.nearest_of(probes) for side in self._sides]
-        starts = np.concatenate([each[3].reshape(len(places), -1, 2) for each in asked], axis=1)
+        requested = [side.nearest_of(probes) for side in self._sides]
+        starts = np.concatenate([each[3].reshape(len(places), -1, 2) for each in requested], axis=1)
         ways = np.empty((len(places), 2 * starts.shape[1], 3))
         runs_kernels.tips(
             np.concatenate(places),
@@ -306,14 +310,14 @@ class _Space:
             self._radius * (1 - 2 * _CHORD),
             ways,
         )
-        spurs: list[Trip | None] = []
+        spurs: list[Detour | None] = []
         for k in range(len(places)):
             mine = slice(3 * k, 3 * k + 3)
-            sides = [(side, each[1][mine], each[2][mine]) for side, each in zip(self._sides, asked, strict=True)]
+            sides = [(side, each[1][mine], each[2][mine]) for side, each in zip(self._sides, requested, strict=True)]
             spurs.append(self._spur(starts[k], ways[k], sides))
         return spurs
 
-    def _spur(self, starts: Floats, ways: Floats, sides: Sequence[tuple[RingField, Indices, Floats]]) -> Trip | None:
+    def _spur(self, starts: Floats, ways: Floats, sides: Sequence[tuple[RingField, Indices, Floats]]) -> Detour | None:
         """Return the shortest of ways there and back that is clear.
 
         Args:
@@ -329,16 +333,16 @@ class _Space:
                 side, rows, parts = sides[way // 6]
                 probe = way // 2 % 3
                 out, back = straight(start, np.array(tip)), straight(np.array(tip), start)
-                return Trip(
+                return Detour(
                     side.place(int(rows[probe]), float(parts[probe])),
                     np.concatenate([out, back]),
                     np.array([True, False]),
                 )
         return None
 
-    def _run(self, rows: Rows) -> Trip:
+    def _run(self, rows: Rows) -> Detour:
         """Return the shortest trip along a run: round, or there and back."""
-        ways: list[tuple[float, Place, Rows, Rows]] = []
+        ways: list[tuple[float, RingPlace, Rows, Rows]] = []
         for side in self._sides:
             for run in (rows, reversed_rows(rows)):
                 away, place, start = side.nearest(run[0, :2])
@@ -353,11 +357,11 @@ class _Space:
         )
         cuts = np.arange(len(out) + len(back)) < len(out)
         cuts[0] = False
-        return Trip(place, np.concatenate([out, back]), cuts)
+        return Detour(place, np.concatenate([out, back]), cuts)
 
-    def _round(self, runs: Sequence[Rows]) -> Trip | None:
+    def _round(self, runs: Sequence[Rows]) -> Detour | None:
         """Return the shortest trip along one run and back along another."""
-        best: Trip | None = None
+        best: Detour | None = None
         for side in self._sides:
             for one in (runs[0], reversed_rows(runs[0])):
                 _, place, start = side.nearest(one[0, :2])
@@ -369,11 +373,11 @@ class _Space:
                     )
                     cuts = np.ones(len(one) + len(two) + 3, np.bool_)
                     cuts[[0, len(one) + 1, -1]] = False
-                    trip = Trip(place, np.concatenate([out, one, across, two, home]), cuts)
-                    if (best is None or trip.length < best.length) and all(
+                    detour = Detour(place, np.concatenate([out, one, across, two, home]), cuts)
+                    if (best is None or detour.length < best.length) and all(
                         self._clear(way[0]) for way in (out, across, home)
                     ):
-                        best = trip
+                        best = detour
         return best
 
     def _clear(self, row: Rows) -> bool:

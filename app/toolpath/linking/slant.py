@@ -18,7 +18,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.primitives import CX, CY, TURN, R, Rows, lengths, sweeps
 from ..leads.contour_path import headings_at, left_of
 from .bridge import is_clear
-from .rows import Place, along, point_at, span
+from .rows import RingPlace, along, point_at, span
 
 _LONGEST = (4.0, 3.0, 2.0, 1.5, 1.0, 0.5)
 """Steps along the ring that a slant takes on either side; the longer the less way it costs."""
@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 
 
 def left_out(
-    rows: Rows, place: Place, apex: Floats, room: tuple[float, float], keep: tuple[DistanceField, float, float]
+    rows: Rows, place: RingPlace, apex: Floats, room: tuple[float, float], keep: tuple[DistanceField, float, float]
 ) -> tuple[float, float]:
     """Return how much of a ring before and after a place slants to a point of the ring inside it leave out, in rows.
 
@@ -84,7 +84,7 @@ def _corners(rows: Rows, step: float) -> Floats:
     return np.concatenate([*corners, arcs[:, [CX, CY]] + middle * (outer / np.cos(half))[:, None]])
 
 
-def room_beside(rows: Rows, place: Place, others: Sequence[Place]) -> tuple[float, float]:
+def room_beside(rows: Rows, place: RingPlace, others: Sequence[RingPlace]) -> tuple[float, float]:
     """Return how much of a ring before and after a place is its own, mm: half the way to the next other place, at most
     a quarter round.
     """

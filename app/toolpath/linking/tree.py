@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .bridge import Bridge
-from .rows import Place
+from .bridge import RingBridge
+from .rows import RingPlace
 
-Edge = tuple[Place, Place, float]
+Edge = tuple[RingPlace, RingPlace, float]
 """A bridge as seen from one of its rings: place on this ring, place on the other one, length, mm."""
 
 
-class Tree:
+class BridgeForest:
     """A forest over rings numbered from 0."""
 
     def __init__(self, count: int) -> None:
@@ -25,11 +25,11 @@ class Tree:
             ring = self._parent[ring]
         return ring
 
-    def joined(self, bridge: Bridge) -> bool:
+    def joined(self, bridge: RingBridge) -> bool:
         """Tell whether both ends are in one group already."""
         return self.group(bridge.a.ring) == self.group(bridge.b.ring)
 
-    def add(self, bridge: Bridge) -> None:
+    def add(self, bridge: RingBridge) -> None:
         """Take a bridge unless it would close a loop."""
         if self.joined(bridge):
             return

@@ -21,15 +21,15 @@ from ...geometry.primitives import Rows, path_length, reversed_rows
 from ...model.moves import Purpose
 from ...model.operation import Direction
 from ..build import Stroke
-from .bridge import Bridge, is_clear, nearest_on
-from .rows import Place, joined, point_at, point_of, position, span, straight
-from .runs import Trip
+from .bridge import RingBridge, is_clear, nearest_on
+from .rows import RingPlace, joined, point_at, point_of, position, span, straight
+from .runs import Detour
 from .slant import left_out, room_beside
-from .tree import Edge, Tree
+from .tree import BridgeForest, Edge
 
 
 @dataclass(frozen=True, eq=False)
-class Walked:
+class WalkedTree:
     """What is walked.
 
     Attributes:
@@ -43,8 +43,8 @@ class Walked:
 
     rings: Sequence[Ring]
     depth: Sequence[float]
-    tree: Tree
-    trips: Sequence[Trip]
+    tree: BridgeForest
+    trips: Sequence[Detour]
     walls: tuple[DistanceField, float]
     step: float = 0.0
 
@@ -60,8 +60,8 @@ class _Excursion:
         slants: True where its ways cut what is left out.
     """
 
-    here: Place
-    there: Place
+    here: RingPlace
+    there: RingPlace
     leave: Rows
     back: Rows
     left: tuple[float, float]
@@ -77,24 +77,24 @@ class _Visit:
         way_back: to the ring that it was come to from, and whether that cuts.
     """
 
-    pieces: list[tuple[Rows, _Excursion | Trip | None]]
+    pieces: list[tuple[Rows, _Excursion | Detour | None]]
     first: Rows
     last: Rows
     way_back: tuple[Rows, bool] | None = None
 
 
-class Walk:
+class TreeWalk:
     """Makes strokes of trees."""
 
-    def __init__(self, walked: Walked, direction: Direction, outside_in: bool) -> None:
+    def __init__(self, walked: WalkedTree, direction: Direction, outside_in: bool) -> None:
         self._walked, self._climb, self._outside_in = walked, direction is Direction.CLIMB, outside_in
-        self._trips: dict[int, list[Trip]] = {}
-        for trip in walked.trips:
-            self._trips.setdefault(trip.place.ring, []).append(trip)
+        self._trips: dict[int, list[Detour]] = {}
+        for detour in walked.trips:
+            self._trips.setdefault(detour.place.ring, []).append(detour)
         self._rows: list[Rows] = []
         self._cuts: list[NDArray[np.bool_]] = []
 
-    def stroke(self, root: int, line: Sequence[Bridge]) -> Stroke:
+    def stroke(self, root: int, line: Sequence[RingBridge]) -> Stroke:
         """Return the walk through the whole tree that holds `root`, which it begins at; outside-in it ends there.
 
         Args:
@@ -104,7 +104,7 @@ class Walk:
         way: list[tuple[int, Edge | None]] = [(bridge.a.ring, (bridge.a, bridge.b, bridge.length)) for bridge in line]
         way = [*way, (line[-1].b.ring, None)] if line else self._walked.tree.longest_way(root)
         ahead = np.cumsum([edge[2] if edge else 0.0 for _, edge in way][::-1])[::-1]
-        entry, came_from = way[0][1][0] if way[0][1] else Place(root, 0, 0.0), None
+        entry, came_from = way[0][1][0] if way[0][1] else RingPlace(root, 0, 0.0), None
         for k, (ring, edge) in enumerate(way):
             leave = self._leave(entry, edge, float(ahead[k])) if edge else None
             self._round(entry, came_from, edge if leave else None)
@@ -112,7 +112,7 @@ class Walk:
                 break
             rows, there = leave
             self._append(rows, np.zeros(len(rows), np.bool_))
-            entry, came_from = there, Place(ring, edge[0].row if edge else 0, edge[0].fraction if edge else 0.0)
+            entry, came_from = there, RingPlace(ring, edge[0].row if edge else 0, edge[0].fraction if edge else 0.0)
         cuts = np.concatenate(self._cuts)
         last = int(np.flatnonzero(cuts)[-1]) + 1
         path = joined(np.concatenate(self._rows)[:last])
@@ -128,7 +128,7 @@ class Walk:
         self._rows.append(rows)
         self._cuts.append(cuts)
 
-    def _leave(self, entry: Place, edge: Edge, ahead: float) -> tuple[Rows, Place] | None:
+    def _leave(self, entry: RingPlace, edge: Edge, ahead: float) -> tuple[Rows, RingPlace] | None:
         """Return (the shortest way from a place of a ring to the next one, where it comes to), None if back and forth
         is shorter.
 
@@ -160,7 +160,7 @@ class Walk:
         bridge = straight(point_of(ring, here), point_of(self._walked.rings[there.ring].rows, there))
         return np.concatenate([along, bridge]), there
 
-    def _round(self, entry: Place, came_from: Place | None, after: Edge | None) -> None:
+    def _round(self, entry: RingPlace, came_from: RingPlace | None, after: Edge | None) -> None:
         """Append a ring from its entry back to it, with all that hangs on it but the bridge that is taken after it."""
         stack = [self._visit(entry, came_from, after)]
         while stack:
@@ -172,7 +172,7 @@ class Walk:
                 continue
             piece, excursion = visit.pieces.pop(0)
             self._append(piece, np.ones(len(piece), np.bool_))
-            if isinstance(excursion, Trip):
+            if isinstance(excursion, Detour):
                 backwards = self._outside_in
                 self._append(
                     reversed_rows(excursion.rows) if backwards else excursion.rows,
@@ -184,7 +184,7 @@ class Walk:
                 self._append(straight(excursion.leave, stack[-1].first), np.full(1, excursion.slants))
 
     def _visit(
-        self, entry: Place, came_from: Place | None, after: Edge | None, left: tuple[float, float] | None = None
+        self, entry: RingPlace, came_from: RingPlace | None, after: Edge | None, left: tuple[float, float] | None = None
     ) -> _Visit:
         """Cut a ring into pieces between its bridges, all round from `entry`; a bridge at the entry comes last.
 
@@ -200,19 +200,21 @@ class Walk:
             for a, b, _ in self._walked.tree.neighbours[number]
             if (came_from is None or b.ring != came_from.ring) and (after is None or b.ring != after[1].ring)
         ]
-        trips = self._trips.get(number, [])
-        taken = [entry, *(a for a, _ in edges), *(trip.place for trip in trips)]
+        detours = self._trips.get(number, [])
+        taken = [entry, *(a for a, _ in edges), *(detour.place for detour in detours)]
         if not forward:
             rows = reversed_rows(rows)
         start = position(entry, count, forward)
-        stops: list[tuple[float, float, float, _Excursion | Trip]] = []
+        stops: list[tuple[float, float, float, _Excursion | Detour]] = []
         for k, (a, b) in enumerate(edges):
             at = (position(a, count, forward) - start) % count or count
             here, there = self._left_out(a, b, [*taken[: k + 1], *taken[k + 2 :]])
             before, beyond = here if forward else here[::-1]
             leave, back = point_at(rows, start + at - before), point_at(rows, start + at + beyond)
             stops.append((at, before, beyond, _Excursion(a, b, leave, back, there, here != there)))
-        stops += [((position(trip.place, count, forward) - start) % count or count, 0.0, 0.0, trip) for trip in trips]
+        stops += [
+            ((position(detour.place, count, forward) - start) % count or count, 0.0, 0.0, detour) for detour in detours
+        ]
         before, done = (left or (0.0, 0.0)) if forward else (left or (0.0, 0.0))[::-1]
         visit = _Visit([], point_at(rows, start + done), point_at(rows, start + count - before))
         for at, back_off, beyond, stop in sorted(stops, key=lambda each: each[0]):
@@ -222,7 +224,7 @@ class Walk:
         return visit
 
     def _left_out(
-        self, here: Place, there: Place, taken: Sequence[Place]
+        self, here: RingPlace, there: RingPlace, taken: Sequence[RingPlace]
     ) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return what an excursion leaves out before and after each end of its bridge, in rows of the rings' own
         directions.
@@ -238,7 +240,7 @@ class Walk:
         left = left_out(rows, outer, apex, room_beside(rows, outer, taken), (*walked.walls, walked.step))
         return (left, none) if outer is here else (none, left)
 
-    def _forward(self, ring: int, came_from: Place | None, after: Edge | None, main: bool) -> bool:
+    def _forward(self, ring: int, came_from: RingPlace | None, after: Edge | None, main: bool) -> bool:
         """Tell whether a ring is walked in its own direction, in which the walls' side is to the right.
 
         Metal stands on the walls' side where a ring is come to from inside, else inside it. Outside-in the walk is

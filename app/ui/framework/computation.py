@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from ...core.progress import Progress
-from ...drafting.document import Change, Document
+from ...drafting.document import Document, DocumentChange
 from ...model.finding import Finding
 from ...model.job import Job
 from ...model.moves import Program
@@ -21,7 +21,7 @@ from .worker import Answer, Worker
 
 if TYPE_CHECKING:
     from ...usecases.bitmap_part import BitmapPart
-    from ...usecases.make import Made
+    from ...usecases.make import MakeResult
 
 
 class State(Enum):
@@ -40,11 +40,11 @@ class Computed:
     nothing.
     """
 
-    made: Made
+    made: MakeResult
     picture: object
 
 
-def _make(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> Made:
+def _make(job: Job, pixels: BitmapPart | None, drawing_findings: tuple[Finding, ...], progress: Progress) -> MakeResult:
     from ...usecases.make import export, finish  # imports the engines: never on the window's thread
 
     if pixels is None:
@@ -73,14 +73,14 @@ class Computation(QObject):
     finished = Signal()
     failed = Signal(str)
 
-    def __init__(self, document: Document, worker: Worker, prepare: Callable[[Made], object]) -> None:
+    def __init__(self, document: Document, worker: Worker, prepare: Callable[[MakeResult], object]) -> None:
         """Make one; `prepare` makes a result ready for painting, on the worker's thread."""
         super().__init__()
         self._document, self._worker, self._prepare = document, worker, prepare
         self._job_id: int | None = None
         self._snapshot: Job | None = None
         self._made_for: Job | None = None
-        self.made: Made | None = None
+        self.made: MakeResult | None = None
         self.picture: object = None
         self.error = ""
         self.drawing_findings: tuple[Finding, ...] = ()
@@ -156,8 +156,8 @@ class Computation(QObject):
             index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]
         }
 
-    def _on_change(self, change: Change) -> None:
-        if not change & (Change.PART | Change.JOB):
+    def _on_change(self, change: DocumentChange) -> None:
+        if not change & (DocumentChange.PART | DocumentChange.JOB):
             return
         if self._job_id is not None and self._snapshot is not self._document.job:
             self._worker.cancel()

@@ -4,7 +4,7 @@ exported.
 
 from __future__ import annotations
 
-from ...drafting.document import Change, Document, LogLine
+from ...drafting.document import Document, DocumentChange, LogLine
 from .log_view import LogView
 
 
@@ -22,8 +22,8 @@ class Log:
         self.lines.append(LogLine(what, reply, error))
         self._view.show_lines(self.lines)
 
-    def _on_change(self, change: Change) -> None:
-        if change & Change.LOG:
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & DocumentChange.LOG:
             log = self._document.log
             self._taken = min(self._taken, len(log))
             self.lines += log[self._taken :]

@@ -17,7 +17,7 @@ from shiboken6 import isValid
 
 from ...core.errors import Cancelled, HitofudeError
 from ...core.memory import MemoryShortError, budget_limit, in_words, within
-from ...core.progress import Progress, told_waits
+from ...core.progress import Progress, waits_reported_to
 
 HEAD_START_S = 0.04
 """Seconds in which the window shows that it computes, before the job competes with it for the interpreter."""
@@ -103,7 +103,7 @@ class _Runner(threading.Thread):
         try:
             remarks = partial(self._worker.remark_told.emit, work.job_id)
             progress = Progress(partial(self._tell, work.job_id), work.cancelled, remarks=remarks)
-            waits = told_waits(lambda text: progress.step(self._fraction, text))
+            waits = waits_reported_to(lambda text: progress.step(self._fraction, text))
             with _NO_COLLECTOR, within(budget_limit()), waits:
                 value = work.function(progress)
         except Cancelled:

@@ -18,7 +18,7 @@ from ..framework.theme import Theme
 from .library import side_by_side
 
 if TYPE_CHECKING:
-    from ...toolpath.advice.advise import Advice, Choice, RegionAdvice, Spot
+    from ...toolpath.advice.advise import Advice, RegionAdvice, SizedPlace, ToolChoice
 
 DIAMETER_PX, SHARE_PX, LEFT_PX = 56, 64, 84
 ALL = 0.99995
@@ -96,7 +96,7 @@ class AdviceSection(Section):
             theme_children(self, self._theme)
         self._choose(next(k for k, choice in enumerate(worth) if choice.tool is advice.pocket))
 
-    def _add_choice(self, k: int, choice: Choice, advice: Advice) -> None:
+    def _add_choice(self, k: int, choice: ToolChoice, advice: Advice) -> None:
         name = QLabel(f"{choice.tool.diameter:g} mm")
         best = choice.tool in (advice.pocket, advice.contour)
         name.setStyleSheet("font-weight: 600;" if best else "")
@@ -115,7 +115,7 @@ class AdviceSection(Section):
         self._made.append(row)
         self._tools.append(choice.tool)
 
-    def _add_place(self, text: str, spot: Spot) -> None:
+    def _add_place(self, text: str, spot: SizedPlace) -> None:
         button = QPushButton()
         button.setText(text)
         button.setProperty("role", "link")
@@ -140,7 +140,7 @@ class AdviceSection(Section):
             emit(self._tools[self._chosen])
 
 
-def tight_places(regions: tuple[RegionAdvice, ...]) -> list[tuple[str, Spot]]:
+def tight_places(regions: tuple[RegionAdvice, ...]) -> list[tuple[str, SizedPlace]]:
     """Return the tightest places of all regions, each in a few words with where it is."""
     passage = min((region.passage for region in regions), key=lambda spot: spot.size)
     disc = max((region.disc for region in regions), key=lambda spot: spot.size)

@@ -7,7 +7,7 @@ from enum import Enum
 
 from ...core.errors import ParameterError
 from ...model.job import Job
-from ...model.operation import Cut, Operation, Order, Side
+from ...model.operation import CutParameters, Operation, Order, Side
 from ...model.tool import FeedRow, Tool
 
 
@@ -125,7 +125,7 @@ def with_operation(job: Job, index: int, operation: Operation) -> Job:
     return replace(job, operations=tuple(operations))
 
 
-def with_cut(job: Job, index: int, cut: Cut) -> Job:
+def with_cut(job: Job, index: int, cut: CutParameters) -> Job:
     """Return the job with the parameters of one operation replaced."""
     return with_operation(job, index, replace(job.operations[index], cut=cut))
 
@@ -161,7 +161,7 @@ def with_new_operation(job: Job, kind: type[Operation]) -> tuple[Job, int]:
     if not job.tools:
         raise ParameterError("The job has no tool yet; add one first.")
     alike = [operation for operation in job.operations if isinstance(operation, kind)] or list(job.operations)
-    like = alike[-1].cut if alike else Cut(tool=job.tools[0].number)
+    like = alike[-1].cut if alike else CutParameters(tool=job.tools[0].number)
     contours = [k for k, operation in enumerate(job.operations) if operation.FOLLOWS_WALLS]
     early = kind.CLEARS and contours and job.order is Order.POCKET_FIRST
     late = len(contours) if kind.FOLLOWS_WALLS and job.order is Order.PATENT_1986 else len(job.operations)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QVBoxLayout, QWidget
 
 from ...core.errors import HitofudeError
-from ...drafting.document import Change, Document
+from ...drafting.document import Document, DocumentChange
 from ...drafting.expressions.errors import reason_of
 from ...geometry.sample import Box
 from ..framework.fields import NumberField
@@ -109,6 +109,6 @@ class DrawingPage(QScrollArea):
         super().showEvent(event)
         self.refresh()
 
-    def _on_change(self, change: Change) -> None:
-        if change & ~Change.LOG and self.isVisible():
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & ~DocumentChange.LOG and self.isVisible():
             self._due.start()

@@ -10,7 +10,7 @@ from functools import partial
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from ...drafting.commands.properties import Kind, Property, Value, kind_name, properties_of
+from ...drafting.commands.properties import Property, PropertyKind, Value, kind_name, properties_of
 from ...drafting.curves.area import enclosed_area
 from ...drafting.curves.shapes import curve_length
 from ...drafting.document import Document
@@ -75,7 +75,7 @@ class Selected:
         return (
             common
             if len(self.ids) == 1
-            else {word: each for word, each in common.items() if each.kind is not Kind.POINT}
+            else {word: each for word, each in common.items() if each.kind is not PropertyKind.POINT}
         )
 
     def value(self, word: str) -> Value | None:
@@ -164,7 +164,7 @@ class PropertiesSection(Section):
 
     def _field(self, word: str, known: Property) -> NumberField | PointField:
         several = len(self._selected.ids) > 1
-        angle = known.kind is Kind.ANGLE
+        angle = known.kind is PropertyKind.ANGLE
         spec = Spec(
             word.capitalize(),
             "°" if angle else "mm",
@@ -175,7 +175,7 @@ class PropertiesSection(Section):
             auto=VARIOUS if several else "",
         )
         read = partial(self._read, ANGLE_UNITS if angle else LENGTH_UNITS)
-        made = PointField(spec, read) if known.kind is Kind.POINT else NumberField(spec, read)
+        made = PointField(spec, read) if known.kind is PropertyKind.POINT else NumberField(spec, read)
         if isinstance(made, NumberField):
             made.edit.setFixedWidth(COORDINATE_WIDTH)
         made.committed.connect(lambda value: self._ask(word, value, made))

@@ -15,7 +15,7 @@ from ...core.errors import HitofudeError
 from ...drafting.expressions.numbers import length
 from ...model.fields import parameters_of, with_values
 from ...model.job import Job
-from ...model.operation import Cut, Operation, Side, parameters
+from ...model.operation import CutParameters, Operation, Side, parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField, NumberField
 from ..framework.figures import counted
@@ -203,7 +203,7 @@ class OperationForm(Form):
         if tool is not None and cut.depth <= thickness:
             self._warn_of_reach(cut, tool)
 
-    def _warn_of_reach(self, cut: Cut, tool: Tool) -> None:
+    def _warn_of_reach(self, cut: CutParameters, tool: Tool) -> None:
         """Say what the tool's flutes do not reach, before anything is computed."""
         if tool.flute_length and cut.depth > tool.flute_length:
             self.number("depth").refuse(

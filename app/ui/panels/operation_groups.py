@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QPushButton, QWidget
 
 from ...model.curve_selectors import ContourKind, OnLayer
 from ...model.entry import EntryKind, LeadKind
-from ...model.fields import Placed, Unit, parameters_of
+from ...model.fields import ParameterPlace, Unit, parameters_of
 from ...model.job import Job
 from ...model.operation import Operation, Side, parameters
 from ...model.tool import Tool
@@ -97,7 +97,7 @@ class OperationGroup:
 _AS_USUAL = {"Floor": "to depth", "Walls": "to size", "Tabs": "none", "Feed and layers": "all curves"}
 
 
-def _words(placed: Placed, operation: Operation) -> str:
+def _words(placed: ParameterPlace, operation: Operation) -> str:
     """Return a parameter in a few words; nothing where it has its default, but for choices."""
     declared, value = placed.parameter, placed.of(operation)
     if placed.enum is not None:

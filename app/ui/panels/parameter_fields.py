@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from ...model.fields import Parameter, Placed, Unit
+from ...model.fields import Parameter, ParameterPlace, Unit
 from ...model.operation import Operation
 from ..framework.fields import ChoiceField, ListField, NumberField, Spec
 from ..framework.form import SwitchField
@@ -50,7 +50,7 @@ class ParameterField:
         field: in the form.
     """
 
-    placed: Placed
+    placed: ParameterPlace
     field: Field
 
     def show(self, operation: Operation, note: str = "") -> None:
@@ -69,7 +69,7 @@ class ParameterField:
         return declared.kept(value)
 
 
-def field_of(placed: Placed, read: Callable[[str], float] | None = None) -> Field:
+def field_of(placed: ParameterPlace, read: Callable[[str], float] | None = None) -> Field:
     """Return the field for a parameter.
 
     Args:

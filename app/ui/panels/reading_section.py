@@ -10,10 +10,10 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QSizePolicy, QWidget
 
 from ...drafting.document import Document
-from ...formats.reading_question import NO_CHOICE, UNIT_WORDS, Contents
+from ...formats.reading_question import NO_CHOICE, UNIT_WORDS, FileContents
 from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH
-from ...model.reading import AS_THE_FILE_SAYS, Reading
+from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ..framework.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, Spec, reason_label
 from ..framework.form import SwitchField
 from ..framework.labels import Elided, muted
@@ -94,14 +94,14 @@ class ReadingSection(Section):
         looked(): what the file holds is not known, and somebody looks at this section.
     """
 
-    wanted = Signal(Reading)
+    wanted = Signal(ReadingOptions)
     again = Signal()
     looked = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__("Reading")
         self._document = document
-        self.contents: Contents | None = None
+        self.contents: FileContents | None = None
         self.file, self.trouble = Elided(role="muted"), reason_label()
         self.file.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.head.addWidget(self.file, 4)
@@ -144,7 +144,7 @@ class ReadingSection(Section):
         self.read_again.clicked.connect(lambda: self.again.emit())
 
     @property
-    def _reading(self) -> Reading:
+    def _reading(self) -> ReadingOptions:
         source = self._document.state.source
         return source.reading if source is not None else AS_THE_FILE_SAYS
 
@@ -152,11 +152,11 @@ class ReadingSection(Section):
         reading = self._reading
         self._want(replace(reading, how=replace(reading.how, **values)))  # type: ignore[arg-type]  # each by its name
 
-    def _want(self, reading: Reading) -> None:
+    def _want(self, reading: ReadingOptions) -> None:
         if reading != self._reading:
             self.wanted.emit(reading)
 
-    def show_contents(self, contents: Contents | None, trouble: str = "") -> None:
+    def show_contents(self, contents: FileContents | None, trouble: str = "") -> None:
         """Take what the file holds, None = not known; or why it cannot be read."""
         self.contents = contents
         self.trouble.setText(trouble)
@@ -210,7 +210,7 @@ class ReadingSection(Section):
             self.looked.emit()
 
 
-def _own_units(drawn: bool, contents: Contents) -> str:
+def _own_units(drawn: bool, contents: FileContents) -> str:
     """Return the words for the units that a drawing has of its own; `drawn`: it is a DXF."""
     if contents is NO_CHOICE:
         return "As in the file"

@@ -10,7 +10,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
 from ...core.errors import HitofudeError
-from ...drafting.document import Change, Document
+from ...drafting.document import Document, DocumentChange
 from ...formats.tools.library import load_libraries
 from ...model.job import Job
 from ...model.tool import Tool
@@ -213,8 +213,8 @@ class SidePanel(QScrollArea):
         self.operation_form.setVisible(kind is SubjectKind.OPERATION and not opened)
         self.shown.emit()
 
-    def _on_change(self, change: Change) -> None:
-        if change & Change.JOB:
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & DocumentChange.JOB:
             self.refresh()
 
     def _on_edited(self, name: str, edit: tuple[NumberField | None, Callable[[Job], Job]]) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from ...core.progress import Progress
-from ...drafting.document import Change
+from ...drafting.document import DocumentChange
 from ...model.job import Job
 from ...model.operation import Operation
 from ...model.tool import Tool, ToolKind
@@ -30,7 +30,7 @@ def advice_of(job: Job, progress: Progress) -> Advice:
     """Return what a job's drawing asks of its tools; the usual diameters run as the job's first flat tool does."""
     from ...operations.compute import regions_of
     from ...toolpath.advice.advise import advise, standard_tools
-    from ...toolpath.advice.time import Plan
+    from ...toolpath.advice.time import CuttingPlan
 
     progress.step(0.0, "Chain contours")
     like = next((tool for tool in job.tools if tool.kind is ToolKind.FLAT), None)
@@ -38,7 +38,11 @@ def advice_of(job: Job, progress: Progress) -> Advice:
     if like is not None:
         tools = [replace(tool, feed_rate=like.feed_rate, plunge_rate=like.plunge_rate) for tool in tools]
     cut = job.operations[0].cut if job.operations else None
-    plan = Plan() if cut is None else Plan(cut.depth, cut.stepdown, safe_z=job.safe_z, retract_z=job.retract_z)
+    plan = (
+        CuttingPlan()
+        if cut is None
+        else CuttingPlan(cut.depth, cut.stepdown, safe_z=job.safe_z, retract_z=job.retract_z)
+    )
     return advise(regions_of(job)[0], tools, plan, progress)
 
 
@@ -86,8 +90,8 @@ class Advising(QObject):
         )
         self._unsubscribe = self._document.subscribe(self._on_change)
 
-    def _on_change(self, change: Change) -> None:
-        if change & Change.PART and not self._panel.advice.isHidden():
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & DocumentChange.PART and not self._panel.advice.isHidden():
             self._refresh()
 
     def _refresh(self) -> None:

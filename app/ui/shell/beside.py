@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from ...formats.project.beside import Beside
+from ...formats.project.extras import ProjectExtras
 
 if TYPE_CHECKING:
     from ..views.language.control import TextControl
@@ -24,7 +24,7 @@ class BesideDrawing(QObject):
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._saved = Beside()
+        self._saved = ProjectExtras()
         self._underlaying: Underlaying | None = None
         self._control: TextControl | None = None
 
@@ -35,10 +35,10 @@ class BesideDrawing(QObject):
         control.page.edited.connect(self.changed)
 
     @property
-    def now(self) -> Beside:
+    def now(self) -> ProjectExtras:
         """What lies there now."""
         assert self._underlaying is not None and self._control is not None
-        return Beside(self._underlaying.underlay, self._control.text, self._control.page.replaces)
+        return ProjectExtras(self._underlaying.underlay, self._control.text, self._control.page.replaces)
 
     @property
     def unsaved(self) -> bool:
@@ -48,11 +48,11 @@ class BesideDrawing(QObject):
         written = bool(now.text.strip()) and now.text != self._saved.text and not self._control.is_drawn
         return written or now.underlay != self._saved.underlay
 
-    def mark_saved(self, beside: Beside) -> None:
+    def mark_saved(self, beside: ProjectExtras) -> None:
         """Remember what the drawing's file holds."""
         self._saved = beside
 
-    def bring(self, beside: Beside) -> str:
+    def bring(self, beside: ProjectExtras) -> str:
         """Lay and write what a file holds; return what is wrong with it, or "". A file without a text leaves the
         editor's.
         """

@@ -8,10 +8,10 @@ from typing import Any
 from PySide6.QtCore import QObject
 
 from ...core.progress import Progress
-from ...drafting.commands.command import Session
-from ...drafting.commands.faults import Fault, FaultKind, found_faults
-from ...drafting.difference import Difference, difference
-from ...drafting.document import Change, evaluated
+from ...drafting.commands.command import DraftingSession
+from ...drafting.commands.defects import Defect, DefectKind, find_defects
+from ...drafting.difference import DrawingDifference, difference
+from ...drafting.document import DocumentChange, evaluated
 from ...drafting.expressions.words import number_text
 from ...drafting.language.interpret import Outcome
 from ..framework.worker import Answer, Worker
@@ -19,8 +19,8 @@ from ..framework.workspace import Workspace
 from ..panels.drawing_cleanup import CleanUpSection, Listed
 from ..views.canvas.canvas import Canvas
 
-_Found = tuple[list[Listed], Outcome, Difference]
-_SIZES = {FaultKind.TINY: "long", FaultKind.DUPLICATE: "apart", FaultKind.OVERLAP: "long", FaultKind.GAP: "wide"}
+_Found = tuple[list[Listed], Outcome, DrawingDifference]
+_SIZES = {DefectKind.TINY: "long", DefectKind.DUPLICATE: "apart", DefectKind.OVERLAP: "long", DefectKind.GAP: "wide"}
 
 
 class Cleaning(QObject):
@@ -73,27 +73,27 @@ class Cleaning(QObject):
         """Show nothing any more."""
         self.worker.cancel()
         if self._found is not None:
-            self._canvas.show_trial(Difference())
+            self._canvas.show_trial(DrawingDifference())
         self._found = None
         self._section.clear()
 
-    def _follow(self, change: Change) -> None:
-        if change & (Change.PART | Change.LOADED):
+    def _follow(self, change: DocumentChange) -> None:
+        if change & (DocumentChange.PART | DocumentChange.LOADED):
             self.give_up()
 
 
-def _looking(session: Session, tolerance: float, line: str) -> Callable[[Progress], _Found]:
+def _looking(session: DraftingSession, tolerance: float, line: str) -> Callable[[Progress], _Found]:
     """Return the job that finds the faults of a drawing and what mending makes of it."""
 
     def look(progress: Progress) -> _Found:
-        faults = found_faults(session.part, tolerance, progress)
+        faults = find_defects(session.part, tolerance, progress)
         outcome = evaluated(line, session, progress)
         return [_listed(fault) for fault in faults], outcome, difference(session.part, outcome.session.part)
 
     return look
 
 
-def _listed(fault: Fault) -> Listed:
+def _listed(fault: Defect) -> Listed:
     size = f"{fault.size:.4f} mm {_SIZES[fault.kind]}" if fault.size else "exact"
     words = (
         f"{fault.kind.value.capitalize()} at "

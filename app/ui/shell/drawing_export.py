@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from ...core.atomic import write_atomically
 from ...core.progress import Progress
-from ...formats.drawing import Written
+from ...formats.drawing import WrittenDrawing
 from ...formats.readers import formats, known_format
 from ...formats.registry import DrawingFormat
 from ...model.part import Part
@@ -112,7 +112,7 @@ def _export(part: Part, path: Path, key: str, progress: Progress) -> _Exported:
     return _Exported(path, len(written.data), (*converted, *renamed, *_left_out(written)))
 
 
-def _left_out(written: Written) -> Iterator[str]:
+def _left_out(written: WrittenDrawing) -> Iterator[str]:
     if written.too_small:
         yield f"{counted(written.too_small, 'curve')} too small for it left out."
     if written.notes_left_out:

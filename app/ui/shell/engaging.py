@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 
 from ...core.progress import Progress
-from ...usecases.make import Made
+from ...usecases.make import MakeResult
 from ..framework.worker import Answer, Worker
 from ..framework.workspace import Workspace
 from ..views.canvas.canvas import Canvas
@@ -14,12 +14,12 @@ from ..views.canvas.modes import ColourBy
 from ..views.canvas.program_picture import ProgramPicture
 
 
-def engaged_picture(made: Made, progress: Progress) -> ProgramPicture:
+def engaged_picture(made: MakeResult, progress: Progress) -> ProgramPicture:
     """Return the moves of a result prepared for painting, stretch by stretch of engagement."""
-    from ...toolpath.engagement.engagement import look
+    from ...toolpath.engagement.engagement import sample_engagement
     from ..views.canvas.stretches import stretches
 
-    seen = look(made.program, made.job, progress)
+    seen = sample_engagement(made.program, made.job, progress)
     return ProgramPicture(made.program, made.coverage.places, stretches(made.program.moves, seen))
 
 
@@ -30,7 +30,7 @@ class Engaging(QObject):
         super().__init__(canvas)
         self._canvas, self._computation = canvas, workspace.computation
         self.worker = Worker(self)
-        self._for: Made | None = None
+        self._for: MakeResult | None = None
         legend.colour_chosen.connect(lambda _: self._follow())
         self._computation.changed.connect(self._follow)
         self.worker.done.connect(self._on_done)

@@ -16,7 +16,7 @@ from ..framework.notice import Notice
 from .proof import proof, warning
 
 if TYPE_CHECKING:
-    from ...usecases.make import Made
+    from ...usecases.make import MakeResult
 
 FILTER = "NC programs (*.ngc *.nc *.tap);;All files (*)"
 
@@ -70,7 +70,7 @@ class Exporting(QObject):
         if act is not None:
             act()
 
-    def _made(self) -> Made | None:
+    def _made(self) -> MakeResult | None:
         """Return the job's result if there is something to write, else say so."""
         made = self._computation.made
         if made is None or not len(made.program.moves):
@@ -105,7 +105,7 @@ class Exporting(QObject):
         if made is not None and path is not None:
             self._keep({path: made.frame()})
 
-    def _chosen(self, made: Made, suffix: str) -> Path | None:
+    def _chosen(self, made: MakeResult, suffix: str) -> Path | None:
         """Ask for a file; a name without an extension gets that of the post."""
         extension = load_post(made.job.post).extension
         path = self.choose_file(f"{suffix}{extension}")

@@ -10,11 +10,11 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from ...drafting.document import Change
-from ...formats.project.project import Look, Project
+from ...drafting.document import DocumentChange
+from ...formats.project.project import Project, SavedView
 from ...formats.readers import suffixes
 from ...model.part import Part
-from ...model.reading import AS_THE_FILE_SAYS, Reading
+from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ...usecases.bitmap_options import PICTURES, is_picture
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
@@ -79,7 +79,7 @@ class Files(QObject):
         self.opening.asked.connect(self._ask_how)
         self.exporting.written.connect(self._on_written)
         self._unsubscribe = window.document.subscribe(
-            lambda change: window.card.hide() if change & Change.LOADED else None
+            lambda change: window.card.hide() if change & DocumentChange.LOADED else None
         )
 
     @property
@@ -97,7 +97,7 @@ class Files(QObject):
         """Open the sample part, after asking when changes would be lost."""
         self._leave_drawing("Open the sample part", self.open_sample)
 
-    def open_file(self, path: Path, reading: Reading = AS_THE_FILE_SAYS) -> None:
+    def open_file(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
         """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and
         nothing is lost.
 
@@ -231,12 +231,12 @@ class Files(QObject):
             self._log.note("picture", wrong, error=True)
             self._window.status.show_message(wrong, error=True)
 
-    def _look_now(self) -> Look:
+    def _look_now(self) -> SavedView:
         """Return what is looked at, as a project file keeps it."""
         canvas = self._window.canvas
-        return Look(self._showing.view.value, canvas.view.to_world(canvas.area.center()), canvas.view.scale)
+        return SavedView(self._showing.view.value, canvas.view.to_world(canvas.area.center()), canvas.view.scale)
 
-    def _look(self, look: Look) -> None:
+    def _look(self, look: SavedView) -> None:
         canvas = self._window.canvas
         self._showing.show_view(next((view for view in views() if view.value == look.shown), View.DRAW))
         self._window.lay_out_now()
@@ -257,7 +257,7 @@ class Files(QObject):
         """
         state = self._document.state
 
-        def answer(reading: Reading) -> None:
+        def answer(reading: ReadingOptions) -> None:
             if self._document.state is state:
                 self.opening.open(asked.path, reading)
             else:
@@ -273,7 +273,7 @@ class Files(QObject):
         state, question = self._document.state, opened.drawing.question
         assert question is not None
 
-        def answer(reading: Reading) -> None:
+        def answer(reading: ReadingOptions) -> None:
             if self._document.state is state:
                 self.opening.open(opened.path, reading)
             else:

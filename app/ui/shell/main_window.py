@@ -49,12 +49,12 @@ from .tool_strip import ToolStrip
 from .views import Views
 
 if TYPE_CHECKING:
-    from ...usecases.make import Made
+    from ...usecases.make import MakeResult
 
 SIZE = (1440, 900)
 
 
-def picture_of(made: Made) -> ProgramPicture:
+def picture_of(made: MakeResult) -> ProgramPicture:
     """Return the moves of a result prepared for painting."""
     return ProgramPicture(made.program, made.coverage.places)
 

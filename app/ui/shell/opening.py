@@ -16,14 +16,14 @@ from ...drafting.document import Document
 from ...geometry.sample import bounds, union
 from ...model.job import Job
 from ...model.part import Part
-from ...model.reading import AS_THE_FILE_SAYS, Reading, Source
+from ...model.reading import AS_THE_FILE_SAYS, DrawingSource, ReadingOptions
 from ..framework.worker import Answer, Worker
 
 if TYPE_CHECKING:
     from ...formats.drawing import Drawing
     from ...formats.project.files import Stamp
     from ...formats.project.project import Project
-    from ...formats.reading_question import Question
+    from ...formats.reading_question import ReadingQuestion
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Opened:
     drawing: Drawing
     job: Job
     size: tuple[float, float] | None = None
-    source: Source | None = None
+    source: DrawingSource | None = None
     project: Project | None = None
     stamp: Stamp | None = None
 
@@ -51,7 +51,7 @@ class Asked:
     """A drawing that was not read, for somebody has to say how."""
 
     path: Path
-    question: Question
+    question: ReadingQuestion
 
 
 def size_of(part: Part, without: tuple[str, ...] = ()) -> tuple[float, float] | None:
@@ -65,7 +65,7 @@ def sample_path() -> Path:
     return resource("samples", "fig2.dxf")
 
 
-def read_drawing_file(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
+def read_drawing_file(path: Path, reading: ReadingOptions, before: Job, progress: Progress) -> Opened | Asked:
     """Return a drawing, with the job to work on.
 
     Args:
@@ -95,7 +95,7 @@ def read_drawing_file(path: Path, reading: Reading, before: Job, progress: Progr
     progress.step(0.9, f"Reading {path.name}")
     drawing = replace(drawing, part=_shown(drawing.part, reading.layers))
     job = job_from_drawing(drawing, MakeOptions(job=before))
-    source = Source(str(path.absolute()), reading) if format_of(path.name).foreign else None
+    source = DrawingSource(str(path.absolute()), reading) if format_of(path.name).foreign else None
     return Opened(path, drawing, job, size_of(job.part), source)
 
 
@@ -108,7 +108,7 @@ def _shown(part: Part, layers: tuple[str, ...]) -> Part:
     )
 
 
-def _read(path: Path, reading: Reading, before: Job, progress: Progress) -> Opened | Asked:
+def _read(path: Path, reading: ReadingOptions, before: Job, progress: Progress) -> Opened | Asked:
     from ...formats.project import SUFFIXES
 
     if path.suffix.lower() in SUFFIXES:
@@ -148,7 +148,7 @@ class Opening(QObject):
         worker.done.connect(self._on_done)
         worker.failed.connect(self._on_failed)
 
-    def open(self, path: Path, reading: Reading = AS_THE_FILE_SAYS) -> None:
+    def open(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
         """Read a drawing; the document changes only when it has been read whole.
 
         Args:

@@ -19,7 +19,7 @@ from ..views.canvas.canvas import Canvas
 from ..views.canvas.curve_path import curve_path
 
 if TYPE_CHECKING:
-    from ...toolpath.drawn import Drawn
+    from ...toolpath.drawn_contours import DrawnContours
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +31,7 @@ class OwnedCurves:
     """
 
     job: Job
-    drawn: Drawn
+    drawn: DrawnContours
     path: QPainterPath
 
 
@@ -60,13 +60,13 @@ def owned_curves(job: Job, index: int, known: OwnedCurves | None, progress: Prog
         known: what was found before, whose contours still hold.
         progress: to be cancelled by.
     """
-    from ...toolpath.drawn import drawn  # chains contours: never on the window's thread
+    from ...toolpath.drawn_contours import drawn_contours  # chains contours: never on the window's thread
     from ...toolpath.drill_holes import circle_of, made_by_drills
     from ...toolpath.selected import selected
 
     progress.step(0.0)
     job, operation = replace(job, copies=Copies()), job.operations[index]
-    seen = known.drawn if known is not None else drawn(job)
+    seen = known.drawn if known is not None else drawn_contours(job)
     found = selected(seen, operation.cut.curves)
     made = frozenset() if operation.DRILLS else made_by_drills(job, seen)
     closed = [each for each in found.closed if not made or circle_of(each) not in made]

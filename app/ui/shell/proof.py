@@ -9,13 +9,13 @@ from ..framework.figures import counted, grouped
 from ..framework.verdict import short, worst_first
 
 if TYPE_CHECKING:
-    from ...usecases.make import Made
+    from ...usecases.make import MakeResult
 
 NAMED = 2
 """Findings that are named one by one."""
 
 
-def proof(made: Made) -> str:
+def proof(made: MakeResult) -> str:
     """Return what holds of a clean program, with the numbers."""
     check = made.report.data["check"]["largest_distance_mm"]
     said = [f"Read back within {max(check, 0.0001):.4f} mm"]

@@ -23,7 +23,7 @@ from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
 from ..panels.side_panel import SidePanel
 
 if TYPE_CHECKING:
-    from ...usecases.proposal.chosen import Chosen
+    from ...usecases.proposal.chosen_curves import ChosenOperations
     from ...usecases.proposal.propose import Proposal
 
 NOTHING_DRAWN = "Nothing is drawn yet; draw a closed curve or open a drawing first."
@@ -54,17 +54,20 @@ class OwnSelection:
 
 def selection_of(job: Job, numbers: frozenset[int], index: int, progress: Progress) -> OwnSelection:
     """Return curves, by their numbers, as the operation at an index has them."""
-    from ...usecases.proposal.chosen import numbers_of  # imports the engines: never on the window's thread
+    from ...usecases.proposal.chosen_curves import numbers_of  # imports the engines: never on the window's thread
 
     progress.step(0.0, "Sorting contours")
     return OwnSelection(index, numbers_of(job, numbers))
 
 
-def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) -> Chosen:
+def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) -> ChosenOperations:
     """Return the job with an operation for some curves, by their numbers; `way` is one of `WAYS`."""
-    from ...usecases.proposal.chosen import Way, with_chosen  # imports the engines: never on the window's thread
+    from ...usecases.proposal.chosen_curves import (  # imports the engines: never on the window's thread
+        CurvePurpose,
+        with_chosen,
+    )
 
-    return with_chosen(job, numbers, Way[way.upper()], progress)
+    return with_chosen(job, numbers, CurvePurpose[way.upper()], progress)
 
 
 class ProposalControl(QObject):
@@ -124,19 +127,19 @@ class ProposalControl(QObject):
             self.worker.start(lambda progress: find(job, numbers, progress), self._document.revision)
 
     def _on_done(self, answer: Answer) -> None:
-        from ...usecases.proposal.chosen import Chosen
+        from ...usecases.proposal.chosen_curves import ChosenOperations
         from ...usecases.proposal.propose import Proposal
 
         if answer.revision != self._document.revision:
             self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
-        elif isinstance(answer.value, Chosen):
+        elif isinstance(answer.value, ChosenOperations):
             self._add(answer.value)
         elif isinstance(answer.value, OwnSelection):
             self._give(answer.value)
         elif isinstance(answer.value, Proposal):
             self._take(answer.value)
 
-    def _add(self, chosen: Chosen) -> None:
+    def _add(self, chosen: ChosenOperations) -> None:
         """Take over operations that were added, and offer to switch off what machines all curves besides."""
         self._panel.choose(Subject(SubjectKind.OPERATION, chosen.index))
         self._document.change_job(f"{operation_name(chosen.added[0].operation)} this", chosen.job)
@@ -176,9 +179,9 @@ class ProposalControl(QObject):
         self._panel.change("Switch operations off", make)
 
     def _take(self, proposal: Proposal) -> None:
-        from ...usecases.proposal.propose import Rule
+        from ...usecases.proposal.propose import ProposalRule
 
-        nesting = proposal.rule is Rule.NESTING
+        nesting = proposal.rule is ProposalRule.NESTING
         # outlines free the parts, so they must stay last
         self._panel.subject = Subject(SubjectKind.OPERATION, 0)
         job = replace(proposal.job, order=Order.POCKET_FIRST) if nesting else proposal.job

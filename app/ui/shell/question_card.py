@@ -11,8 +11,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from ...formats.reading_question import Choice, Question
-from ...model.reading import Reading
+from ...formats.reading_question import ReadingChoice, ReadingQuestion
+from ...model.reading import ReadingOptions
 from ..framework.icons import IconButton
 from ..framework.labels import Elided, muted
 from ..framework.theme import HEADING_PX, text_font
@@ -66,7 +66,7 @@ class QuestionCard(QWidget):
         column.addSpacing(8)
         column.addLayout(self._rows)
 
-    def ask(self, name: str, question: Question, answer: Callable[[Reading], None], waits: bool) -> None:
+    def ask(self, name: str, question: ReadingQuestion, answer: Callable[[ReadingOptions], None], waits: bool) -> None:
         """Show a question.
 
         Args:
@@ -90,7 +90,7 @@ class QuestionCard(QWidget):
         if waits and self.buttons:
             self.buttons[0].setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _add(self, row: int, choice: Choice, answer: Callable[[Reading], None]) -> None:
+    def _add(self, row: int, choice: ReadingChoice, answer: Callable[[ReadingOptions], None]) -> None:
         button = QPushButton(choice.words)
         button.setProperty("role", "primary" if choice.likely else "")
         button.clicked.connect(self.hide)
@@ -120,5 +120,5 @@ class QuestionCard(QWidget):
                 widget.deleteLater()
 
 
-def _answered(answer: Callable[[Reading], None], reading: Reading, *_: object) -> None:
+def _answered(answer: Callable[[ReadingOptions], None], reading: ReadingOptions, *_: object) -> None:
     answer(reading)

@@ -10,9 +10,9 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from ...core.errors import InputError
 from ...core.progress import Progress
-from ...drafting.document import Change
+from ...drafting.document import DocumentChange
 from ...formats.project.project import Project
-from ...formats.project.recovery import Edited, Recovered, RecoveryFile, recoveries
+from ...formats.project.recovery import EditedFile, RecoveredWork, RecoveryFile, recoveries
 from ..framework.worker import Answer, Worker
 from ..framework.workspace import Workspace
 from .files import Files
@@ -41,8 +41,8 @@ class Recovering(QObject):
         self._worker = Worker(self, head_start_s=0.0)
         self._file: RecoveryFile | None = None
         self._told = False
-        self._left: list[Recovered] = []
-        self._taken: list[Recovered] = []
+        self._left: list[RecoveredWork] = []
+        self._taken: list[RecoveredWork] = []
         self._otherwise: Callable[[], None] = lambda: None
         self._timer = QTimer(self, singleShot=True, interval=round(WAIT_S * 1000))
         self._timer.timeout.connect(self.keep)
@@ -62,7 +62,7 @@ class Recovering(QObject):
         project = self._files.saving.project() if self._document.modified or self._files.saving.beside.unsaved else None
         if project is None and self._file is None:
             return
-        edited = Edited(self._document.path, self._files.saving.known)
+        edited = EditedFile(self._document.path, self._files.saving.known)
         self._worker.start(partial(self._write, project, edited), self._document.revision)
 
     def offer(self, otherwise: Callable[[], None] = lambda: None) -> None:
@@ -95,10 +95,10 @@ class Recovering(QObject):
         act()
         self._offer_next()
 
-    def _load(self, found: Recovered) -> None:
+    def _load(self, found: RecoveredWork) -> None:
         self._worker.start(lambda progress: _loaded(found), self._document.revision)
 
-    def _write(self, project: Project | None, edited: Edited, progress: Progress) -> None:
+    def _write(self, project: Project | None, edited: EditedFile, progress: Progress) -> None:
         if self._file is None:
             self._file = RecoveryFile()
         if project is None:
@@ -106,8 +106,8 @@ class Recovering(QObject):
         else:
             self._file.keep(project, edited)
 
-    def _on_change(self, change: Change) -> None:
-        if change & (Change.PART | Change.JOB | Change.HISTORY):
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & (DocumentChange.PART | DocumentChange.JOB | DocumentChange.HISTORY):
             self._wait()
 
     def _wait(self) -> None:
@@ -123,7 +123,7 @@ class Recovering(QObject):
         self._taken = []
         self.kept.emit()
 
-    def _on_loaded(self, found: Recovered, project: Project | None, reason: str) -> None:
+    def _on_loaded(self, found: RecoveredWork, project: Project | None, reason: str) -> None:
         if project is None:
             aside = found.set_aside()
             self._log.note("recover", f"{reason} It stays as {aside}.", error=True)
@@ -160,7 +160,7 @@ class Recovering(QObject):
             self._file.close()
 
 
-def _loaded(found: Recovered) -> tuple[Recovered, Project | None, str]:
+def _loaded(found: RecoveredWork) -> tuple[RecoveredWork, Project | None, str]:
     try:
         return found, found.load(), ""
     except InputError as error:

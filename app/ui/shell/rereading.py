@@ -11,10 +11,10 @@ from PySide6.QtCore import QObject, Signal
 from ...core.atomic import read_whole
 from ...core.errors import InputError
 from ...core.progress import Progress
-from ...drafting.document import Change
+from ...drafting.document import DocumentChange
 from ...model.finding import Finding
 from ...model.part import Part
-from ...model.reading import Reading, Source
+from ...model.reading import DrawingSource, ReadingOptions
 from ..framework.figures import counted, grouped
 from ..framework.worker import Answer, Worker
 from ..framework.workspace import Workspace
@@ -23,7 +23,7 @@ from .opening import Asked, Opened, read_drawing_file
 from .question_card import QuestionCard
 
 if TYPE_CHECKING:
-    from ...formats.reading_question import Contents
+    from ...formats.reading_question import FileContents
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class _Looked:
     """What the file of a source holds."""
 
     path: str
-    contents: Contents
+    contents: FileContents
 
 
 class Rereading(QObject):
@@ -59,7 +59,7 @@ class Rereading(QObject):
         super().__init__(section)
         self._section, self._card, self._worker = section, card, worker
         self._workspace, self._log, self._document = workspace, workspace.log, workspace.document
-        self._known: dict[Source, _Read] = {}
+        self._known: dict[DrawingSource, _Read] = {}
         self._job_id: int | None = None
         self._looking = Worker(self, head_start_s=0.0)
         self._section.wanted.connect(self.ask)
@@ -80,11 +80,11 @@ class Rereading(QObject):
             self._looking.cancel()
             self._remember(opened.source, opened)
 
-    def _remember(self, source: Source, opened: Opened) -> None:
+    def _remember(self, source: DrawingSource, opened: Opened) -> None:
         self._known[source] = _Read(opened.job.part, opened.drawing.findings)
         self._section.show_contents(opened.drawing.contents)
 
-    def ask(self, reading: Reading) -> None:
+    def ask(self, reading: ReadingOptions) -> None:
         """Read the drawing in another way, after asking where that would replace what was drawn in it."""
         source = self._document.state.source
         if source is None:
@@ -100,7 +100,7 @@ class Rereading(QObject):
             stays=True,
         )
 
-    def read(self, reading: Reading) -> None:
+    def read(self, reading: ReadingOptions) -> None:
         """Read the drawing in another way."""
         source = self._document.state.source
         if source is None:
@@ -166,20 +166,20 @@ class Rereading(QObject):
         if source is not None and source.path == looked.path:
             self._section.show_contents(looked.contents)
 
-    def _on_change(self, change: Change) -> None:
+    def _on_change(self, change: DocumentChange) -> None:
         source = self._document.state.source
-        if change & Change.LOADED:
+        if change & DocumentChange.LOADED:
             self._known = {}
             self._looking.cancel()
             self._section.show_contents(None)
-        elif change & Change.PART and source is not None:
+        elif change & DocumentChange.PART and source is not None:
             self._section.refresh()
             if source in self._known:
                 self._workspace.computation.know_drawing(self._known[source].findings)
         self.possible.emit(source is not None)
 
 
-def _looked_at(source: Source, progress: Progress) -> _Looked:
+def _looked_at(source: DrawingSource, progress: Progress) -> _Looked:
     """Return what a drawing's file holds.
 
     Raises:

@@ -14,10 +14,10 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from ...core.progress import Progress
-from ...drafting.document import Change
-from ...formats.project.beside import Beside
+from ...drafting.document import DocumentChange
+from ...formats.project.extras import ProjectExtras
 from ...formats.project.files import ChangedElsewhere, Stamp, save_project
-from ...formats.project.project import SUFFIX, Look, Project
+from ...formats.project.project import SUFFIX, Project, SavedView
 from ..framework.controller import Controller
 from ..framework.figures import counted, grouped
 from ..framework.worker import Answer, Worker
@@ -66,7 +66,7 @@ class Saving(Controller):
 
     saved = Signal(Path)
 
-    def __init__(self, over: QWidget, look: Callable[[], Look], backups: QAction, workspace: Workspace) -> None:
+    def __init__(self, over: QWidget, look: Callable[[], SavedView], backups: QAction, workspace: Workspace) -> None:
         """Make one.
 
         Args:
@@ -147,11 +147,11 @@ class Saving(Controller):
             return
         self._worker.start(partial(_save, wish, self.project(), self._preferences.settings.backups), self._generation)
 
-    def _on_change(self, change: Change) -> None:
-        if change & Change.LOADED:
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & DocumentChange.LOADED:
             self._generation += 1
             self.known = None
-            self.beside.mark_saved(Beside())
+            self.beside.mark_saved(ProjectExtras())
 
     def _on_done(self, answer: Answer) -> None:
         saved = answer.value

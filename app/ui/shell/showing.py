@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, Signal
 
-from ...drafting.document import Change
+from ...drafting.document import DocumentChange
 from ...drafting.expressions.words import name_text
 from ...geometry.sample import bounds, union
 from ...model.finding import Finding
@@ -115,9 +115,9 @@ class Showing(QObject):
         """
         self._window.command_line.set_prompt(self.page.prompt())
 
-    def refresh(self, change: Change) -> None:
+    def refresh(self, change: DocumentChange) -> None:
         """Show what changed in the document."""
-        if change & (Change.PART | Change.JOB):
+        if change & (DocumentChange.PART | DocumentChange.JOB):
             self._window.panel.show_size(self.part_size(), self._document.job)
             self._window.views.legend.show_job(self._document.job)
             self.show_missing()

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from ...core.errors import HitofudeError, InputError
 from ...core.tolerances import WELD
-from ...drafting.document import Change
+from ...drafting.document import DocumentChange
 from ...drafting.expressions.numbers import length
 from ...model.curves import Point
 from ...model.underlay import Underlay
@@ -53,7 +53,7 @@ class Underlaying(QObject):
         for name, act in acts.items():
             on_trigger(commands, name, act)
         commands["underlay_shown"].toggled.connect(self._show)
-        workspace.document.subscribe(lambda change: self.lay(None) if Change.LOADED in change else None)
+        workspace.document.subscribe(lambda change: self.lay(None) if DocumentChange.LOADED in change else None)
         self.lay(None)
 
     @property

@@ -9,7 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 
 from ...core.settings import ThemeChoice
-from ...drafting.document import Change
+from ...drafting.document import DocumentChange
 from ...model.operation import OPERATION_KINDS
 from ..framework.controller import Controller
 from ..framework.figures import counted
@@ -111,7 +111,7 @@ class Wiring(QObject):
         self._connect_helpers()
         self._unsubscribe = self.document.subscribe(self.showing.refresh)
         self.showing.show_view(View.DRAW)
-        self.showing.refresh(Change.ALL)
+        self.showing.refresh(DocumentChange.ALL)
 
     def _make_controllers(self, views: Views, workspace: Workspace) -> None:
         """Make what acts for the views, each of its own parts."""

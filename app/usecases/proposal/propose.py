@@ -23,16 +23,24 @@ from ...model.curve_selectors import Selector
 from ...model.entry import Tabs
 from ...model.finding import Finding
 from ...model.job import Copies, Job, Stock
-from ...model.operation import ContourOperation, Cut, DrillOperation, Operation, PocketOperation, RestOperation, Side
+from ...model.operation import (
+    ContourOperation,
+    CutParameters,
+    DrillOperation,
+    Operation,
+    PocketOperation,
+    RestOperation,
+    Side,
+)
 from ...model.part import Contour, Region
 from ...model.stock_box import extent
 from ...model.tool import Tool
 from ...toolpath.advice.advise import advise
-from ...toolpath.advice.time import Plan
-from ...toolpath.drawn import Drawn, drawn
+from ...toolpath.advice.time import CuttingPlan
+from ...toolpath.drawn_contours import DrawnContours, drawn_contours
 from ...toolpath.drill_holes import tip_length
+from .contour_sorts import SortedContours, selectors_for, sorted_contours
 from .rack import Rack, room
-from .sorting import Sorted, selectors_for, sorted_contours
 
 ENGRAVED = 0.3
 """mm; depth of lines and letters."""
@@ -50,7 +58,7 @@ _SMALL = 100.0
 Json = dict[str, Any]
 
 
-class Rule(Enum):
+class ProposalRule(Enum):
     """What a proposal goes by."""
 
     NESTING = "nesting"
@@ -58,7 +66,7 @@ class Rule(Enum):
 
 
 @dataclass(frozen=True)
-class Proposed:
+class ProposedOperation:
     """An operation of a proposal.
 
     Attributes:
@@ -81,9 +89,9 @@ class Proposal:
         findings: what no operation is proposed for.
     """
 
-    rule: Rule
+    rule: ProposalRule
     job: Job
-    operations: tuple[Proposed, ...]
+    operations: tuple[ProposedOperation, ...]
     findings: tuple[Finding, ...] = ()
 
     def lines(self) -> list[str]:
@@ -113,7 +121,7 @@ class Proposal:
 
 
 @dataclass(frozen=True)
-class Proposing:
+class ProposalOptions:
     """What a proposal is made from beside the drawing.
 
     Attributes:
@@ -124,7 +132,7 @@ class Proposing:
 
     tools: tuple[Tool, ...] = ()
     thickness: float | None = None
-    depth: float = field(default_factory=lambda: Cut(1).depth)
+    depth: float = field(default_factory=lambda: CutParameters(1).depth)
 
 
 def shipped_tools() -> tuple[Tool, ...]:
@@ -142,13 +150,13 @@ def as_in_1986(job: Job) -> Proposal:
         ContourOperation: "along all its walls",
     }
     return Proposal(
-        Rule.PATENT_1986,
+        ProposalRule.PATENT_1986,
         replace(job, tools=usual.tools, operations=usual.operations),
-        tuple(Proposed(each, words[type(each)]) for each in usual.operations),
+        tuple(ProposedOperation(each, words[type(each)]) for each in usual.operations),
     )
 
 
-def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_PROGRESS) -> Proposal:
+def propose(job: Job, options: ProposalOptions | None = None, progress: Progress = NO_PROGRESS) -> Proposal:
     """Return operations for a drawing from how its contours lie in one another.
 
     Holes first, then pockets, holes that are milled, lines; the outlines come last, since they free the parts.
@@ -162,14 +170,14 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
         ParameterError: no tool can be had.
         Cancelled: by progress.
     """
-    options = options or Proposing()
+    options = options or ProposalOptions()
     thickness = options.thickness or job.stock.thickness
     job = replace(job, operations=(), stock=replace(job.stock, thickness=thickness))
     progress.step(0.0, "Sorting contours")
-    seen = drawn(replace(job, copies=Copies()))
+    seen = drawn_contours(replace(job, copies=Copies()))
     found = sorted_contours(job.part, seen)
     rack = Rack(options.tools or shipped_tools())
-    work = Work(seen, found, rack, thickness, min(options.depth, thickness))
+    work = ProposalWork(seen, found, rack, thickness, min(options.depth, thickness))
     made = [
         *work.drills(),
         *work.pockets(progress.part(0.1, 0.5)),
@@ -187,7 +195,7 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
         )
     progress.step(1.0)
     return Proposal(
-        Rule.NESTING,
+        ProposalRule.NESTING,
         replace(
             job,
             tools=tuple(sorted(rack.taken, key=lambda tool: tool.number)),
@@ -200,7 +208,7 @@ def propose(job: Job, options: Proposing | None = None, progress: Progress = NO_
 
 
 @dataclass
-class Work:
+class ProposalWork:
     """What is proposed for each sort of contour.
 
     Attributes:
@@ -209,8 +217,8 @@ class Work:
         round_tools: that go round parts.
     """
 
-    seen: Drawn
-    found: Sorted
+    seen: DrawnContours
+    found: SortedContours
     rack: Rack
     thickness: float
     depth: float
@@ -220,10 +228,10 @@ class Work:
     def _curves(self, contours: Sequence[Contour]) -> tuple[Selector, ...]:
         return selectors_for(contours, self.seen, self.drilled)
 
-    def cut(self, tool: Tool, depth: float, curves: tuple[Selector, ...]) -> Cut:
+    def cut(self, tool: Tool, depth: float, curves: tuple[Selector, ...]) -> CutParameters:
         """Return depth and steps: no step deeper than half the tool is wide."""
-        step = min(Cut(1).stepdown, max(tool.diameter / 2, depth / 500))
-        return Cut(self.rack.take(tool).number, depth, step, curves=curves)
+        step = min(CutParameters(1).stepdown, max(tool.diameter / 2, depth / 500))
+        return CutParameters(self.rack.take(tool).number, depth, step, curves=curves)
 
     def _named(self, tool: Tool) -> str:
         """Return a tool, and whether one has to be had that the library lacks."""
@@ -236,20 +244,20 @@ class Work:
         margin = max([stock.margin, *(tool.diameter + SPARE for tool in self.round_tools)])
         return replace(stock, margin=margin, under=under)
 
-    def drills(self) -> list[Proposed]:
+    def drills(self) -> list[ProposedOperation]:
         """Return the holes for which there is a drill of their size."""
         made = []
         for size, circles in self.found.holes:
             drill = self.rack.drill(size)
             if drill is not None:
                 curves = selectors_for(circles, self.seen, as_circles=True)
-                cut = Cut(self.rack.take(drill).number, self.thickness, curves=curves)
+                cut = CutParameters(self.rack.take(drill).number, self.thickness, curves=curves)
                 why = f"{_counted(len(circles), 'hole')} of {size:g} mm, through, with a drill of that size"
-                made.append(Proposed(DrillOperation(cut), why))
+                made.append(ProposedOperation(DrillOperation(cut), why))
                 self.drilled.extend(circles)
         return made
 
-    def milled_holes(self) -> list[Proposed]:
+    def milled_holes(self) -> list[ProposedOperation]:
         """Return the holes for which there is no drill: milled along their walls, down on a helix."""
         made = []
         for size, circles in self.found.holes:
@@ -264,10 +272,10 @@ class Work:
                 + (f", with {tabs.count} tabs to hold what falls out" if loose else "")
             )
             cut = self.cut(tool, self.thickness, selectors_for(circles, self.seen, as_circles=True))
-            made.append(Proposed(ContourOperation(cut, Side.INSIDE, tabs=tabs), why))
+            made.append(ProposedOperation(ContourOperation(cut, Side.INSIDE, tabs=tabs), why))
         return made
 
-    def pockets(self, progress: Progress) -> list[Proposed]:
+    def pockets(self, progress: Progress) -> list[ProposedOperation]:
         """Return the pockets with their islands."""
         pockets, islands = self.found.pockets, self.found.islands
         what = _counted(len(pockets), "inner contour")
@@ -279,12 +287,14 @@ class Work:
             (*pockets, *islands), self.depth, f"{what}: pocket {self.depth:g} mm deep{standing}", progress
         )
 
-    def bores(self, progress: Progress) -> list[Proposed]:
+    def bores(self, progress: Progress) -> list[ProposedOperation]:
         """Return slots and bores that are no circles, through."""
         bores = self.found.bores
         return self._cleared(bores, self.thickness, f"{_counted(len(bores), 'slot or bore')}, through", progress)
 
-    def _cleared(self, contours: Sequence[Contour], depth: float, what: str, progress: Progress) -> list[Proposed]:
+    def _cleared(
+        self, contours: Sequence[Contour], depth: float, what: str, progress: Progress
+    ) -> list[ProposedOperation]:
         """Return the operations that clear what contours bound: one tool, or a wide one and one for what it leaves."""
         if not contours:
             return []
@@ -293,17 +303,17 @@ class Work:
         widest = max(WIDEST, math.sqrt(sum(map(_area, regions))) / 10)
         mills = self.rack.mills(depth)
         usable = [tool for tool in mills if tool.diameter <= widest] or mills[:1]
-        advice = advise(regions, usable, Plan(depth, min(2.0, depth)), progress)
+        advice = advise(regions, usable, CuttingPlan(depth, min(2.0, depth)), progress)
         curves = self._curves(contours)
         wide, fine = advice.pocket, advice.contour
-        made = [Proposed(PocketOperation(self.cut(wide, depth, curves)), f"{what}. {advice.why.rstrip('.')}")]
+        made = [ProposedOperation(PocketOperation(self.cut(wide, depth, curves)), f"{what}. {advice.why.rstrip('.')}")]
         if fine is not wide:
             named, cut = self._named(fine), self.cut(fine, depth, curves)
-            made.append(Proposed(RestOperation(cut), f"what T{wide.number} does not reach, with {named}"))
-            made.append(Proposed(ContourOperation(cut), f"along the walls of the same, with {named}"))
+            made.append(ProposedOperation(RestOperation(cut), f"what T{wide.number} does not reach, with {named}"))
+            made.append(ProposedOperation(ContourOperation(cut), f"along the walls of the same, with {named}"))
         return made
 
-    def lines(self) -> list[Proposed]:
+    def lines(self) -> list[ProposedOperation]:
         """Return open lines and letters, engraved."""
         lines = (*self.found.lines, *self.found.strokes)
         if not lines:
@@ -316,9 +326,9 @@ class Work:
         ]
         cut = self.cut(tool, depth, self._curves(lines))
         why = f"{' and '.join(parts)}: engraved {depth:g} mm deep with {self._named(tool)}"
-        return [Proposed(ContourOperation(cut, Side.ON), why)]
+        return [ProposedOperation(ContourOperation(cut, Side.ON), why)]
 
-    def outlines(self) -> list[Proposed]:
+    def outlines(self) -> list[ProposedOperation]:
         """Return the outlines, cut out of the stock."""
         outlines = self.found.outlines
         if not outlines:
@@ -333,7 +343,7 @@ class Work:
             f"{self._named(tool)}, with {tabs.count} tabs each and {tool.diameter + SPARE:g} mm of stock round{narrow}"
         )
         cut = self.cut(tool, self.thickness, self._curves(outlines))
-        return [Proposed(ContourOperation(cut, Side.OUTSIDE, tabs=tabs), why)]
+        return [ProposedOperation(ContourOperation(cut, Side.OUTSIDE, tabs=tabs), why)]
 
 
 def _area(region: Region) -> float:

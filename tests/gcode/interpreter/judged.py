@@ -16,7 +16,7 @@ from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import NcProgram, Severity
 from app.gcode.interpreter.reader import read_program
-from app.gcode.interpreter.text import Text
+from app.gcode.interpreter.text import ProgramBuffer
 from app.model.motion import MotionKind
 
 SECONDS, BYTES, MEGABYTES = 2.0, 1_000_000, 500
@@ -62,7 +62,7 @@ def _judge_problems(program: NcProgram, data: bytes) -> None:
     assert errors in ([], list(program.problems[-1:]))
     if not program.problems:
         return
-    text = Text(data)
+    text = ProgramBuffer(data)
     lines = text.data.decode(text.encoding).split("\n")
     for problem in program.problems:
         assert 1 <= problem.line <= program.line_count and problem.text.endswith((".", ")")), problem
@@ -72,7 +72,7 @@ def _judge_problems(program: NcProgram, data: bytes) -> None:
             problem,
             line[:80],
         )
-        assert problem.told("a.ngc").startswith(f"a.ngc:{problem.line}:")
+        assert problem.message("a.ngc").startswith(f"a.ngc:{problem.line}:")
 
 
 def judged_apart(texts: list[bytes], dialect: Dialect, seconds: int = 60) -> str:

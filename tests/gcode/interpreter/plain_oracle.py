@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.gcode.interpreter.arc_kernels import centre_by_radius
-from app.gcode.interpreter.columns import Columns
-from app.gcode.interpreter.lane import Plain, plain_blocks
+from app.gcode.interpreter.columns import MotionColumns
+from app.gcode.interpreter.lane import LaneState, plain_blocks
 from app.model.motion import Motions, Plane
 
 WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))")
@@ -19,7 +19,7 @@ Row = tuple[float, ...]
 class Oracle:
     """Does lines of text one by one; every line must be plain."""
 
-    plain: Plain = field(default_factory=Plain)
+    plain: LaneState = field(default_factory=LaneState)
     rows: list[Row] = field(default_factory=list)
 
     def do(self, text: str, number: int) -> None:
@@ -83,9 +83,11 @@ def same_bits(a: list[Row], b: list[Row]) -> bool:
     return np.array(a, float).tobytes() == np.array(b, float).tobytes()
 
 
-def lane(text: str | bytes, plain: Plain | None = None, most_lines: int = 10**9) -> tuple[list[Row], tuple[int, int]]:
+def lane(
+    text: str | bytes, plain: LaneState | None = None, most_lines: int = 10**9
+) -> tuple[list[Row], tuple[int, int]]:
     """Let the lane do a text from its first line; return the rows and where it stopped."""
     data = text if isinstance(text, bytes) else text.encode()
-    columns = Columns()
-    at = plain_blocks(np.frombuffer(data, np.uint8), (0, 1), plain or Plain(), columns, most_lines)
+    columns = MotionColumns()
+    at = plain_blocks(np.frombuffer(data, np.uint8), (0, 1), plain or LaneState(), columns, most_lines)
     return rows_of(columns.motions()), at

@@ -31,7 +31,7 @@ def kinds(program: NcProgram) -> list[MotionKind]:
 def told(text: str, dialect: Dialect = Dialect.LINUXCNC) -> str:
     """Return the error of a text with its place, "" if it has none."""
     error = read_program(text.encode(), ReadOptions(dialect=dialect)).error
-    return error.told("a.ngc") if error else ""
+    return error.message("a.ngc") if error else ""
 
 
 def warnings(text: str, dialect: Dialect = Dialect.LINUXCNC) -> list[str]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.gcode.interpreter.columns import Columns, Motion
+from app.gcode.interpreter.columns import Motion, MotionColumns
 from app.model.motion import MotionKind, Motions, Plane
 
 
@@ -13,7 +13,7 @@ def line(number: int) -> Motion:
 
 
 def test_rows_come_out_as_they_went_in() -> None:
-    columns = Columns()
+    columns = MotionColumns()
     arc = Motion(MotionKind.ARC_CW, (0.0, 1.0, 2.0), (3.0, 4.0, 5.0), 60.0, 8, 2, Plane.YZ, (6.0, 7.0, 8.0), 3)
     columns.add(line(1))
     columns.add(arc)
@@ -29,7 +29,7 @@ def test_rows_come_out_as_they_went_in() -> None:
 
 
 def test_growing_keeps_what_is_there() -> None:
-    columns = Columns()
+    columns = MotionColumns()
     for number in range(1, 10_001):
         columns.add(line(number))
     assert len(columns) == 10_000
@@ -40,14 +40,14 @@ def test_growing_keeps_what_is_there() -> None:
 
 
 def test_room_is_made_for_many_at_once() -> None:
-    columns = Columns()
+    columns = MotionColumns()
     columns.add(line(1))
     columns.reserve(500_000)
     assert len(columns.kind) >= 500_001 and columns.end[0].tolist() == [1.0, 0.5, -1.0] and len(columns) == 1
 
 
 def test_it_is_empty_after_the_motions_are_taken() -> None:
-    columns = Columns()
+    columns = MotionColumns()
     columns.add(line(1))
     taken = columns.motions()
     columns.add(line(2))

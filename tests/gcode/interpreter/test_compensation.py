@@ -16,7 +16,7 @@ def centre_path(text: str) -> list[tuple[float, ...]]:
 
 def told(text: str) -> str:
     error = read_program(f"F100 T1 M6\n{text}\nM2\n".encode(), ReadOptions(tool_table=TABLE)).error
-    return error.told("a.ngc") if error else ""
+    return error.message("a.ngc") if error else ""
 
 
 def test_inside_a_square_the_corners_are_cut_off() -> None:

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from app.gcode.interpreter.block_fault import BlockFault
 from app.gcode.interpreter.cycles import (
     CYCLE_WORDS,
     Cycle,
+    CycleMove,
     Dwell,
-    Move,
     Spindle,
     Stop,
     cycle_steps,
@@ -18,7 +19,6 @@ from app.gcode.interpreter.cycles import (
     with_sticky,
 )
 from app.gcode.interpreter.dialect import Dialect
-from app.gcode.interpreter.fault import Fault
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import Severity
 from app.gcode.interpreter.reader import read_program
@@ -29,25 +29,25 @@ DRILL = Cycle("G81", Plane.XY, (1.0, 2.0), -3.0, 1.0)
 
 
 def heights(cycle: Cycle) -> list[float]:
-    return [step.target[2] for step in cycle_steps(cycle, HERE, 5.0) if isinstance(step, Move)]
+    return [step.target[2] for step in cycle_steps(cycle, HERE, 5.0) if isinstance(step, CycleMove)]
 
 
 def test_a_hole_step_by_step() -> None:
     tap = replace(DRILL, code="G84", dwell=0.5, spindle=1)
     up, down, bottom = (1.0, 2.0, 5.0), (1.0, 2.0, 1.0), (1.0, 2.0, -3.0)
     assert list(cycle_steps(tap, HERE, 5.0)) == [
-        Move(MotionKind.RAPID, up, up),
-        Move(MotionKind.RAPID, down, down),
-        Move(MotionKind.LINE, bottom, bottom),
+        CycleMove(MotionKind.RAPID, up, up),
+        CycleMove(MotionKind.RAPID, down, down),
+        CycleMove(MotionKind.LINE, bottom, bottom),
         Spindle(0),
         Spindle(-1),
         Dwell(0.5),
-        Move(MotionKind.LINE, up, up),
+        CycleMove(MotionKind.LINE, up, up),
         Spindle(0),
         Spindle(1),
     ]
     by_hand = list(cycle_steps(replace(tap, code="G88"), HERE, 5.0))
-    assert by_hand[2:] == [Move(MotionKind.LINE, bottom, up), Dwell(0.5), Spindle(0), Stop(), Spindle(1)]
+    assert by_hand[2:] == [CycleMove(MotionKind.LINE, bottom, up), Dwell(0.5), Spindle(0), Stop(), Spindle(1)]
 
 
 def test_tapping_goes_astray_on_linuxcnc_alone() -> None:
@@ -65,7 +65,7 @@ def test_tapping_goes_astray_on_linuxcnc_alone() -> None:
             spindle=-1 if code == "G74" else 1,
             fanuc=fanuc,
         )
-        moves = [step for step in cycle_steps(cycle, HERE, 5.0) if isinstance(step, Move)]
+        moves = [step for step in cycle_steps(cycle, HERE, 5.0) if isinstance(step, CycleMove)]
         astray = any(move.target != move.meant for move in moves if code != "G88")
         assert astray == taps_astray(cycle) == (code in ("G74", "G84") and plane is not Plane.XY and not fanuc)
         assert all(sorted(move.target) == sorted(move.meant) for move in moves if code != "G88")
@@ -131,7 +131,7 @@ def test_a_huge_repeat_is_done_as_far_as_it_is_asked_for() -> None:
 @pytest.mark.parametrize(("peck", "lowest"), [(1e-12, -3.0), (1e-300, -3.0), (1e-5, -3.0), (1.0, -1e9)])
 @pytest.mark.parametrize("code", ["G73", "G83"])
 def test_pecks_without_end_are_refused(code: str, peck: float, lowest: float) -> None:
-    with pytest.raises(Fault, match="pecks") as fault:
+    with pytest.raises(BlockFault, match="pecks") as fault:
         cycle_steps(replace(DRILL, code=code, peck=peck, depth=lowest), HERE, 5.0)
     assert fault.value.letter == "Q"
 
@@ -156,7 +156,7 @@ def test_pecks_without_end_are_refused(code: str, peck: float, lowest: float) ->
     ],
 )
 def test_faults_name_the_word(changed: dict[str, object], letter: str, words: str) -> None:
-    with pytest.raises(Fault, match=words) as fault:
+    with pytest.raises(BlockFault, match=words) as fault:
         cycle_steps(replace(DRILL, **changed), HERE, 5.0)
     assert fault.value.letter == letter
     assert fault.value.text.endswith(".")

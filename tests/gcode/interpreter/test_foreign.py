@@ -3,7 +3,7 @@
 import pytest
 
 from app.gcode.interpreter.dialect import Dialect
-from app.gcode.interpreter.guess import guess_dialect
+from app.gcode.interpreter.dialect_guess import guess_dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from tests.gcode.interpreter.programs import ends, read, told, warnings

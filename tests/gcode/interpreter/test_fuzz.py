@@ -12,7 +12,7 @@ from app.core.progress import NO_PROGRESS
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.program import NcProgram
-from app.gcode.interpreter.run import Run
+from app.gcode.interpreter.run import InterpreterRun
 from tests.conftest import ROOT
 from tests.examples import examples
 from tests.gcode.interpreter.judged import judged
@@ -24,7 +24,7 @@ short = settings(max_examples=examples(150), deadline=None, suppress_health_chec
 minutes = settings(max_examples=examples(20_000), deadline=None, suppress_health_check=list(HealthCheck))
 
 
-class Core(Run):
+class Core(InterpreterRun):
     """The reader without its lane."""
 
     def _plain_lines(self) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.gcode.interpreter.dialect import Dialect
-from app.gcode.interpreter.guess import guess_dialect
+from app.gcode.interpreter.dialect_guess import guess_dialect
 from tests.conftest import ROOT
 
 GOLDEN = sorted((ROOT / "tests" / "gcode" / "golden").iterdir())

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.gcode.interpreter.columns import Columns
-from app.gcode.interpreter.lane import Plain, plain_blocks
+from app.gcode.interpreter.columns import MotionColumns
+from app.gcode.interpreter.lane import LaneState, plain_blocks
 from tests.examples import examples
 from tests.gcode.interpreter.plain_oracle import Oracle, lane, same_bits
 
@@ -17,8 +17,8 @@ START, END, CENTRE = slice(0, 3), slice(3, 6), slice(6, 9)
 KIND, PLANE, TURNS, FEED, LINE, STATE = range(9, 15)
 
 
-def moving(**changes: object) -> Plain:
-    plain = Plain(motion=1, feed=100.0)
+def moving(**changes: object) -> LaneState:
+    plain = LaneState(motion=1, feed=100.0)
     for name, value in changes.items():
         setattr(plain, name, value)
     return plain
@@ -211,7 +211,7 @@ def test_what_is_in_force_can_make_a_line_unusual(text: str, plain: dict[str, ob
 
 def test_it_does_no_more_lines_than_asked_and_goes_on_from_there() -> None:
     text = "".join(f"X{k}\n" for k in range(30_000)).encode()
-    plain, columns = moving(), Columns()
+    plain, columns = moving(), MotionColumns()
     data = np.frombuffer(text, np.uint8)
     at = plain_blocks(data, (0, 1), plain, columns, 12_345)
     assert at[1] == 12_346 and len(columns) == 12_345
@@ -261,7 +261,7 @@ def arcs(draw: st.DrawFn) -> str:
 
 
 plains = st.builds(
-    lambda scale, bare, shift, absolute, position: Plain(
+    lambda scale, bare, shift, absolute, position: LaneState(
         position=np.array(position),
         motion=1,
         feed=10.0,
@@ -280,18 +280,18 @@ plains = st.builds(
 
 @settings(max_examples=examples(300), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(lines(), max_size=20), plains)
-def test_random_lines_mean_the_same_to_the_last_bit(texts: list[str], plain: Plain) -> None:
+def test_random_lines_mean_the_same_to_the_last_bit(texts: list[str], plain: LaneState) -> None:
     _assert_same(texts, plain)
 
 
 @settings(max_examples=examples(150))
 @given(st.lists(arcs(), max_size=8), plains)
-def test_random_arcs_mean_the_same_to_the_last_bit(texts: list[str], plain: Plain) -> None:
+def test_random_arcs_mean_the_same_to_the_last_bit(texts: list[str], plain: LaneState) -> None:
     plain.absolute, plain.bare_scale = False, plain.scale
     _assert_same(texts, plain)
 
 
-def _assert_same(texts: list[str], plain: Plain) -> None:
+def _assert_same(texts: list[str], plain: LaneState) -> None:
     oracle = Oracle(copy.deepcopy(plain))
     for number, text in enumerate(texts, 1):
         oracle.do(text, number)

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.gcode.interpreter.notes import notes
-from app.gcode.interpreter.notes_own import Notes
+from app.gcode.interpreter.own_header import ProgramNotes
 from app.gcode.interpreter.program import StockNote, ToolNote
 from tests.conftest import ROOT
 from tests.examples import examples
@@ -235,7 +235,7 @@ def test_the_shared_programs() -> None:
     assert box is not None
     assert (box.low, box.high) == ((-10.0, -2.0, -10.0), (140.0, 52.0, 0.0))
     for name in ("tux.ngc", "jsdc.gcode", "helical-thread-milling.gcode", "rs274ngc_canned_cycles.ngc"):
-        assert notes((folder / name).read_bytes()) == Notes(), name
+        assert notes((folder / name).read_bytes()) == ProgramNotes(), name
 
 
 @pytest.mark.parametrize("encoding", ["latin-1", "utf-8", "utf-8-sig", "utf-16"])

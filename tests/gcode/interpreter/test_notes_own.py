@@ -19,7 +19,7 @@ from app.model.job import Copies, Job, OriginXY, OriginZ
 from app.model.moves import DogBone, Tab
 from app.model.operation import (
     ContourOperation,
-    Cut,
+    CutParameters,
     Direction,
     DrillOperation,
     Operation,
@@ -57,8 +57,8 @@ def test_what_every_post_writes_is_read_again(name: str) -> None:
     ]
     assert told == [(1, "bull", 6.0, 0.5, 0.0, 0.0), (2, "taper", 3.0, 0.0, round(TAPER.tip_angle, 9), 0.4)]
     assert [note for program in read if program.header for note in program.header.operations] == [
-        noted(PocketOperation(Cut(1, 2.0))),
-        noted(ContourOperation(Cut(2, 2.0))),
+        noted(PocketOperation(CutParameters(1, 2.0))),
+        noted(ContourOperation(CutParameters(2, 2.0))),
     ]
     for program in read:
         assert program.header is not None
@@ -74,12 +74,12 @@ def test_what_every_post_writes_is_read_again(name: str) -> None:
 def test_what_a_part_depends_on_is_read_again(name: str) -> None:
     """Sides, layers, holes, copies, clamps, tabs and dog-bones go through the comments of every control."""
     operations = (
-        PocketOperation(Cut(1, 4.0, floor_to_leave=0.25, curves=on_layers(LAYERS))),
-        RestOperation(Cut(1, 4.0)),
-        ContourOperation(Cut(2, 4.0, stock_to_leave=0.1), Side.OUTSIDE),
-        ContourOperation(Cut(2, curves=on_layers(("x",))), Side.ON),
-        DrillOperation(Cut(2, 5.0), least=2.5, most=3.0, through=0.5),
-        DrillOperation(Cut(2, 6.0)),
+        PocketOperation(CutParameters(1, 4.0, floor_to_leave=0.25, curves=on_layers(LAYERS))),
+        RestOperation(CutParameters(1, 4.0)),
+        ContourOperation(CutParameters(2, 4.0, stock_to_leave=0.1), Side.OUTSIDE),
+        ContourOperation(CutParameters(2, curves=on_layers(("x",))), Side.ON),
+        DrillOperation(CutParameters(2, 5.0), least=2.5, most=3.0, through=0.5),
+        DrillOperation(CutParameters(2, 6.0)),
     )
     tabs = tuple(Tab(10.5 * k, -0.125, 5.0, -1.5, 3.0) for k in range(3))
     bones = (DogBone(1.0, 2.0, 1.25, 2.25, 3.0),)
@@ -143,7 +143,7 @@ ANGLE = math.radians(2.5)
     "operation",
     [
         ContourOperation(
-            Cut(
+            CutParameters(
                 2,
                 4.0,
                 1.5,
@@ -164,15 +164,15 @@ ANGLE = math.radians(2.5)
             True,
             0.4,
         ),
-        DrillOperation(Cut(2, 5.0), 0.5, 2.5, 3.0, 0.5),
-        PocketOperation(Cut(2, 4.0, 1.0), 1.25, True, 0.55),
-        RestOperation(Cut(2, 4.0, 1.0), 1.25, 0.55),
+        DrillOperation(CutParameters(2, 5.0), 0.5, 2.5, 3.0, 0.5),
+        PocketOperation(CutParameters(2, 4.0, 1.0), 1.25, True, 0.55),
+        RestOperation(CutParameters(2, 4.0, 1.0), 1.25, 0.55),
     ],
     ids=lambda operation: operation.WORD,
 )
 def test_every_parameter_goes_through_the_comments_of_every_control(name: str, operation: Operation) -> None:
     post, path = load_post(name), two_tools()
-    first = PocketOperation(Cut(1))
+    first = PocketOperation(CutParameters(1))
     files = write_files(path.program(), job(tools=(BULL, TAPER), operations=(first, operation)), post)
     headers = [read_program(file.nc.text.encode(), ReadOptions(post.dialect)).header for file in files]
     told = lowered(
@@ -188,15 +188,18 @@ def test_every_parameter_goes_through_the_comments_of_every_control(name: str, o
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("operation=pocket,1,2,0.1", PocketOperation(Cut(1, 2.0, stock_to_leave=0.1))),
+        ("operation=pocket,1,2,0.1", PocketOperation(CutParameters(1, 2.0, stock_to_leave=0.1))),
         (
             "operation=contour,2,2,0,outside)\n(hitofude: leads_mm=1,3.5",
-            ContourOperation(Cut(2, 2.0), Side.OUTSIDE, Lead(radius=3.5)),
+            ContourOperation(CutParameters(2, 2.0), Side.OUTSIDE, Lead(radius=3.5)),
         ),
-        ("operation=drill,2,5,0)\n(hitofude: holes_mm=1,2.5,3,0.5", DrillOperation(Cut(2, 5.0), None, 2.5, 3.0, 0.5)),
+        (
+            "operation=drill,2,5,0)\n(hitofude: holes_mm=1,2.5,3,0.5",
+            DrillOperation(CutParameters(2, 5.0), None, 2.5, 3.0, 0.5),
+        ),
         (
             "operation=rest,1,2,0)\n(hitofude: operation_layer=1,a/b)\n(hitofude: floor_to_leave_mm=1,0.25",
-            RestOperation(Cut(1, 2.0, floor_to_leave=0.25, curves=on_layers(("a/b",)))),
+            RestOperation(CutParameters(1, 2.0, floor_to_leave=0.25, curves=on_layers(("a/b",)))),
         ),
     ],
 )

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from app.gcode.interpreter.dialect import Dialect
+from app.gcode.interpreter.fast_lane import FastLane
 from app.gcode.interpreter.options import ReadLimits, ReadOptions
 from app.gcode.interpreter.places import Cursor
 from app.gcode.interpreter.program import EventKind, NcProgram
-from app.gcode.interpreter.quick import QuickLane
 from app.gcode.interpreter.reader import read_program, read_steps
 from tests.examples import examples
 from tests.gcode.interpreter.any_lines import AnyLines
@@ -159,15 +159,15 @@ def test_it_leaves_to_the_core(text: str) -> None:
 def _lines_done(text: str) -> int:
     """Return how many lines of a program whose third line is `text` are done at the lane's first call."""
     ends: list[int] = []
-    run = QuickLane.run
+    run = FastLane.run
 
-    def counted(self: QuickLane, begin: Cursor, stop: int) -> Cursor:
+    def counted(self: FastLane, begin: Cursor, stop: int) -> Cursor:
         behind = run(self, begin, stop)
         ends.append(behind.line)
         return behind
 
     program = f"#1=5 F100\nG0 X5 Y0 Z9\n{text}\nO2 if [0]\nO2 endif\nM2\n"
-    with patch.object(QuickLane, "run", counted):
+    with patch.object(FastLane, "run", counted):
         read_program(program.encode())
     assert_same(program, ReadOptions())
     return ends[0] - 1

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.gcode.interpreter.fault import Fault
+from app.gcode.interpreter.block_fault import BlockFault
 from app.gcode.interpreter.reader import read_program
 from app.gcode.interpreter.splines import (
     OpenFanucNurbs,
@@ -134,7 +134,7 @@ def test_lengths_in_inches_with_offsets() -> None:
 def test_what_linuxcnc_refuses_is_refused(text: str, letter: str) -> None:
     with pytest.raises(AssertionError, match="refused"):
         exact_motions(f"{HEAD}{text}\nM2\n")
-    with pytest.raises(Fault) as fault:
+    with pytest.raises(BlockFault) as fault:
         run(text)
     assert fault.value.letter == letter
 
@@ -155,10 +155,10 @@ def run(text: str) -> None:
 
 def test_nonsense_that_linuxcnc_takes_is_refused_all_the_same() -> None:
     for text in ("G5.2 X1 Y1\nX2 Y2 P1\nG5.3", "G5.2 X1 Y1 P0\nX2 Y2 P1\nG5.3", "G5.2 P1e9\nX2 Y2 P1", "G5.2 P1 L21"):
-        with pytest.raises(Fault):
+        with pytest.raises(BlockFault):
             run(text)
     for plane in (Plane.ZX, Plane.YZ):
-        with pytest.raises(Fault, match="G17"):
+        with pytest.raises(BlockFault, match="G17"):
             check_plane(plane)
     check_plane(Plane.XY)
 
@@ -209,7 +209,7 @@ def test_a_quarter_circle_of_fanuc_is_round() -> None:
 def refused(
     order: int | None, blocks: list[tuple[float | None, tuple[float, float, float] | None, float | None]]
 ) -> str:
-    with pytest.raises(Fault) as fault:
+    with pytest.raises(BlockFault) as fault:
         block = OpenFanucNurbs((0.0, 0.0, 0.0), order)
         for knot, point, weight in blocks:
             block.add(point, knot, weight)

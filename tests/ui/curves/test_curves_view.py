@@ -7,8 +7,8 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
-from app.fitting.point_curves.correction import Select
-from app.fitting.point_curves.effective_points import Ends, PointState
+from app.fitting.point_curves.correction import CorrectionScope
+from app.fitting.point_curves.effective_points import PointState, RangeEnds
 from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
@@ -283,15 +283,15 @@ def test_only_fields_that_matter_are_seen(opened) -> None:
         and form.others.isVisible()
         and not any(field.isVisible() for field in (*late, form.share, form.reach))
     )
-    click(form.ends, Ends.RATIO)
+    click(form.ends, RangeEnds.RATIO)
     assert form.share.isVisible() and not form.reach.isVisible()
     click(form.others, "corrected")
     assert all(field.isVisible() for field in late) and not form.near.isVisible() and not form.moved.isVisible()
-    click(form.select, Select.DISTANCE)
+    click(form.select, CorrectionScope.DISTANCE)
     assert form.moved.isVisible() and not form.near.isVisible()
     method = form.method()
-    assert method is not None and method.correct is not None and method.choose.ends is Ends.RATIO
-    assert method.correct.select is Select.DISTANCE and method.correct.limit == form.moved.number
+    assert method is not None and method.correct is not None and method.choose.ends is RangeEnds.RATIO
+    assert method.correct.select is CorrectionScope.DISTANCE and method.correct.limit == form.moved.number
     click(form.points, False)
     assert not any(field.isVisible() for field in (form.epsilon, form.share, form.moved, *late))
 
@@ -300,7 +300,7 @@ def test_only_fields_that_matter_are_seen(opened) -> None:
 def test_points_are_told_apart_and_counted(qtbot, faceted, others, effective, corrected) -> None:
     view, panel = curves_of(faceted), faceted.window_.curves_panel
     if others == "left out":
-        click(panel.points.ends, Ends.RATIO)
+        click(panel.points.ends, RangeEnds.RATIO)
     click(panel.points.others, others)
     press_smooth(qtbot, faceted)
     points = view.curves.points

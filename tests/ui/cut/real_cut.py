@@ -7,7 +7,7 @@ import numpy as np
 from app.drafting.document import Document
 from app.gcode.interpreter.reader import read_program
 from app.model.motion_path import anchored
-from app.model.operation import Cut, PocketOperation
+from app.model.operation import CutParameters, PocketOperation
 from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import regions_of
@@ -49,7 +49,7 @@ def slot_part():
     """
     document = Document()
     document.run("rect 8,13 32,17")
-    job = replace(document.job, tools=(TOOL,), operations=(PocketOperation(Cut(1, 2.0, 2.0)),))
+    job = replace(document.job, tools=(TOOL,), operations=(PocketOperation(CutParameters(1, 2.0, 2.0)),))
     return FlatPart(job, regions_of(job)[0])
 
 

@@ -20,7 +20,7 @@ from app.ui.views.cut.time_plot import exact_clock
 from app.ui.views.cut.transport import notch_of, speed_of
 from app.usecases.cut import CutOptions
 from app.usecases.cut import cut as cut_of
-from app.usecases.timeline import Moment
+from app.usecases.timeline import TimelinePlace
 from tests.ui.cut.pictures import without_a_screen
 from tests.usecases.test_playback import from_start
 
@@ -66,7 +66,7 @@ def test_anywhere_at_once(qtbot, page):
         player.go(motion)
         settle(qtbot, page)
         assert shows(page, motion)
-        assert page.view.playing.tip == pytest.approx(player.timeline.place(Moment(motion)))
+        assert page.view.playing.tip == pytest.approx(player.timeline.place(TimelinePlace(motion)))
         assert page.view.playing.tool.number == player.timeline.tool[motion - 1]
         line = player.timeline.line[motion - 1]
         assert page.transport.place.text().startswith(f"line {line} · T{player.timeline.tool[motion - 1]} ")
@@ -119,7 +119,7 @@ def test_keys_step_to_lines_moves_and_tools(qtbot, page):
     player, timeline = page.player, page.player.timeline
     press(page, Qt.Key.Key_Home)
     settle(qtbot, page)
-    assert player.at == Moment(0)
+    assert player.at == TimelinePlace(0)
     press(page, Qt.Key.Key_Period)
     settle(qtbot, page)
     assert player.at.motion == timeline.line_ends[0]
@@ -192,7 +192,7 @@ def test_within_a_long_move_the_tool_goes_on(qtbot, page):
     settle(qtbot, page)
     assert player.at.motion == long
     assert page.view.model.picture.heights.sum() < before
-    assert not np.allclose(page.view.playing.tip, timeline.place(Moment(long)))
+    assert not np.allclose(page.view.playing.tip, timeline.place(TimelinePlace(long)))
 
 
 def test_a_click_on_the_plot_goes_there(qtbot, page):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.gcode.interpreter.program import ModalState, NcProgram, Problem
+from app.gcode.interpreter.program import ModalState, NcProgram, ProgramProblem
 from app.model.motion import MotionKind, Motions, Plane
 
 
@@ -32,7 +32,7 @@ def motions_of(rows: list[tuple], start=(0.0, 0.0, 0.0)) -> Motions:
 
 
 def program_of(
-    rows: list[tuple], states: tuple[ModalState, ...] = (ModalState(tool=1),), problems: tuple[Problem, ...] = ()
+    rows: list[tuple], states: tuple[ModalState, ...] = (ModalState(tool=1),), problems: tuple[ProgramProblem, ...] = ()
 ) -> NcProgram:
     """Return a read program of such rows."""
     return NcProgram(motions_of(rows), states, problems=problems, line_count=max((row[2] for row in rows), default=0))

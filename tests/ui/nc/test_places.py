@@ -1,6 +1,6 @@
 """Rows of problems and differences, and the lines that they mark."""
 
-from app.gcode.interpreter.program import Problem, Severity
+from app.gcode.interpreter.program import ProgramProblem, Severity
 from app.gcode.interpreter.reader import read_program
 from app.gcode.rework.compare import compare
 from app.ui.views.nc.places import difference_places, differing_rows, in_order, problem_places, rows_of
@@ -14,7 +14,7 @@ def differences(changed):
 
 
 def test_errors_and_warnings_are_counted_and_sorted():
-    problems = in_order([Problem(9, 3, "G5", "late."), Problem(2, 0, "", "early.", Severity.WARNING)])
+    problems = in_order([ProgramProblem(9, 3, "G5", "late."), ProgramProblem(2, 0, "", "early.", Severity.WARNING)])
     title, rows = problem_places(problems)
     assert title == "1 error, 1 warning"
     assert [row.words for row in rows] == ["2   early.", "9:3   G5: late."]
@@ -48,7 +48,7 @@ def test_a_line_in_two_halves_is_only_a_remark():
 def test_panel_steps_round_and_hides_without_rows(qtbot):
     panel = PlacesPanel("problem", "F4")
     qtbot.addWidget(panel)
-    panel.show_places("2 errors", problem_places([Problem(1, 1, "X", "a."), Problem(2, 1, "Y", "b.")])[1])
+    panel.show_places("2 errors", problem_places([ProgramProblem(1, 1, "X", "a."), ProgramProblem(2, 1, "Y", "b.")])[1])
     seen = []
     panel.picked.connect(seen.append)
     for way in (1, 1, 1, -1):

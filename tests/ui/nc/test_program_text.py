@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.gcode.interpreter.text import Text
+from app.gcode.interpreter.text import ProgramBuffer
 from app.ui.views.nc.program_text import program_text
 from app.ui.views.nc.syntax import Part, spans
 
@@ -13,7 +13,7 @@ from app.ui.views.nc.syntax import Part, spans
 def test_lines_are_those_that_the_reader_counts(words):
     data = words.encode()
     made, offset = program_text(data), 0
-    read = Text(data)
+    read = ProgramBuffer(data)
     for row in range(len(made)):
         assert made.line(row) == read.line(offset)
         offset = read.line_end(offset) + 1

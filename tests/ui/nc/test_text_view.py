@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QHelpEvent
 from PySide6.QtWidgets import QApplication, QToolTip
 
-from app.gcode.interpreter.program import Problem, Severity
+from app.gcode.interpreter.program import ProgramProblem, Severity
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.views.nc.line_looks import line_looks
 from app.ui.views.nc.program_text import program_text
@@ -126,7 +126,7 @@ def test_words_have_colours_and_follow_the_theme(view):
 
 
 def problem_view(view, column=4, word="X7"):
-    view.show_looks(line_looks(500, None, [Problem(8, column, word, "X is too far; use less.", Severity.ERROR)]))
+    view.show_looks(line_looks(500, None, [ProgramProblem(8, column, word, "X is too far; use less.", Severity.ERROR)]))
     return view
 
 

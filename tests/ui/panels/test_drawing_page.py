@@ -8,7 +8,7 @@ from app.drafting.curves.shapes import curve_length
 from app.drafting.document import Document
 from app.geometry.sample import bounds, union
 from app.model.curves import Arc, Circle, Line
-from app.model.notes import Dimension, Measure
+from app.model.notes import Dimension, DimensionKind
 from app.model.part import Part
 from app.ui.framework import style
 from app.ui.framework.figures import TIMES
@@ -166,7 +166,7 @@ def test_many_curves_are_added_up_while_the_window_lives(qtbot, page, document):
 
 
 def test_a_dimension_tells_what_it_measures(page, document):
-    part = Part().with_note(Dimension(Measure.RADIUS, ((0, 0), (5, 0)), (9, 9)), "0")
+    part = Part().with_note(Dimension(DimensionKind.RADIUS, ((0, 0), (5, 0)), (9, 9)), "0")
     document.load(type(document.job)(part))
     document.selection = frozenset({1})
     page.refresh()

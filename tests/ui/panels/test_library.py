@@ -11,7 +11,7 @@ from app.drafting.document import Document
 from app.formats.tools.files import read_tools, write_tools
 from app.formats.tools.library import ToolLibrary, load_libraries, own_folder
 from app.model.job import Job
-from app.model.operation import Cut, DrillOperation
+from app.model.operation import CutParameters, DrillOperation
 from app.model.part import Part, Units
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
 from app.model.tool_kind import tool_kinds
@@ -92,7 +92,7 @@ def test_a_drill_is_put_into_the_job_and_drills(qtbot, document, panel, words):
     qtbot.mouseClick(panel.library.add_button, Qt.MouseButton.LeftButton)
     added = document.job.tools[-1]
     assert added.kind is ToolKind.DRILL and added.tip_angle > 0
-    document.job.cutter(DrillOperation(Cut(added.number)))
+    document.job.cutter(DrillOperation(CutParameters(added.number)))
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from app.drafting.document import Document
 from app.model import operation as operations
 from app.model.job import Job
-from app.model.operation import OPERATION_KINDS, Cut, parameters_of, register
+from app.model.operation import OPERATION_KINDS, CutParameters, parameters_of, register
 from app.model.part import Part
 from app.ui.framework.fields import ChoiceField, ListField, NumberField
 from app.ui.framework.form import SwitchField
@@ -25,7 +25,7 @@ def form(qtbot, monkeypatch):
 
 
 def job_of(kind):
-    return Job(Part(), operations=(kind(Cut(2)),))
+    return Job(Part(), operations=(kind(CutParameters(2)),))
 
 
 @pytest.mark.parametrize("kind", [*OPERATION_KINDS.values(), EngraveOperation], ids=lambda kind: kind.WORD)

@@ -8,7 +8,7 @@ import pytest
 
 from app.formats.plot.flat import dashes
 from app.formats.plot.layout import Plot
-from app.formats.plot.page import Ink, Page, Pen, Trace
+from app.formats.plot.page import PageContent, Pen, PlotPage, TracedPolyline
 from app.formats.plot.surface_plot import DASHES
 from app.geometry.transform import Similarity
 from app.model.scene import LineType
@@ -22,7 +22,9 @@ FINE = np.column_stack([X, np.full_like(X, 10.0)])
 @pytest.mark.parametrize("line", [LineType.SOLID, LineType.DOTTED, LineType.CHAIN])
 def test_line_types_are_painted_along_many_short_chords(qapp: object, line: LineType) -> None:
     pen = Pen(1, "#000000", 0.3, DASHES[line])
-    page = Page(100.0, 20.0, (0.0, 0.0, 100.0, 20.0), Similarity(2 + 0j), Ink(traces=(Trace(pen, FINE / 2),)))
+    page = PlotPage(
+        100.0, 20.0, (0.0, 0.0, 100.0, 20.0), Similarity(2 + 0j), PageContent(traces=(TracedPolyline(pen, FINE / 2),))
+    )
     image = cv2.imdecode(np.frombuffer(png_bytes(sheets(Plot((page,), 1, 2.0))[0]), np.uint8), cv2.IMREAD_GRAYSCALE)
     assert image is not None
     per_mm = image.shape[1] / 100.0

@@ -6,7 +6,7 @@ import pytest
 
 from app.core.errors import InputError
 from app.model.job import Job
-from app.model.operation import ContourOperation, Cut, PocketOperation
+from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool, ToolKind
 from app.ui.views.session1986.answers import Offsets, amount, job_of, offered
@@ -15,7 +15,11 @@ from app.ui.views.session1986.screen import BOTTOM, TOP
 
 
 def test_the_job_s_own_tools_are_offered() -> None:
-    job = Job(Part(), (Tool(7, 8.0), Tool(9, 2.0)), (ContourOperation(Cut(9)), PocketOperation(Cut(7), 6.0)))
+    job = Job(
+        Part(),
+        (Tool(7, 8.0), Tool(9, 2.0)),
+        (ContourOperation(CutParameters(9)), PocketOperation(CutParameters(7), 6.0)),
+    )
     assert offered(job) == Offsets(1.0, 4.0, 2.0)
     assert offered(replace(job, operations=())) == Offsets(1.5, 3.0, 3.0)
 
@@ -43,13 +47,18 @@ def test_an_unchanged_answer_keeps_the_tool_as_it_is() -> None:
     made = job_of(job, Offsets(1.25, 3.0, 3.0))
     assert made.tool(1) is ball and made.tool(5) == Tool(5, 1.0)
     assert (made.tool(2).diameter, made.tool(2).kind) == (2.5, ToolKind.FLAT)
-    assert made.operations[0] == PocketOperation(Cut(1), None)
+    assert made.operations[0] == PocketOperation(CutParameters(1), None)
     assert offered(made) == Offsets(1.25, 3.0, 3.0)
 
 
 def test_everything_but_tools_and_operations_stays() -> None:
-    cut = Cut(1, depth=7.0, stepdown=1.5, stock_to_leave=0.3, enabled=False)
-    job = Job(Part(name="p"), operations=(PocketOperation(cut), PocketOperation(Cut(2))), safe_z=9.0, exact_path=True)
+    cut = CutParameters(1, depth=7.0, stepdown=1.5, stock_to_leave=0.3, enabled=False)
+    job = Job(
+        Part(name="p"),
+        operations=(PocketOperation(cut), PocketOperation(CutParameters(2))),
+        safe_z=9.0,
+        exact_path=True,
+    )
     made = job_of(job, Offsets(1.5, 4.0, 5.0))
     assert replace(made, tools=job.tools, operations=job.operations) == job
     assert [type(each) for each in made.operations] == [PocketOperation, ContourOperation]
@@ -58,7 +67,7 @@ def test_everything_but_tools_and_operations_stays() -> None:
 
 
 def test_one_tool_for_both_becomes_two() -> None:
-    job = Job(Part(), (Tool(4, 5.0),), (PocketOperation(Cut(4)), ContourOperation(Cut(4))))
+    job = Job(Part(), (Tool(4, 5.0),), (PocketOperation(CutParameters(4)), ContourOperation(CutParameters(4))))
     made = job_of(job, Offsets(1.0, 2.5, 2.5))
     assert [made.tool(each.cut.tool).radius for each in made.operations] == [2.5, 1.0]
     assert len({tool.number for tool in made.tools}) == 2

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from app.raster.codes import PixelCode
-from app.raster.steps import Stage
-from app.raster.trace import Chain, trace
+from app.raster.steps import StepState
+from app.raster.trace import PixelChain, trace
 from app.ui.views.session1986.glyphs import CELL, line_bits, spoken, wrapped
 from app.ui.views.session1986.screen import (
     BOTTOM,
@@ -93,7 +93,7 @@ def test_the_key_card_fits() -> None:
 
 def test_the_contour_tool_s_path_is_dashed() -> None:
     chains, _ = trace(square())
-    picture = still_of(Stage(120, square()), chains[:1]).picture
+    picture = still_of(StepState(120, square()), chains[:1]).picture
     assert not (picture & (square() == 0)).any()
     share = picture.sum() / (square() != 0).sum()
     assert share == pytest.approx(DASH / (DASH + GAP), abs=0.02)
@@ -103,7 +103,7 @@ def test_one_bit_tells_left_processed_and_paths_apart() -> None:
     plane = square()
     plane[120:180, 120:180], plane[120:180, 200:260] = PixelCode.CONTOUR, PixelCode.PROCESSED
     plane[150, 110:290] = PixelCode.RING
-    picture = still_of(Stage(147, plane)).picture
+    picture = still_of(StepState(147, plane)).picture
     assert picture[121:149, 120:180].mean() == pytest.approx(1 / 2, abs=0.02)
     assert picture[121:149, 200:260].mean() == pytest.approx(1 / 16, abs=0.02)
     assert picture[150, 110:290].all()
@@ -114,23 +114,23 @@ def test_one_bit_tells_left_processed_and_paths_apart() -> None:
 def test_marks_stand_out_as_blocks(number: int, code: PixelCode) -> None:
     plane = np.zeros((400, 400), np.uint8)
     plane[200, 200] = plane[12, 399] = code
-    picture = still_of(Stage(number, plane)).picture
+    picture = still_of(StepState(number, plane)).picture
     assert picture[199:202, 199:202].all() and picture.sum() == 9 + 6
 
 
 @pytest.mark.parametrize("directions", [[0] * 99, [2] * 99, [7] * 99, [5] * 99, [7, 6] * 50, [0, 1, 0, 0] * 25])
 def test_a_path_that_is_still_to_be_smoothed_is_dotted_whichever_way_it_runs(directions: list[int]) -> None:
-    chain = Chain((200, 200), np.array(directions, np.uint8))
+    chain = PixelChain((200, 200), np.array(directions, np.uint8))
     plane = np.zeros((400, 400), np.uint8)
     plane[tuple(chain.pixels().T)] = PixelCode.CONTOUR
-    picture = still_of(Stage(402, plane), smoothed=[chain]).picture
+    picture = still_of(StepState(402, plane), smoothed=[chain]).picture
     assert picture.sum() == pytest.approx(50, abs=1)
     plane = plane.copy()
     plane[tuple(chain.pixels()[:50].T)] = PixelCode.LONG_LINE
-    assert still_of(Stage(403, plane), smoothed=[chain]).picture.sum() == pytest.approx(75, abs=1)
+    assert still_of(StepState(403, plane), smoothed=[chain]).picture.sum() == pytest.approx(75, abs=1)
 
 
 def test_a_still_names_step_region_and_turn() -> None:
-    still = still_of(Stage(304, square(), region=2, turn=3))
+    still = still_of(StepState(304, square(), region=2, turn=3))
     assert (still.number, still.name) == (304, "Mark it processed  AREA 2  TURN 3")
-    assert still_of(Stage(130, square())).hold_ms > still.hold_ms
+    assert still_of(StepState(130, square())).hold_ms > still.hold_ms

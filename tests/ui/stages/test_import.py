@@ -11,7 +11,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication
 
 from app.raster.codes import PixelCode
-from app.raster.picture_options import Shows
+from app.raster.picture_options import InkMeaning
 from app.ui.framework.computation import State
 from app.ui.framework.figures import TIMES
 from app.ui.framework.theme import LIGHT
@@ -90,15 +90,15 @@ def test_ink_can_be_told_otherwise(qtbot, opened):
     assert not read(qtbot, opened).picture.ink.any()
     qtbot.mouseClick(panel.otsu, LEFT)
     lines = read(qtbot, opened)
-    assert panel.threshold.value() == otsu and lines.kind is Shows.LINES
+    assert panel.threshold.value() == otsu and lines.kind is InkMeaning.LINES
     qtbot.mouseClick(panel.invert, LEFT)
     assert np.array_equal(read(qtbot, opened).picture.ink, ~lines.picture.ink)
     qtbot.mouseClick(panel.invert, LEFT)
-    qtbot.mouseClick(panel.ink.buttons[Shows.AREAS], LEFT)
+    qtbot.mouseClick(panel.ink.buttons[InkMeaning.AREAS], LEFT)
     areas = read(qtbot, opened)
     assert "ink itself is machined" in panel.kind.text()
     assert (
-        areas.kind is Shows.AREAS
+        areas.kind is InkMeaning.AREAS
         and np.array_equal(areas.plane == PixelCode.INSIDE, lines.picture.ink)
         and not areas.places
     )

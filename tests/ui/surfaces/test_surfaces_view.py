@@ -11,7 +11,7 @@ from app.ui.views.surfaces.scene_raster import ColourBy, Layer
 from app.ui.views.surfaces.scene_work import SceneState
 from app.ui.views.surfaces.shown_scene import is_scene
 from app.ui.views.surfaces.surfaces_view import Look
-from app.usecases.strands import Role
+from app.usecases.scene_lines import LineRole
 
 WAIT_MS = 60_000
 COMPOUND = resource("samples", "compound.toml")
@@ -49,7 +49,12 @@ def test_a_scene_that_is_opened_comes_to_the_front(opened):
     assert not window.side.isVisible()
     assert window.scene_side.isVisible()
     assert window.preferences.settings.recent_files[0] == str(COMPOUND.absolute())
-    assert {each.role for each in shown.space.strands} == {Role.PATH, Role.LINK, Role.RAPID, Role.PLUNGE}
+    assert {each.role for each in shown.space.strands} == {
+        LineRole.PATH,
+        LineRole.LINK,
+        LineRole.RAPID,
+        LineRole.PLUNGE,
+    }
     assert f"{len(shown.computed.scene.surfaces)} surfaces" in window.views.surfaces.summary
 
 
@@ -90,7 +95,7 @@ def test_the_section_is_what_lies_on_the_plane(opened):
     view.plane.setValue(4)
     family, plane = view.shown.planes[4]
     picture = view.shown.section(family, plane)
-    top = [each for each in picture.strands if each.role is Role.PATH]
+    top = [each for each in picture.strands if each.role is LineRole.PATH]
     runs = [run for run in family.surface.runs if run.plane == plane]
     assert view.at.text() == f"5 / {len(view.shown.planes)}"
     assert sum(len(each.points) - 1 for each in top) == sum(len(run.owner) for run in runs)
@@ -155,7 +160,7 @@ def test_each_surface_is_seen_in_its_colour(opened):
     view.set_look(Look.PLAN)
     image = view.canvas.grab().toImage()
     seen = {image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)}
-    used = {view.shown.colours[each.surface].lower() for each in view.shown.space.strands if each.role is Role.PATH}
+    used = {view.shown.colours[each.surface].lower() for each in view.shown.space.strands if each.role is LineRole.PATH}
     assert len(used) == 3
     assert used <= seen
 

@@ -47,7 +47,7 @@ class AroundPicture:
         self._clamps.setFillRule(Qt.FillRule.OddEvenFill)
         if not job.keep_out_layers:
             return
-        from ....toolpath.drawn import clamps_of  # reads contours: only where there are clamps
+        from ....toolpath.drawn_contours import clamps_of  # reads contours: only where there are clamps
 
         try:
             regions = clamps_of(job)[0]

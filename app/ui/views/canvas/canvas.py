@@ -9,15 +9,15 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter, QPainterPath, QShowEvent
 from PySide6.QtWidgets import QWidget
 
-from ....drafting.difference import Difference
-from ....drafting.document import Change, Document
+from ....drafting.difference import DrawingDifference
+from ....drafting.document import Document, DocumentChange
 from ....geometry.sample import Box, union
 from ....model.curves import Point
 from ....model.finding import Finding
 from ....model.moves import Program
 from ....model.notes import Note
 from ....model.part import Entity
-from ....raster.frame import Frame
+from ....raster.frame import BitmapFrame
 from ...framework.theme import Theme
 from . import overlay
 from .around_picture import AroundPicture
@@ -35,7 +35,7 @@ from .underlay import UnderlayPicture
 from .value_picture import SheetPlace, ValueSheet, paint_values
 from .view import View
 
-__all__ = ["Canvas", "CanvasMode", "CanvasTool", "ColourBy", "Frame", "PathLayers"]
+__all__ = ["BitmapFrame", "Canvas", "CanvasMode", "CanvasTool", "ColourBy", "PathLayers"]
 
 _BLEED_PX = 8.0
 """How far lines and marks reach beyond the shape they belong to."""
@@ -65,13 +65,13 @@ class Canvas(Hands):
     def __init__(self, document: Document, theme: Theme, parent: QWidget | None = None) -> None:
         """Show a document; it is followed from now on."""
         super().__init__(document, parent)
-        self.frame = Frame()
+        self.frame = BitmapFrame()
         self._underlay: UnderlayPicture | None = None
         self._look, self._mode = PathLook(theme), CanvasMode.DRAW
         self._program: ProgramPicture | None = None
         self.around = AroundPicture()
         self._trial, self._trial_picture, self._preview_picture = (
-            Difference(),
+            DrawingDifference(),
             overlay.TrialPicture(),
             overlay.TrialPicture(),
         )
@@ -82,7 +82,7 @@ class Canvas(Hands):
         self.setMinimumSize(200, 150)
         self.setAccessibleName("Drawing")
         document.subscribe(self._follow)
-        self._follow(Change.ALL)
+        self._follow(DocumentChange.ALL)
 
     @property
     def mode(self) -> CanvasMode:
@@ -123,7 +123,7 @@ class Canvas(Hands):
         self._program = ProgramPicture(program) if isinstance(program, Program) else program
         self.repaint_scene()
 
-    def show_trial(self, trial: Difference) -> None:
+    def show_trial(self, trial: DrawingDifference) -> None:
         """Show what a command would make of the drawing before it is carried out; an empty difference shows nothing."""
         self._trial = trial
         self.update()
@@ -152,7 +152,7 @@ class Canvas(Hands):
         if stale != self._look.stale:
             self._set_look(replace(self._look, stale=stale))
 
-    def set_frame(self, frame: Frame) -> None:
+    def set_frame(self, frame: BitmapFrame) -> None:
         """Lay the display's frame elsewhere, or give its cells another size."""
         self.frame = frame
         self.repaint_scene()
@@ -372,15 +372,15 @@ class Canvas(Hands):
             return None
         return self.grips.at(self.view.to_world(self.mouse), GRIP_PX / self.view.scale)
 
-    def _follow(self, change: Change) -> None:
+    def _follow(self, change: DocumentChange) -> None:
         places: list[Box] | None = []
-        if Change.PART in change:
+        if DocumentChange.PART in change:
             places = self.picture.update(self.document.part)
             self.look_at(None)
             self.runner.after_undo()
             self._aim_again()
-        around = bool(change & (Change.PART | Change.JOB)) and self.around.update(self.document.job)
-        if change & (Change.PART | Change.SELECTION):
+        around = bool(change & (DocumentChange.PART | DocumentChange.JOB)) and self.around.update(self.document.job)
+        if change & (DocumentChange.PART | DocumentChange.SELECTION):
             selected = self.picture.select(self.document.selection)
             self.grips.update(self.document, self._mode is CanvasMode.DRAW)
             places = places + selected if places is not None and selected is not None else None
@@ -389,7 +389,7 @@ class Canvas(Hands):
             self.repaint_scene()
         elif places:
             self.repaint_places(places, _BLEED_PX)
-        if Change.LOADED in change:
+        if DocumentChange.LOADED in change:
             self._fresh = True
             self._show_all()
 

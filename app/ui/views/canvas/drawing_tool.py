@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from ....core.errors import InputError
 from ....core.tolerances import WELD
-from ....drafting.difference import Difference
+from ....drafting.difference import DrawingDifference
 from ....drafting.document import Document
 from ....model.curves import Arc, Curve, Line, Point
 from .value_boxes import PLACE, SPAN, NamedValue, PointBoxes, ValueBox
@@ -61,7 +61,7 @@ class Preview:
     curves: tuple[Curve, ...] = ()
     helpers: tuple[Line, ...] = ()
     label: str = ""
-    trial: Difference = field(default_factory=Difference)
+    trial: DrawingDifference = field(default_factory=DrawingDifference)
 
 
 @dataclass

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ....core.tolerances import WELD
-from ....drafting.curves.meet import foot
+from ....drafting.curves.intersections import nearest_point
 from ....model.curves import Point
 from .asking import CHOOSE, Answer, Ask, AskingTool, answer_text, direction_from, point_of
 from .drawing_tool import Pick, Preview
@@ -196,7 +196,7 @@ class OffsetTool(AskingTool):
         curves = [
             curve for number in sorted(self.selection)[:100] if part and (curve := part.curve(number)) is not None
         ]
-        return round(min((math.dist(foot(curve, point), point) for curve in curves), default=0.0), 6)
+        return round(min((math.dist(nearest_point(curve, point), point) for curve in curves), default=0.0), 6)
 
 
 @dataclass

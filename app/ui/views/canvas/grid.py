@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
-from ....raster.frame import Frame
+from ....raster.frame import BitmapFrame
 from ...framework.figures import TIMES
 from ...framework.theme import Theme, text_font
 from .view import View, nice_step
@@ -31,7 +31,7 @@ def grid_steps(view: View, unit: float = 1.0) -> tuple[float, float]:
     return major / parts * unit, major * unit
 
 
-def cells_shown(view: View, frame: Frame) -> bool:
+def cells_shown(view: View, frame: BitmapFrame) -> bool:
     """Return whether the cells of the display are large enough to be seen."""
     return frame.pitch * view.scale >= CELL_PX
 
@@ -51,7 +51,7 @@ def paint_raster(painter: QPainter, view: View, area: QRectF, theme: Theme, unit
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
 
-def paint_display(painter: QPainter, view: View, area: QRectF, frame: Frame, theme: Theme) -> None:
+def paint_display(painter: QPainter, view: View, area: QRectF, frame: BitmapFrame, theme: Theme) -> None:
     """Paint the display's cells when they are near, marks at its corners and its name: it is no stock, so it has no
     outline.
     """
@@ -168,7 +168,7 @@ def _paint_raster(painter: QPainter, view: View, area: QRectF, step: float, colo
     )
 
 
-def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: Frame, theme: Theme) -> None:
+def _paint_cells(painter: QPainter, view: View, part: QRectF, frame: BitmapFrame, theme: Theme) -> None:
     """Paint the raster of the display's cells, stronger the larger they are."""
     if part.isEmpty():
         return

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ....drafting.commands.pull import Grip, grips, held_at, note_grips
+from ....drafting.commands.grips import Grip, grip_position, grips, note_grips
 from ....drafting.commands.select import reachable
-from ....drafting.difference import Difference
+from ....drafting.difference import DrawingDifference
 from ....drafting.document import Document
 from ....drafting.expressions.words import ids_text, point_text
 from ....model.curves import Point
@@ -92,7 +92,9 @@ class PullTool(HeldTool):
     def show(self, cursor: Point) -> Preview:
         """Return what the curves would become, where they would be curves."""
         made = (
-            self.trials.of(self.line([self.points[0], cursor])).difference if self.trials is not None else Difference()
+            self.trials.of(self.line([self.points[0], cursor])).difference
+            if self.trials is not None
+            else DrawingDifference()
         )
         return replace(super().show(cursor), trial=replace(made, gone=()))
 
@@ -122,4 +124,4 @@ class CarryTool(HeldTool):
 
 def pull_tool(document: Document, at: Point) -> PullTool:
     """Return the tool that holds the grip at a point of what is selected."""
-    return PullTool([at], Trials(document), held_at(document.part, document.selection, at))
+    return PullTool([at], Trials(document), grip_position(document.part, document.selection, at))

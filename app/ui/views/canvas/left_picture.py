@@ -15,7 +15,7 @@ from .pens import FINE, screen_pen
 from .view import View
 
 if TYPE_CHECKING:
-    from ....toolpath.coverage.coverage import Place
+    from ....toolpath.coverage.coverage import UncutPlace
 
 _SMALLEST_PX = 0.8
 """What is smaller on the screen is not painted."""
@@ -30,7 +30,7 @@ _FILL = 0.35
 class LeftPicture:
     """Pieces of floor that are left, of one kind, ready to paint."""
 
-    def __init__(self, places: Sequence[Place]) -> None:
+    def __init__(self, places: Sequence[UncutPlace]) -> None:
         """Build every outline once, in mm."""
         self._paths = [_outline(place) for place in places]
         bounds = [(*place.outline.min(axis=0), *place.outline.max(axis=0)) for place in places]
@@ -59,7 +59,7 @@ class LeftPicture:
                 painter.fillPath(self._paths[k], hatch)
 
 
-def _outline(place: Place) -> QPainterPath:
+def _outline(place: UncutPlace) -> QPainterPath:
     path = QPainterPath()
     path.setFillRule(Qt.FillRule.OddEvenFill)
     for ring in (place.outline, *place.holes):

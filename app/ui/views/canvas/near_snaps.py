@@ -12,8 +12,8 @@ from itertools import combinations
 
 import numpy as np
 
-from ....drafting.curves.meet import foot, has, meets, tangent_points
-from ....drafting.curves.touching import square_points
+from ....drafting.curves.intersections import intersection_points, lies_on, nearest_point, tangent_points
+from ....drafting.curves.perpendiculars import perpendicular_feet
 from ....geometry.sample import Box, Points, sample, spline_points
 from ....model.curves import Arc, Circle, Curve, Ellipse, Line, Point, Spline
 from .snap import Snap, SnapKind, snaps_of
@@ -50,7 +50,9 @@ def near_snaps(near: Near, kinds: frozenset[SnapKind]) -> list[Snap]:
     curves = [*near.curves[:MOST], *near.guides]
     if SnapKind.INTERSECTION in kinds:
         found += (
-            Snap(p, SnapKind.INTERSECTION) for a, b in combinations(curves, 2) for p in meets(a, b, within=near.box)
+            Snap(p, SnapKind.INTERSECTION)
+            for a, b in combinations(curves, 2)
+            for p in intersection_points(a, b, within=near.box)
         )
     if near.base is not None and SnapKind.PERPENDICULAR in kinds:
         found += (
@@ -81,7 +83,7 @@ def forced(near: Near, kind: SnapKind, snaps: Iterable[Snap]) -> Snap | None:
 def distance_to(curve: Curve, at: Point) -> float:
     """Return how far a point is from a curve, mm; for ellipses and splines from the chords of their samples."""
     if isinstance(curve, Line | Arc | Circle):
-        return math.dist(foot(curve, at), at)
+        return math.dist(nearest_point(curve, at), at)
     points = _samples(curve)
     a, d = points[:-1], np.diff(points, axis=0)
     square = np.einsum("ij,ij->i", d, d)
@@ -93,7 +95,7 @@ def nearest_on(curve: Curve, at: Point) -> Point:
     """Return the point of a curve nearest to a point, mm; it lies on the curve to the last digit."""
     if isinstance(curve, Spline):
         return _nearest_on_spline(curve, at)
-    return foot(curve, at)
+    return nearest_point(curve, at)
 
 
 @lru_cache(4096)
@@ -133,8 +135,8 @@ def _feet(curve: Curve, base: Point) -> tuple[Point, ...]:
         if away == 0:
             return ()
         ux, uy = (base[0] - x) / away * curve.radius, (base[1] - y) / away * curve.radius
-        return tuple(p for p in ((x + ux, y + uy), (x - ux, y - uy)) if has(curve, p))
-    return tuple(square_points(curve, base))
+        return tuple(p for p in ((x + ux, y + uy), (x - ux, y - uy)) if lies_on(curve, p))
+    return tuple(perpendicular_feet(curve, base))
 
 
 @lru_cache(256)

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPolygonF
 
-from ....drafting.commands.pull import note_grips
+from ....drafting.commands.grips import note_grips
 from ....geometry.dimension_lines import dimension_lines
 from ....geometry.sample import Box
 from ....model.curves import Curve, Line, Point

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
-from ....drafting.difference import Difference
+from ....drafting.difference import DrawingDifference
 from ....model.curves import Point
 from ....model.finding import Finding
 from ...framework.theme import Theme
@@ -45,10 +45,10 @@ class TrialPicture:
 
     def __init__(self) -> None:
         """Begin with nothing."""
-        self._trial = Difference()
+        self._trial = DrawingDifference()
         self._gone, self._added = QPainterPath(), QPainterPath()
 
-    def paths(self, trial: Difference) -> tuple[QPainterPath, QPainterPath]:
+    def paths(self, trial: DrawingDifference) -> tuple[QPainterPath, QPainterPath]:
         """Return the paths of what goes and of what comes, mm."""
         if trial is not self._trial:
             self._trial = trial
@@ -57,7 +57,7 @@ class TrialPicture:
             )
         return self._gone, self._added
 
-    def paint(self, painter: QPainter, view: View, trial: Difference, theme: Theme) -> None:
+    def paint(self, painter: QPainter, view: View, trial: DrawingDifference, theme: Theme) -> None:
         """Paint what comes in the accent, what goes in the colour of errors."""
         paint_notes(painter, view, trial.notes, (theme.accent, 1.4), QRectF(painter.viewport()))
         if not (trial.added or trial.gone):

@@ -24,7 +24,7 @@ from .program_geometry import shape_moves
 from .view import View
 
 if TYPE_CHECKING:
-    from ....toolpath.coverage.coverage import Place
+    from ....toolpath.coverage.coverage import UncutPlace
     from .stretches import Stretches
 
 CUT_WIDTH, LINK_WIDTH, RAPID_WIDTH, TAB_WIDTH = 1.6, 1.0, 1.0, 5.0
@@ -74,7 +74,7 @@ class ProgramPicture:
         left, unreachable: what a tool could have cut and did not; what no tool reaches.
     """
 
-    def __init__(self, program: Program, places: tuple[Place, ...] = (), engaged: Stretches | None = None) -> None:
+    def __init__(self, program: Program, places: tuple[UncutPlace, ...] = (), engaged: Stretches | None = None) -> None:
         """Build every path once, in mm; `engaged` are its moves by engagement, where that was measured."""
         self.measured = engaged is not None
         self.left = LeftPicture([place for place in places if place.reachable])

@@ -16,7 +16,7 @@ from ....toolpath.coverage.flat import move_rows
 from .engaged import STEPS
 
 if TYPE_CHECKING:
-    from ....toolpath.engagement.engagement import Seen
+    from ....toolpath.engagement.engagement import EngagementSamples
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,7 +41,7 @@ class Stretches:
     step: Ints
 
 
-def stretches(moves: Moves, seen: Seen) -> Stretches:
+def stretches(moves: Moves, seen: EngagementSamples) -> Stretches:
     """Return moves cut where the engagement that was seen along them changes its step."""
     if not len(seen.share):
         return Stretches(moves, np.zeros(len(moves), np.int64))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ....core.tolerances import WELD
-from ....drafting.curves.meet import meets
+from ....drafting.curves.intersections import intersection_points
 from ....model.curves import Curve, Line, Point
 
 _PX = 5.0
@@ -133,7 +133,7 @@ def tracked(
     near.sort(key=lambda pair: pair[0])
     for (_, a), (_, b) in combinations(near, 2):
         if a.start != b.start:
-            crossing = meets(Line(a.start, a.at(1.0)), Line(b.start, b.at(1.0)), extended=True)
+            crossing = intersection_points(Line(a.start, a.at(1.0)), Line(b.start, b.at(1.0)), extended=True)
             if crossing and math.dist(crossing[0], at) <= 2 * reach:
                 return Tracked(_tidy(crossing[0]), (a, b))
     met = [(math.dist(p, at), p, ray) for _, ray in near for curve in curves for p in _meets(ray, curve, at, 2 * reach)]
@@ -151,7 +151,9 @@ def _meets(ray: Ray, curve: Curve, at: Point, reach: float) -> list[Point]:
     stretch = Line(ray.start, ray.at(ray.seen_from(at)[0] + 2 * reach))
     box = (at[0] - reach, at[1] - reach, at[0] + reach, at[1] + reach)
     return [
-        p for p in meets(stretch, curve, within=box) if math.dist(p, at) <= reach and math.dist(p, ray.start) > WELD
+        p
+        for p in intersection_points(stretch, curve, within=box)
+        if math.dist(p, at) <= reach and math.dist(p, ray.start) > WELD
     ]
 
 

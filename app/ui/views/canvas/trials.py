@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field
 
 from ....core.errors import InputError
-from ....drafting.difference import Difference, difference
+from ....drafting.difference import DrawingDifference, difference
 from ....drafting.document import Document
 from ....drafting.expressions.errors import reason_of
 from ....drafting.language.language import command_word
@@ -16,7 +16,7 @@ from ....drafting.language.language import command_word
 class Trial:
     """What a line would do, or why it would not."""
 
-    difference: Difference = field(default_factory=Difference)
+    difference: DrawingDifference = field(default_factory=DrawingDifference)
     reason: str = ""
 
 

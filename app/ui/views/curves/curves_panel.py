@@ -17,7 +17,7 @@ from ...panels.side_panel import WIDTH
 from .points_form import PointsForm
 
 if TYPE_CHECKING:
-    from ....usecases.smooth import Smoothed, SmoothOptions
+    from ....usecases.smooth import SmoothedProgram, SmoothOptions
 
 PRESETS = (("Fine", 0.002), ("Finishing", 0.01), ("Semi", 0.05))
 """Name and tolerance, mm."""
@@ -163,13 +163,13 @@ class CurvesPanel(QScrollArea):
             HitofudeError: it cannot be so; a sentence.
         """
         from ....gcode.posts.posts import load_post
-        from ....usecases.smooth import Form
+        from ....usecases.smooth import OutputForm
 
         name = self.post.value
         return replace(
             base,
             tolerance=self.tolerance.number,
-            form=Form(self.form.value),
+            form=OutputForm(self.form.value),
             degree=5 if self.degree.value == 5 else 3,
             middle=self.middle.number if self.barrel else None,
             corner=math.radians(self.corner.number),
@@ -201,7 +201,7 @@ class CurvesPanel(QScrollArea):
         self.reason.setText(sentence)
         self.reason.setVisible(bool(sentence))
 
-    def show_result(self, done: Smoothed | None) -> None:
+    def show_result(self, done: SmoothedProgram | None) -> None:
         """Show the certificate, or none."""
         self._result.setVisible(done is not None)
         if done is None:

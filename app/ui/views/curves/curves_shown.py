@@ -17,7 +17,7 @@ from ..nc.reading import Shown, Source, read_shown
 from .track import Track, pieces_of_lines, track_of
 
 if TYPE_CHECKING:
-    from ....usecases.smooth import Piece, Smoothed, SmoothOptions
+    from ....usecases.smooth import SmoothedProgram, SmoothedStretch, SmoothOptions
 
 _TEETH = 20_000
 """Teeth of the comb of a whole program, about."""
@@ -83,7 +83,7 @@ class CurvesShown:
     """
 
     was: Shown
-    done: Smoothed
+    done: SmoothedProgram
     now: Shown
     before: MotionShapes
     track: Track
@@ -157,7 +157,7 @@ def layers(shown: CurvesShown, side: Side, progress: Progress) -> Layers:
     return Layers(curves, stayed, MotionPicture(shown.before, side, old))
 
 
-def _points(changed: list[Piece]) -> Points:
+def _points(changed: list[SmoothedStretch]) -> Points:
     """Return the points of stretches that changed."""
     from ....fitting.point_curves.effective_points import PointState
 
@@ -172,7 +172,7 @@ def _points(changed: list[Piece]) -> Points:
     )
 
 
-def _comb(done: Smoothed) -> Comb:
+def _comb(done: SmoothedProgram) -> Comb:
     """Return the teeth of all curves."""
     curves = {k: piece.curve for k, piece in enumerate(done.pieces) if piece.curve is not None}
     if not curves:

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from ....fitting.point_curves.correction import CorrectionOptions, Move, Select
+from ....fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ....fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
-from ....fitting.point_curves.effective_points import EffectiveOptions, Ends
+from ....fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
 from ...framework.fields import ChoiceField, NumberField, Spec
 
 _USUAL = CorrectionOptions()
@@ -28,7 +28,9 @@ class PointsForm(QWidget):
         self.nearness = NumberField(
             Spec("Nearness", low=1e-4, high=9.0, decimals=4, tip="How near to these points the curve goes", auto="auto")
         )
-        self.ends = ChoiceField("Ends", [(Ends.OUTER, "Outer"), (Ends.RATIO, "Ratio"), (Ends.DISTANCE, "Distance")])
+        self.ends = ChoiceField(
+            "Ends", [(RangeEnds.OUTER, "Outer"), (RangeEnds.RATIO, "Ratio"), (RangeEnds.DISTANCE, "Distance")]
+        )
         self.share = NumberField(
             Spec("Share", "", 0.0, 0.5, 3, False, "Points in so much of a facet from either end count as its ends")
         )
@@ -42,8 +44,12 @@ class PointsForm(QWidget):
         self.after = NumberField(
             Spec("After", "", 1, 50, 0, False, "Effective points after a facet that its correction goes by")
         )
-        self.move_to = ChoiceField("Move", [(Move.NEAREST, "Nearest"), (Move.PERPENDICULAR, "Square")])
-        self.select = ChoiceField("Correct", [(None, "All"), (Select.RATIO, "Ratio"), (Select.DISTANCE, "Distance")])
+        self.move_to = ChoiceField(
+            "Move", [(CorrectionMove.NEAREST, "Nearest"), (CorrectionMove.PERPENDICULAR, "Square")]
+        )
+        self.select = ChoiceField(
+            "Correct", [(None, "All"), (CorrectionScope.RATIO, "Ratio"), (CorrectionScope.DISTANCE, "Distance")]
+        )
         self.near = NumberField(
             Spec("Share", "", 0.0, 1.0, 3, False, "Points in so much of a facet from either end are corrected")
         )
@@ -77,9 +83,9 @@ class PointsForm(QWidget):
         """Show what is usual."""
         for choice, value in (
             (self.points, False),
-            (self.ends, Ends.OUTER),
+            (self.ends, RangeEnds.OUTER),
             (self.others, _LEFT_OUT),
-            (self.move_to, Move.NEAREST),
+            (self.move_to, CorrectionMove.NEAREST),
             (self.select, None),
         ):
             choice.show_value(value)
@@ -101,12 +107,12 @@ class PointsForm(QWidget):
         corrected = effective and self.others.value == _CORRECTED
         for field in (self.epsilon, self.nearness, self.ends, self.others):
             field.setVisible(effective)
-        self.share.setVisible(effective and self.ends.value is Ends.RATIO)
-        self.reach.setVisible(effective and self.ends.value is Ends.DISTANCE)
+        self.share.setVisible(effective and self.ends.value is RangeEnds.RATIO)
+        self.reach.setVisible(effective and self.ends.value is RangeEnds.DISTANCE)
         for field in (self.before, self.after, self.move_to, self.select):
             field.setVisible(corrected)
-        self.near.setVisible(corrected and self.select.value is Select.RATIO)
-        self.moved.setVisible(corrected and self.select.value is Select.DISTANCE)
+        self.near.setVisible(corrected and self.select.value is CorrectionScope.RATIO)
+        self.moved.setVisible(corrected and self.select.value is CorrectionScope.DISTANCE)
 
     def method(self) -> EffectiveMethod | None:
         """Return method D as the fields ask for it; None: the curves go by all points.
@@ -117,16 +123,16 @@ class PointsForm(QWidget):
         if not self.points.value:
             return None
         ends = self.ends.value
-        assert isinstance(ends, Ends)
-        limit = {Ends.OUTER: 0.0, Ends.RATIO: self.share.number, Ends.DISTANCE: self.reach.number}[ends]
+        assert isinstance(ends, RangeEnds)
+        limit = {RangeEnds.OUTER: 0.0, RangeEnds.RATIO: self.share.number, RangeEnds.DISTANCE: self.reach.number}[ends]
         choose, nearness = EffectiveOptions(self.epsilon.number, ends, limit), self.nearness.value
         if self.others.value == _LEFT_OUT:
             return EffectiveMethod(choose, nearness=nearness)
         kind, move = self.select.value, self.move_to.value
-        assert isinstance(move, Move)
+        assert isinstance(move, CorrectionMove)
         select = (
-            (kind, self.near.number if kind is Select.RATIO else self.moved.number)
-            if isinstance(kind, Select)
+            (kind, self.near.number if kind is CorrectionScope.RATIO else self.moved.number)
+            if isinstance(kind, CorrectionScope)
             else None
         )
         correct = second_embodiment(select, round(self.before.number), round(self.after.number), move)

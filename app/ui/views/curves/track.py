@@ -11,7 +11,7 @@ from ....fitting.point_curves.deviation import deviation
 from ..nc.motion_shapes import Floats, Ints
 
 if TYPE_CHECKING:
-    from ....usecases.smooth import Piece, Smoothed
+    from ....usecases.smooth import SmoothedProgram, SmoothedStretch
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Track:
         return Spot(float(self.along[k]), float(self.off[k]), (x, y, z), int(self.line[k]))
 
 
-def track_of(done: Smoothed) -> Track:
+def track_of(done: SmoothedProgram) -> Track:
     """Return the deviation of a smoothed program along its stretches."""
     parts: list[tuple[Floats, Floats, Floats, Ints]] = []
     bounds: list[tuple[float, float, float]] = []
@@ -78,13 +78,13 @@ def track_of(done: Smoothed) -> Track:
     return Track(along, off, place, line, tuple(bounds))
 
 
-def _rows(piece: Piece) -> Ints:
+def _rows(piece: SmoothedStretch) -> Ints:
     """Return the motion of the old program that each chord of a stretch is."""
     moved = np.any(np.diff(piece.stretch.points, axis=0) != 0, axis=1)
     return piece.stretch.first + np.flatnonzero(moved)
 
 
-def pieces_of_lines(done: Smoothed, lines: Ints, notes: int) -> Ints:
+def pieces_of_lines(done: SmoothedProgram, lines: Ints, notes: int) -> Ints:
     """Return which stretch each of some lines of the new text is of, -1 = none.
 
     Args:

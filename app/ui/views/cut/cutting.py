@@ -27,11 +27,11 @@ from .zooming import Followed, Zooming
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
-    from ....usecases.make import Made
+    from ....usecases.make import MakeResult
     from ....verify.parts import Part
 
 
-def job_shown(made: Made, name: str, colour: CutColour, progress: Progress) -> ShownCut | None:
+def job_shown(made: MakeResult, name: str, colour: CutColour, progress: Progress) -> ShownCut | None:
     """Return the cut that came with the job's program, prepared; None where nothing was cut.
 
     Raises:

@@ -21,8 +21,8 @@ from .shown_cut import ProgramFile, ShownCut, shown_cut
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.dialect import Dialect
-    from ....usecases.examine import Examined
-    from ....usecases.setup import Ready
+    from ....usecases.examine import ExaminedProgram
+    from ....usecases.setup import ReadySetup
     from ....verify.parts import Part
 
 GUESSED = "nobody"
@@ -102,18 +102,18 @@ def foreign_shown(foreign: Foreign, colour: CutColour, progress: Progress) -> Sh
     )
 
 
-def given_of(ready: Ready, compare: bool) -> Given:
+def given_of(ready: ReadySetup, compare: bool) -> Given:
     """Return tools and stock as they are taken, for the form."""
     return Given({number: known.tool for number, known in ready.tools.items()}, _corners(ready), compare)
 
 
-def _corners(ready: Ready) -> Box:
+def _corners(ready: ReadySetup) -> Box:
     """Return the corners of the stock, mm; the form and comments tell of boxes alone."""
     box: StockBox = ready.stock.stock.solid  # type: ignore[attr-defined]
     return box.x0, box.y0, box.z0, box.x1, box.y1, box.z1
 
 
-def _ready(examined: Examined, foreign: Foreign) -> tuple[Ready, str]:
+def _ready(examined: ExaminedProgram, foreign: Foreign) -> tuple[ReadySetup, str]:
     """Return the setup, and why somebody should look at it first, or ""."""
     noted = {note.number: note for note in examined.program.tools}
     used = {state.tool for state in examined.program.states}
@@ -136,18 +136,18 @@ def _ready(examined: Examined, foreign: Foreign) -> tuple[Ready, str]:
     return ready, f"{names} {verb}, and {examined.name} does not tell what {them}. Say it here, then press Cut."
 
 
-def _with(examined: Examined, foreign: Foreign, guesses: Mapping[int, Tool]) -> Ready:
-    from ....usecases.setup import Wishes, setup_of
+def _with(examined: ExaminedProgram, foreign: Foreign, guesses: Mapping[int, Tool]) -> ReadySetup:
+    from ....usecases.setup import SetupRequest, setup_of
     from ....usecases.setup_stock import box_stock
-    from ....usecases.setup_tools import ToolsTold
+    from ....usecases.setup_tools import ToolSource
 
-    told = (ToolsTold("the form", foreign.given.tools), ToolsTold(GUESSED, guesses))
+    told = (ToolSource("the form", foreign.given.tools), ToolSource(GUESSED, guesses))
     stock = box_stock(foreign.given.stock) if foreign.given.stock is not None else None
-    ready = setup_of((examined,), Wishes(told, stock=stock))
+    ready = setup_of((examined,), SetupRequest(told, stock=stock))
     return _on_a_table(ready) if stock is None and examined.program.stock is None else ready
 
 
-def _on_a_table(ready: Ready) -> Ready:
+def _on_a_table(ready: ReadySetup) -> ReadySetup:
     """Return a setup whose stock, assumed round the cuts, goes on below the deepest of them, so that their floor can be
     seen.
     """

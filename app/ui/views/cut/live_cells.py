@@ -23,7 +23,7 @@ from .tool_body import Place
 
 if TYPE_CHECKING:
     from ....usecases.playback import Playback, PlayFrame
-    from ....usecases.timeline import Moment, Timeline
+    from ....usecases.timeline import Timeline, TimelinePlace
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class LiveFrame:
         wedges: facets of the sweep that led there; None = not asked for, or the tool has none.
     """
 
-    moment: Moment
+    moment: TimelinePlace
     cells: Cells | None
     patch: Patch | None
     colour: CutColour
@@ -77,7 +77,7 @@ class Wish:
         all_cells: also those that have not changed, as the view may have others.
     """
 
-    moment: Moment
+    moment: TimelinePlace
     colour: CutColour
     wedges: bool = False
     all_cells: bool = False

@@ -21,7 +21,7 @@ from .live_cells import LiveCells, LiveFrame, Wish, live_copy
 from .picture import CutPicture
 
 if TYPE_CHECKING:
-    from ....usecases.timeline import Moment, Timeline
+    from ....usecases.timeline import Timeline, TimelinePlace
     from .shown_cut import ShownCut
 
 TICK_MS = 16
@@ -92,7 +92,7 @@ class Player(QObject):
         self.shown: ShownCut | None = None
         self.timeline: Timeline | None = None
         self.marks: tuple[Mark, ...] = ()
-        self.at: Moment | None = None
+        self.at: TimelinePlace | None = None
         self.pace, self.speed, self.speeds = Pace.TIME, USUAL[Pace.TIME], dict(USUAL)
         self.failure = ""
         self._cells: LiveCells | None = None
@@ -199,10 +199,10 @@ class Player(QObject):
 
     def go(self, motion: int) -> None:
         """Go to where so many motions are done; playing goes on from there."""
-        from ....usecases.timeline import Moment
+        from ....usecases.timeline import TimelinePlace
 
         if self.timeline is not None:
-            moment = Moment(min(max(motion, 0), len(self.timeline)))
+            moment = TimelinePlace(min(max(motion, 0), len(self.timeline)))
             self._now = self.timeline.time(moment)
             self._ask(moment)
             self._start_from()
@@ -238,7 +238,7 @@ class Player(QObject):
             return timeline.tool_changes
         return np.unique([mark.motion for mark in self.marks]).astype(np.int64)
 
-    def _goal(self) -> Moment | None:
+    def _goal(self) -> TimelinePlace | None:
         """Return the moment that is on its way, or is shown."""
         return self._wanted.moment if self._wanted is not None else self.at
 
@@ -280,16 +280,16 @@ class Player(QObject):
         """
         return timeline.wait_at(self._place) / LONGEST_WAIT_S if self.pace is Pace.TIME else 0.0
 
-    def _moment(self, timeline: Timeline) -> Moment:
-        from ....usecases.timeline import Moment
+    def _moment(self, timeline: Timeline) -> TimelinePlace:
+        from ....usecases.timeline import TimelinePlace
 
         if self.pace is Pace.TIME:
             return timeline.at(self._place) if self._place < timeline.total else timeline.last
         whole = int(self._place)
         slow = self.pace is Pace.MOVES and self.speed < 1000 / TICK_MS
-        return Moment(whole, self._place - whole if slow and whole < len(timeline) else 0.0)
+        return TimelinePlace(whole, self._place - whole if slow and whole < len(timeline) else 0.0)
 
-    def _ask(self, moment: Moment, all_cells: bool = False) -> None:
+    def _ask(self, moment: TimelinePlace, all_cells: bool = False) -> None:
         """Have a moment shown as soon as the one that is being made ready is."""
         view = self._view
         all_cells = all_cells or (self._wanted is not None and self._wanted.all_cells)

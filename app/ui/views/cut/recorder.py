@@ -68,7 +68,7 @@ def write_recording(wanted: Recording, progress: Progress) -> Recording:
 def _shots(wanted: Recording, progress: Progress) -> Iterator[Shot]:
     """Yield what each picture shows, from the start to the end; what waits takes none."""
     from ....usecases.playback import ONCE, Playback
-    from ....usecases.timeline import Moment
+    from ....usecases.timeline import TimelinePlace
 
     shown, plan = wanted.shown, wanted.plan
     cells = LiveCells(Playback(shown.cut, options=ONCE, progress=progress), shown.picture, shown.cut.setup.tools)
@@ -76,7 +76,7 @@ def _shots(wanted: Recording, progress: Progress) -> Iterator[Shot]:
     colours = colouring(replace(shown.picture, values={}), wanted.colour, wanted.inks)
     for k in range(plan.count):
         share = k / (plan.count - 1)
-        moment = timeline.at_share(share) if wanted.pace is Pace.TIME else Moment(round(share * len(timeline)))
+        moment = timeline.at_share(share) if wanted.pace is Pace.TIME else TimelinePlace(round(share * len(timeline)))
         frame = cells.frame(Wish(moment, wanted.colour, wanted.wedges))
         patches = (frame.patch,) if frame.patch is not None else ()
         shot = Shot(

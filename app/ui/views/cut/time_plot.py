@@ -15,7 +15,7 @@ from ...framework.theme import LIGHT, Theme, mixed, text_font
 from .cut_panel import colour_of
 
 if TYPE_CHECKING:
-    from ....usecases.timeline import Sampled, Timeline
+    from ....usecases.timeline import Timeline, TimelineColumns
     from .player import Mark
 
 HEIGHT = 58
@@ -32,7 +32,7 @@ _FULL = 0.985
 class _Columns:
     """What is painted for one width."""
 
-    sampled: Sampled
+    sampled: TimelineColumns
     scale: float
 
 

@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QFileDialog
 from ....core.atomic import read_whole, write_atomically
 from ....core.errors import InputError
 from ....core.resources import resource
-from ....drafting.difference import Difference
-from ....drafting.document import Change
+from ....drafting.difference import DrawingDifference
+from ....drafting.document import DocumentChange
 from ....drafting.language.write import draw_text
 from ...framework.commands import Commands
 from ...framework.controller import Controller
@@ -38,7 +38,7 @@ class TextControl(Controller):
         page: the widgets.
     """
 
-    tried = Signal(Difference)
+    tried = Signal(DrawingDifference)
 
     def __init__(self, page: TextPage, lines: RunningLines, workspace: Workspace, commands: Commands) -> None:
         super().__init__(page)
@@ -90,7 +90,7 @@ class TextControl(Controller):
         elif not self._lines.busy:
             self._running = text
             self.trying.leave()
-            self.tried.emit(Difference())
+            self.tried.emit(DrawingDifference())
             self._lines.run(f"clear\n{text}" if self.page.replaces else text)
 
     def fill_from_drawing(self) -> None:
@@ -184,7 +184,7 @@ class TextControl(Controller):
         text = self.page.text
         self.page.show_problem(None)
         if not self._in_front or not text.strip() or text == self._done:
-            self.tried.emit(Difference())
+            self.tried.emit(DrawingDifference())
             self.trying.leave()
             self.page.verdict.say("This is drawn." if text == self._done and text.strip() else "")
             return
@@ -205,8 +205,8 @@ class TextControl(Controller):
             self._running = ""
             self._ask()
 
-    def _follow(self, change: Change) -> None:
-        if Change.LOADED in change:
+    def _follow(self, change: DocumentChange) -> None:
+        if DocumentChange.LOADED in change:
             self._kept.pop(self._path, None)
             if self.page.text or self.page.replaces:
                 self._kept[self._path] = (self.page.text, self.page.replaces)
@@ -216,7 +216,7 @@ class TextControl(Controller):
                 self.page.text = text
                 self.page.set_replaces(replaces)
         self._path = self._document.path
-        if Change.PART in change and not self._running:
+        if DocumentChange.PART in change and not self._running:
             self._done = ""
-            self.tried.emit(Difference())
+            self.tried.emit(DrawingDifference())
             self._ask()

@@ -8,8 +8,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from ....core.errors import InputError
 from ....core.progress import Progress
-from ....drafting.commands.command import Session
-from ....drafting.difference import Difference, difference
+from ....drafting.commands.command import DraftingSession
+from ....drafting.difference import DrawingDifference, difference
 from ....drafting.document import tried
 from ....drafting.expressions.errors import CommandError
 from ...framework.worker import Answer, Worker
@@ -34,7 +34,7 @@ class Trial:
         curves: how many the drawing would have.
     """
 
-    change: Difference
+    change: DrawingDifference
     curves: int
 
 
@@ -56,7 +56,7 @@ class Trying(QObject):
         self._timer.setSingleShot(True)
         self._timer.setInterval(REST_MS)
         self._timer.timeout.connect(self._start)
-        self._text, self._session, self._fresh = "", Session(), False
+        self._text, self._session, self._fresh = "", DraftingSession(), False
         self._alive: set[object] = set()
         self.worker.progress.connect(self.progress)
         self.worker.done.connect(lambda answer: self._on_answer(answer.value))
@@ -67,7 +67,7 @@ class Trying(QObject):
         """Whether an answer is still to come."""
         return self._timer.isActive() or self.worker.busy
 
-    def ask(self, text: str, session: Session, fresh: bool) -> None:
+    def ask(self, text: str, session: DraftingSession, fresh: bool) -> None:
         """Try a text soon.
 
         Args:
@@ -106,7 +106,7 @@ class Trying(QObject):
         self.answered.emit(Problem(1, 1, answer.error or ""))
 
 
-def _try(text: str, session: Session, fresh: bool, progress: Progress) -> Trial | Problem:
+def _try(text: str, session: DraftingSession, fresh: bool, progress: Progress) -> Trial | Problem:
     try:
         start = tried("clear", session) if fresh else session
         after = tried(text, start, progress)

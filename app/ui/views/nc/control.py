@@ -27,7 +27,7 @@ from .program_text import program_text
 from .reading import FILTER, Reading, Shown, Source
 
 if TYPE_CHECKING:
-    from ....usecases.make import Made
+    from ....usecases.make import MakeResult
 
 
 class NcControl(Controller):
@@ -234,7 +234,7 @@ class NcControl(Controller):
         post, whole = load_post(made.job.post), self._own_name(made)
         return tuple(Source(file.named(whole).name, file.nc.text.encode(), dialect=post.dialect) for file in made.files)
 
-    def _own_name(self, made: Made) -> Path:
+    def _own_name(self, made: MakeResult) -> Path:
         from ....gcode.posts.posts import load_post
 
         path = self._document.path
@@ -316,4 +316,6 @@ def _sentence(shown: Shown) -> str:
     words = [counted(len(shown.text), "line"), counted(len(shown.shapes), "motion")]
     words += [counted(errors, "error")] if errors else []
     words += [counted(len(problems) - errors, "warning")] if len(problems) > errors else []
-    return f"{', '.join(words)}. {shown.program.error.told(shown.source.name) if shown.program.error else ''}".strip()
+    return (
+        f"{', '.join(words)}. {shown.program.error.message(shown.source.name) if shown.program.error else ''}".strip()
+    )

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
 
-from ....gcode.interpreter.dialect import HABITS, Dialect
+from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
@@ -90,14 +90,14 @@ class TextHead(QWidget):
             chosen: what the user said; None = nothing.
             free: the user may say otherwise.
         """
-        self._offer(HABITS[guessed].title)
+        self._offer(DIALECT_RULES[guessed].title)
         self.dialect.setCurrentIndex(self.dialect.findData(chosen))
         self.dialect.setVisible(free)
 
     def _offer(self, guessed: str) -> None:
         self.dialect.clear()
         self.dialect.addItem(f"Auto: {guessed}", None)
-        for dialect, habits in HABITS.items():
+        for dialect, habits in DIALECT_RULES.items():
             self.dialect.addItem(habits.title, dialect)
 
 

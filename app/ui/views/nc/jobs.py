@@ -13,7 +13,7 @@ from .places import Compared, drawn_apart
 from .reading import Shown, Source, read_shown
 
 if TYPE_CHECKING:
-    from ....usecases.make import Made
+    from ....usecases.make import MakeResult
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,7 @@ class Drawn:
             self.both.pictures[self.picture.side] = self.alone
 
 
-def framed(made: Made, name: str, side: Side, progress: Progress) -> Shown:
+def framed(made: MakeResult, name: str, side: Side, progress: Progress) -> Shown:
     """Return the program that goes round a job's cuts, read.
 
     Raises:

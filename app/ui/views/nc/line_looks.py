@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ....gcode.interpreter.program import Problem
+from ....gcode.interpreter.program import ProgramProblem
 from ....model.motion import MotionKind
 from .motion_shapes import Look, MotionShapes, tools_of
 
@@ -34,11 +34,11 @@ class LineLooks:
 
     by_tool: NDArray[np.uint8]
     by_motion: NDArray[np.uint8]
-    problems: dict[int, list[Problem]] = field(default_factory=dict)
+    problems: dict[int, list[ProgramProblem]] = field(default_factory=dict)
     differing: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
-def line_looks(count: int, shapes: MotionShapes | None = None, problems: Sequence[Problem] = ()) -> LineLooks:
+def line_looks(count: int, shapes: MotionShapes | None = None, problems: Sequence[ProgramProblem] = ()) -> LineLooks:
     """Return the looks of the lines of a text.
 
     Args:
@@ -50,7 +50,7 @@ def line_looks(count: int, shapes: MotionShapes | None = None, problems: Sequenc
     if shapes is not None and len(shapes):
         rows = np.clip(shapes.lines - 1, 0, count - 1)
         by_tool[rows], by_motion[rows] = (codes[shapes.by_line] for codes in _codes(shapes))
-    by_row: dict[int, list[Problem]] = {}
+    by_row: dict[int, list[ProgramProblem]] = {}
     for problem in problems:
         by_row.setdefault(problem.line - 1, []).append(problem)
     return LineLooks(by_tool, by_motion, by_row)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....gcode.interpreter.program import Problem, Severity
-from ....gcode.rework.compare import Difference, DifferenceKind, Differences, Span
+from ....gcode.interpreter.program import ProgramProblem, Severity
+from ....gcode.rework.compare import DifferenceKind, ProgramDifference, ProgramDifferences, ProgramSpan
 from ...framework.figures import counted
 from .motion_picture import MotionPicture
 from .motion_shapes import Ints, Side
@@ -26,7 +26,7 @@ class Compared:
     """
 
     other: Shown
-    differences: Differences
+    differences: ProgramDifferences
     pictures: dict[Side, tuple[MotionPicture, MotionPicture]]
 
 
@@ -34,7 +34,7 @@ _APART = (DifferenceKind.PATH, DifferenceKind.RAPID, DifferenceKind.MISSING, Dif
 
 
 def drawn_apart(
-    first: Shown, second: Shown, differences: Differences, side: Side
+    first: Shown, second: Shown, differences: ProgramDifferences, side: Side
 ) -> tuple[MotionPicture, MotionPicture]:
     """Return pictures of what only the first program does, and of what only the second does: where paths differ, not
     their feeds.
@@ -44,16 +44,16 @@ def drawn_apart(
     return MotionPicture(first.shapes, side, one), MotionPicture(second.shapes, side, other)
 
 
-def _motions(spans: Sequence[Span]) -> Ints:
+def _motions(spans: Sequence[ProgramSpan]) -> Ints:
     return np.unique(np.concatenate([np.zeros(0, np.int64), *(np.arange(span.first, span.stop) for span in spans)]))
 
 
-def in_order(problems: Sequence[Problem]) -> tuple[Problem, ...]:
+def in_order(problems: Sequence[ProgramProblem]) -> tuple[ProgramProblem, ...]:
     """Return problems in the order of the text."""
     return tuple(sorted(problems, key=lambda problem: (problem.line, problem.column)))
 
 
-def problem_places(problems: Sequence[Problem]) -> tuple[str, list[Place]]:
+def problem_places(problems: Sequence[ProgramProblem]) -> tuple[str, list[Place]]:
     """Return title and rows for problems."""
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
     warnings = len(problems) - errors
@@ -61,13 +61,13 @@ def problem_places(problems: Sequence[Problem]) -> tuple[str, list[Place]]:
     return ", ".join(filter(None, words)), [_problem_place(problem) for problem in problems]
 
 
-def _problem_place(problem: Problem) -> Place:
+def _problem_place(problem: ProgramProblem) -> Place:
     at = f"{problem.line}:{problem.column}" if problem.column else f"{problem.line}"
     weight = Weight.ERROR if problem.severity is Severity.ERROR else Weight.WARNING
     return Place(f"{at}   {problem.word + ': ' if problem.word else ''}{problem.text}", problem.text, weight)
 
 
-def difference_places(differences: Differences) -> tuple[str, list[Place]]:
+def difference_places(differences: ProgramDifferences) -> tuple[str, list[Place]]:
     """Return title and rows for differences."""
     items = differences.items
     if not items:
@@ -79,25 +79,25 @@ def difference_places(differences: Differences) -> tuple[str, list[Place]]:
     return f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items]
 
 
-def _difference_place(item: Difference) -> Place:
+def _difference_place(item: ProgramDifference) -> Place:
     lines = f"{_lines(item.a)}  \u2194  {_lines(item.b)}"
     loud = Weight.REMARK if item.kind is DifferenceKind.SAME_PATH else Weight.WARNING
     return Place(f"{lines}   {item.kind.value}: {item.text}", item.text, loud)
 
 
-def _lines(span: Span) -> str:
+def _lines(span: ProgramSpan) -> str:
     if span.stop == span.first:
         return f"after {span.first_line}"
     return f"{span.first_line}" if span.first_line == span.last_line else f"{span.first_line} to {span.last_line}"
 
 
-def rows_of(span: Span) -> tuple[int, int]:
+def rows_of(span: ProgramSpan) -> tuple[int, int]:
     """Return first and last row (0-based) of a stretch."""
     first, last = sorted((max(span.first_line, 1) - 1, max(span.last_line, 1) - 1))
     return first, last
 
 
-def differing_rows(spans: Sequence[Span]) -> Ints:
+def differing_rows(spans: Sequence[ProgramSpan]) -> Ints:
     """Return the rows (0-based) of stretches, in order, each once; a stretch without motions has none."""
     rows = [np.arange(first, last + 1) for first, last in (rows_of(span) for span in spans if span.stop > span.first)]
     return np.unique(np.concatenate(rows)).astype(np.int64) if rows else np.zeros(0, np.int64)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ....gcode.interpreter.text import Text
+from ....gcode.interpreter.text import ProgramBuffer
 
 Ints = NDArray[np.int64]
 
@@ -91,7 +91,7 @@ class ProgramText:
 
 def program_text(data: bytes) -> ProgramText:
     """Return the lines of a file's bytes."""
-    read = Text(data)
+    read = ProgramBuffer(data)
     text = read.data.decode(read.encoding)
     codes = (
         np.frombuffer(read.data, np.uint8)

@@ -98,7 +98,7 @@ def read_shown(source: Source, side: Side, progress: Progress) -> Shown:
         Cancelled: the job was asked to stop.
     """
     from ....formats.machine_toml import DEFAULT_MACHINE, load_machine
-    from ....gcode.interpreter.guess import guess_dialect
+    from ....gcode.interpreter.dialect_guess import guess_dialect
     from ....gcode.interpreter.notes_operation import contour_motions
     from ....gcode.interpreter.reader import read_program
     from ....gcode.timing.duration import duration

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen, QPolygonF
 
-from ....gcode.interpreter.program import Problem, Severity
+from ....gcode.interpreter.program import ProgramProblem, Severity
 from ...framework.theme import Theme, mono_font
 from .line_looks import CUT, PLUNGE, RAPID, LineLooks, kind_of
 from .motion_picture import PathColour, motion_colour, tool_colour
@@ -130,7 +130,7 @@ def _selected(look: TextLook, row: int) -> bool:
     return look.cursor >= 0 and min(look.cursor, look.anchor) <= row <= max(look.cursor, look.anchor)
 
 
-def _worst(problems: list[Problem]) -> Severity | None:
+def _worst(problems: list[ProgramProblem]) -> Severity | None:
     kinds = {problem.severity for problem in problems}
     return Severity.ERROR if Severity.ERROR in kinds else Severity.WARNING if kinds else None
 
@@ -197,7 +197,7 @@ class _Line:
             self.painter.fillRect(QRectF(left, self.place.top() + 2, right - left, LINE_PX - 4), tint)
             at = text.lower().find(words, at + len(words))
 
-    def _underline(self, problem: Problem, text: str, first: int) -> None:
+    def _underline(self, problem: ProgramProblem, text: str, first: int) -> None:
         """Draw a wave under the word that a problem is about, or under the whole line."""
         begin = max(problem.column - 1 - first, 0) if problem.column else 0
         end = begin + max(1, len(problem.word)) if problem.column else len(text)

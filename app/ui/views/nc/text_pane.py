@@ -7,7 +7,7 @@ from dataclasses import replace
 from PySide6.QtCore import QPoint, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from ....gcode.interpreter.program import Problem
+from ....gcode.interpreter.program import ProgramProblem
 from ...framework.figures import counted
 from .find_bar import FindBar
 from .heads import Banner, TextHead
@@ -37,7 +37,7 @@ class TextPane(QWidget):
         self.shown: Shown | None = None
         self.head, self.banner, self.finder, self.text = TextHead(closable), Banner(), FindBar(), NcTextView()
         self.panel = PlacesPanel("problem", "F4")
-        self.problems: tuple[Problem, ...] = ()
+        self.problems: tuple[ProgramProblem, ...] = ()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -75,7 +75,7 @@ class TextPane(QWidget):
         looks = self.shown.looks if self.shown is not None else line_looks(len(self.text.text))
         self.text.show_looks(replace(looks, differing=rows))
 
-    def go_to_problem(self, problem: Problem) -> None:
+    def go_to_problem(self, problem: ProgramProblem) -> None:
         """Go to the place of a problem."""
         self.text.pick(problem.line - 1)
         self.text.bring_into_sight(problem.line - 1, max(problem.column - 1, 0))
@@ -96,7 +96,7 @@ class TextPane(QWidget):
         else:
             self.begin_find()
 
-    def _show_problems(self, problems: tuple[Problem, ...]) -> None:
+    def _show_problems(self, problems: tuple[ProgramProblem, ...]) -> None:
         self.problems = in_order(problems)
         self.panel.show_places(*problem_places(self.problems))
 

@@ -17,7 +17,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
 
-from ....gcode.interpreter.program import Problem
+from ....gcode.interpreter.program import ProgramProblem
 from ...framework.theme import LIGHT, Theme, mono_font
 from .line_looks import LineLooks, line_looks
 from .motion_picture import PathColour
@@ -137,7 +137,7 @@ class NcTextView(QAbstractScrollArea):
         first, last = self.selection
         return self.text.rows(first, last) + "\n" if first >= 0 else self.text.text
 
-    def problems_at(self, row: int) -> list[Problem]:
+    def problems_at(self, row: int) -> list[ProgramProblem]:
         """Return what is wrong with a line."""
         return self._look.lines.problems.get(row, [])
 

@@ -11,7 +11,17 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, 
 
 from ....core import tolerances
 from ....formats.plot.layout import Plot
-from ....formats.plot.page import Ink, Page, Patch, Pen, Stroke, Trace, Words, chains, segments
+from ....formats.plot.page import (
+    FilledPolygon,
+    PageContent,
+    Pen,
+    PenStroke,
+    PlotPage,
+    TextLine,
+    TracedPolyline,
+    chains,
+    segments,
+)
 from ....geometry.transform import Similarity
 from ....model.curves import Curve
 
@@ -24,15 +34,15 @@ class Painted:
     """Ink as painter paths, in its own mm."""
 
     strokes: tuple[tuple[Pen, QPainterPath], ...]
-    patches: tuple[Patch, ...]
-    words: tuple[Words, ...]
+    patches: tuple[FilledPolygon, ...]
+    words: tuple[TextLine, ...]
 
 
 @dataclass(frozen=True)
 class Sheet:
     """A page ready to be painted."""
 
-    page: Page
+    page: PlotPage
     drawing: Painted
     frame: Painted
 
@@ -46,13 +56,13 @@ def sheets(plot: Plot) -> tuple[Sheet, ...]:
     return tuple(Sheet(page, _painted(page.drawing, plot.scale), _painted(page.frame, 1.0)) for page in plot.pages)
 
 
-def _painted(ink: Ink, scale: float) -> Painted:
+def _painted(ink: PageContent, scale: float) -> Painted:
     traces = [(trace.pen, path) for trace in ink.traces for path in _along(trace)]
     strokes = ((stroke.pen, path) for stroke in ink.strokes for path in _paths(stroke, tolerances.CURVE / scale))
     return Painted((*traces, *strokes), ink.patches, ink.words)
 
 
-def _paths(stroke: Stroke, tolerance: float) -> Iterator[QPainterPath]:
+def _paths(stroke: PenStroke, tolerance: float) -> Iterator[QPainterPath]:
     """Yield a stroke in pieces: the time that Qt takes for a path grows with the square of its length."""
     path = QPainterPath()
     for run in chains(stroke.curves):
@@ -69,7 +79,7 @@ def _paths(stroke: Stroke, tolerance: float) -> Iterator[QPainterPath]:
     yield path
 
 
-def _along(trace: Trace) -> Iterator[QPainterPath]:
+def _along(trace: TracedPolyline) -> Iterator[QPainterPath]:
     """Yield a trace in pieces, or whole where it is dashed."""
     step = len(trace.points) if trace.pen.dash else _LONG
     for at in range(0, len(trace.points) - 1, step):
@@ -128,7 +138,7 @@ def _pen(pen: Pen, scale: float) -> QPen:
     return made
 
 
-def _write(painter: QPainter, words: Words, place: Similarity) -> None:
+def _write(painter: QPainter, words: TextLine, place: Similarity) -> None:
     font = QFont("sans-serif")
     font.setStyleHint(QFont.StyleHint.SansSerif)
     font.setPixelSize(_FONT_PX)

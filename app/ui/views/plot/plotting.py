@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_together
 from ....core.progress import Progress
-from ....drafting.document import Change
-from ....formats.plot.content import Shown
+from ....drafting.document import DocumentChange
+from ....formats.plot.content import DrawingContent
 from ....formats.plot.layout import PlotOptions, lay_out
 from ...framework.controller import Controller
 from ...framework.figures import counted
@@ -41,7 +41,7 @@ class Ready:
     size: tuple[float, float]
 
 
-def _made_ready(shown: Shown, options: PlotOptions, today: str, progress: Progress) -> Ready:
+def _made_ready(shown: DrawingContent, options: PlotOptions, today: str, progress: Progress) -> Ready:
     plot = lay_out(shown, options, today)
     progress.step(0.5, "Preparing the sheets")
     x0, y0, x1, y1 = shown.box() or (0.0, 0.0, 0.0, 0.0)
@@ -108,8 +108,8 @@ class Plotting(Controller):
         """Keep the sheets in step with the drawing only while they are seen."""
         self._seen = seen
 
-    def _on_change(self, change: Change) -> None:
-        if change & Change.PART:
+    def _on_change(self, change: DocumentChange) -> None:
+        if change & DocumentChange.PART:
             self.refresh()
 
     def refresh(self) -> None:
@@ -121,7 +121,7 @@ class Plotting(Controller):
         self._panel.show_paths_there(current)
         moves = program.moves if program is not None and current and wish.paths else None
         shown, layout, today = (
-            Shown(self._document.part, moves, wish.notes, wish.black),
+            DrawingContent(self._document.part, moves, wish.notes, wish.black),
             wish.layout,
             self._today(),
         )

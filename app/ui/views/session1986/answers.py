@@ -10,7 +10,7 @@ from ....core.errors import InputError
 from ....drafting.expressions.errors import CommandError
 from ....drafting.expressions.numbers import length
 from ....model.job import Job
-from ....model.operation import ContourOperation, Cut, Operation, PocketOperation
+from ....model.operation import ContourOperation, CutParameters, Operation, PocketOperation
 from ....model.tool import Tool, ToolKind
 
 
@@ -91,9 +91,11 @@ def job_of(job: Job, given: Offsets) -> Job:
 
 def _operations(job: Job) -> tuple[PocketOperation, ContourOperation]:
     """Return the job's first pocket and contour operation, or usual ones."""
-    pocket = next((each for each in job.operations if isinstance(each, PocketOperation)), PocketOperation(Cut(tool=1)))
+    pocket = next(
+        (each for each in job.operations if isinstance(each, PocketOperation)), PocketOperation(CutParameters(tool=1))
+    )
     contour = next(
-        (each for each in job.operations if isinstance(each, ContourOperation)), ContourOperation(Cut(tool=2))
+        (each for each in job.operations if isinstance(each, ContourOperation)), ContourOperation(CutParameters(tool=2))
     )
     return pocket, contour
 
@@ -102,7 +104,7 @@ def _tool(job: Job, operation: Operation, usual: Tool) -> Tool:
     return next((tool for tool in job.tools if tool.number == operation.cut.tool), usual)
 
 
-def _cut(cut: Cut, tool: Tool) -> Cut:
+def _cut(cut: CutParameters, tool: Tool) -> CutParameters:
     """Return the cut with another tool; the offset is all that it keeps from the walls."""
     return replace(cut, tool=tool.number, enabled=True, stock_to_leave=0.0)
 

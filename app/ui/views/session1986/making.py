@@ -16,15 +16,15 @@ from ....core.progress import NO_PROGRESS, Progress
 from ....core.resources import resource
 from ....model.finding import Finding
 from ....model.job import Job
-from ....raster.frame import POINTS, Frame
-from ....raster.steps import Stage
+from ....raster.frame import POINTS, BitmapFrame
+from ....raster.steps import StepState
 from ....usecases.bitmap_options import MARGIN_PX, BitmapSize
 from .answers import Offsets, job_of
 from .screen import BOTTOM, TOP
 from .stills import Still, still_of, stills_of
 
 if TYPE_CHECKING:
-    from ....raster.trace import Chain
+    from ....raster.trace import PixelChain
     from ....usecases.bitmap_part import BitmapPart
     from ....usecases.bitmap_way import OperationPaths
 
@@ -36,12 +36,12 @@ _SAID = 3
 class ScreenSize(BitmapSize):
     """400 x 400 points, of which a drawing takes up the rows that are not for the dialogue."""
 
-    def frame(self, extent: tuple[float, float, float, float]) -> Frame:
+    def frame(self, extent: tuple[float, float, float, float]) -> BitmapFrame:
         """Return a frame with the extent, x0, y0, x1, y1, mm, in the middle of the picture's rows."""
         x0, y0, x1, y1 = extent
         pitch = max((x1 - x0) / (POINTS - 2 * MARGIN_PX), (y1 - y0) / (BOTTOM - TOP - 2 * MARGIN_PX)) or 0.25
         below = POINTS - (TOP + BOTTOM) / 2
-        return Frame(POINTS, POINTS, pitch, (x0 + x1) / 2 - POINTS / 2 * pitch, (y0 + y1) / 2 - below * pitch)
+        return BitmapFrame(POINTS, POINTS, pitch, (x0 + x1) / 2 - POINTS / 2 * pitch, (y0 + y1) / 2 - below * pitch)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +114,7 @@ def shape_of(job: Job, progress: Progress = NO_PROGRESS) -> Shape:
 
     progress.step(0.2, "Drawing")
     drawn = drawn_job(job, ScreenSize())
-    still = still_of(Stage(110, (drawn.part.drawn != 0).astype(np.uint8)))
+    still = still_of(StepState(110, (drawn.part.drawn != 0).astype(np.uint8)))
     return Shape(job, drawn.part, still, _notes(drawn.findings))
 
 
@@ -168,7 +168,7 @@ def paths_of(shape: Shape, given: Offsets, progress: Progress = NO_PROGRESS) -> 
     return Paths(job, (*stills, *again), listing, (*_notes(made.program.findings), given_up))
 
 
-def _chains(paths: OperationPaths) -> Sequence[Chain]:
+def _chains(paths: OperationPaths) -> Sequence[PixelChain]:
     """Return the outermost paths."""
     return [path.chain for path in paths.levels[0]]
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ....raster.codes import PixelCode, Plane
 from ....raster.frame import POINTS
-from ....raster.steps import Stage
-from ....raster.trace import Chain
+from ....raster.steps import StepState
+from ....raster.trace import PixelChain
 from .glyphs import Bits
 
 DASH, GAP = 6, 4
@@ -50,7 +50,9 @@ class Still:
         return np.unpackbits(self.packed).reshape(POINTS, POINTS).astype(np.bool_)
 
 
-def stills_of(stages: Iterable[Stage], contours: Sequence[Chain], smoothed: Sequence[Chain] = ()) -> Iterator[Still]:
+def stills_of(
+    stages: Iterable[StepState], contours: Sequence[PixelChain], smoothed: Sequence[PixelChain] = ()
+) -> Iterator[Still]:
     """Yield what the display shows after each stage.
 
     Args:
@@ -62,7 +64,7 @@ def stills_of(stages: Iterable[Stage], contours: Sequence[Chain], smoothed: Sequ
         yield still_of(stage, contours, smoothed)
 
 
-def still_of(stage: Stage, contours: Sequence[Chain] = (), smoothed: Sequence[Chain] = ()) -> Still:
+def still_of(stage: StepState, contours: Sequence[PixelChain] = (), smoothed: Sequence[PixelChain] = ()) -> Still:
     """Return what the display shows after a stage; chains as in `stills_of`."""
     plane, number = stage.plane, stage.number
     picture: Bits = plane != PixelCode.EMPTY
@@ -84,7 +86,7 @@ def _of_codes(plane: Plane, codes: Sequence[PixelCode]) -> Bits:
     return lit
 
 
-def _dashed(chains: Sequence[Chain], dash: int, gap: int) -> Bits:
+def _dashed(chains: Sequence[PixelChain], dash: int, gap: int) -> Bits:
     """Return chains with `dash` points lit, then `gap` dark, all along, so that no direction fares better."""
     picture = np.zeros((POINTS, POINTS), np.bool_)
     for chain in chains:
@@ -103,7 +105,7 @@ def _blocks(marks: Bits) -> Bits:
     return blocks
 
 
-def _name(stage: Stage) -> str:
+def _name(stage: StepState) -> str:
     region = f"  AREA {stage.region}" if stage.region else ""
     turn = f"  TURN {stage.turn}" if stage.turn > 1 else ""
     return f"{stage.name}{region}{turn}"

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QHBoxLayout, QListWidget, QPlainTextEdit, QVBoxLayout, QWidget
 
-from ....raster.trace import Chain
+from ....raster.trace import PixelChain
 from ...framework.figures import counted
 from ...framework.icons import IconButton
 from ...framework.section import heading
@@ -34,7 +34,7 @@ class ChainsPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.chains: tuple[Chain, ...] = ()
+        self.chains: tuple[PixelChain, ...] = ()
         self.title, self.copy = heading("Chain code"), IconButton("copy", "Copy all chain codes of this step")
         self.list, self.text, self.rose = QListWidget(), QPlainTextEdit(), Rose()
         self._lay_out()
@@ -68,7 +68,7 @@ class ChainsPanel(QWidget):
         column.addLayout(above)
         column.addWidget(self.text)
 
-    def show_chains(self, chains: Sequence[Chain]) -> None:
+    def show_chains(self, chains: Sequence[PixelChain]) -> None:
         """List other chains, none of them chosen."""
         if not chains and not self.chains:
             return
@@ -108,6 +108,6 @@ class ChainsPanel(QWidget):
         self.text.setPlainText(code if len(code) <= _MOST_DIGITS else f"{code[:_MOST_DIGITS]}…")
 
 
-def _title(index: int, chain: Chain) -> str:
+def _title(index: int, chain: PixelChain) -> str:
     row, col = chain.start
     return f"{index + 1}   {col}, {row}   {counted(len(chain.directions), 'step')}"

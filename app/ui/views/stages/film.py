@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ....core.progress import NO_PROGRESS, Progress
 from ....geometry.primitives import Rows
 from ....raster.codes import PixelCode, Plane
-from ....raster.steps import STEPS, Stage
-from ....raster.trace import Chain
+from ....raster.steps import STEPS, StepState
+from ....raster.trace import PixelChain
 from ....raster.walls import Mask
 
 Ints = NDArray[np.int32]
@@ -43,7 +43,7 @@ class Still:
     """One stage without its pixels.
 
     Attributes:
-        number, chains, rows, region, turn, wrong: as of the `Stage`.
+        number, chains, rows, region, turn, wrong: as of the `StepState`.
         name, sentence: what it is called, what it does.
         pixels, before, after: (n,) places in the flattened plane that it changes, and their codes before and after.
     """
@@ -51,7 +51,7 @@ class Still:
     number: int
     name: str
     sentence: str
-    chains: tuple[Chain, ...]
+    chains: tuple[PixelChain, ...]
     rows: Rows
     region: int
     turn: int
@@ -97,7 +97,7 @@ class Film:
         together = PHASES[still.phase] if still.phase in _REPEATED else (still.number,)
         return frozenset().union(*(self.codes.get(number, frozenset()) for number in together))
 
-    def chains_of(self, number: int) -> tuple[Chain, ...]:
+    def chains_of(self, number: int) -> tuple[PixelChain, ...]:
         """Return the chains of the first time that a step is done."""
         return next((still.chains for still in self.stills if still.number == number), ())
 
@@ -119,7 +119,7 @@ class Film:
         return self.stills[at].phase, self.stills[at].region
 
 
-def film_of(stages: Iterable[Stage], count: int, progress: Progress = NO_PROGRESS) -> Film:
+def film_of(stages: Iterable[StepState], count: int, progress: Progress = NO_PROGRESS) -> Film:
     """Return a film of stages, which all have planes of one shape.
 
     Args:
@@ -183,7 +183,7 @@ class Projector:
             self.at -= 1
 
 
-def dashed(plane: Plane, chains: Sequence[Chain]) -> Plane:
+def dashed(plane: Plane, chains: Sequence[PixelChain]) -> Plane:
     """Return a plane whose contour pixels along some chains are dashes, as the text draws the contour tool's path."""
     made = plane.copy()
     for chain in chains:
@@ -194,7 +194,7 @@ def dashed(plane: Plane, chains: Sequence[Chain]) -> Plane:
     return made
 
 
-def chain_at(chains: Sequence[Chain], row: int, col: int) -> int | None:
+def chain_at(chains: Sequence[PixelChain], row: int, col: int) -> int | None:
     """Return the number of the chain that runs through a pixel, or None."""
     for k, chain in enumerate(chains):
         if bool(np.any(np.all(chain.pixels() == (row, col), axis=1))):

@@ -9,9 +9,9 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea, QSlider, QVBoxLayout, QWidget
 
 from ....core.errors import HitofudeError
-from ....raster.doubts import Doubt
+from ....raster.ambiguities import AmbiguityKind
 from ....raster.picture_file import MM_PER_INCH
-from ....raster.picture_options import PictureOptions, Shows
+from ....raster.picture_options import InkMeaning, PictureOptions
 from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, Spec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.labels import Elided, muted
@@ -22,15 +22,15 @@ from .preview import ASSUMED_DPI, Measure, Preview, Reading
 
 _LIST_PX = 96
 _DOUBTS = {
-    Doubt.GAP: "Gap",
-    Doubt.OPEN: "Open line",
-    Doubt.JUNCTION: "Lines meet",
-    Doubt.MERGED: "Thick line",
-    Doubt.NARROW: "Narrow",
+    AmbiguityKind.GAP: "Gap",
+    AmbiguityKind.OPEN: "Open line",
+    AmbiguityKind.JUNCTION: "Lines meet",
+    AmbiguityKind.MERGED: "Thick line",
+    AmbiguityKind.NARROW: "Narrow",
 }
 _KINDS = {
-    Shows.LINES: "Read as lines: what they enclose is machined.",
-    Shows.AREAS: "Read as areas: the ink itself is machined.",
+    InkMeaning.LINES: "Read as lines: what they enclose is machined.",
+    InkMeaning.AREAS: "Read as areas: the ink itself is machined.",
 }
 
 
@@ -79,7 +79,7 @@ class ImportPanel(QWidget):
         self.despeckle = NumberField(
             Spec("Despeckle", "px", 0, 100_000, 0, False, "Spots of up to so many pixels are taken away.")
         )
-        self.ink = ChoiceField("Ink is", [(kind, kind.value.capitalize()) for kind in Shows])
+        self.ink = ChoiceField("Ink is", [(kind, kind.value.capitalize()) for kind in InkMeaning])
         self.measure = ChoiceField("Size by", [(by, by.value) for by in By])
         self.dpi = NumberField(Spec("Resolution", "dpi", 1, 99_999, 2, False, "Pixels an inch."))
         self.apart = NumberField(Spec("Apart", "mm", 0.001, 99_999, tip="How far the two points are from one another."))
@@ -220,9 +220,9 @@ class ImportPanel(QWidget):
         self.kind.setText(" ".join((_KINDS[preview.kind], *preview.picture.remarks)))
         with QSignalBlocker(self.list):
             self.list.clear()
-            self.list.addItems([f"{_DOUBTS[place.doubt]} at {place.where}" for place in preview.places])
+            self.list.addItems([f"{_DOUBTS[place.kind]} at {place.where}" for place in preview.places])
             for k, place in enumerate(preview.places):
-                self.list.item(k).setToolTip(f"At {place.where}, {place.doubt.value}")
+                self.list.item(k).setToolTip(f"At {place.where}, {place.kind.value}")
             self.list.setCurrentRow(-1)
         self.doubts.setText(
             f"{counted(len(preview.places), 'doubtful place')}" if preview.places else "No doubtful place"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer, Signal
 
 from ....core.errors import HitofudeError
-from ....drafting.document import Change
+from ....drafting.document import DocumentChange
 from ....model.part import Part
 from ....raster.codes import PixelCode
 from ...framework.controller import Controller
@@ -83,13 +83,13 @@ class Picturing(Controller):
         self._view.show_preview(None)
         self.shown.emit()
 
-    def _on_change(self, change: Change) -> None:
+    def _on_change(self, change: DocumentChange) -> None:
         """Leave the picture for another document; say once when the part is no longer the picture that was taken."""
-        if change & Change.LOADED:
+        if change & DocumentChange.LOADED:
             self._taken = None
             if self.preview is not None:
                 self.leave()
-        elif change & Change.PART and self._taken is not None and self._document.part is not self._taken:
+        elif change & DocumentChange.PART and self._taken is not None and self._document.part is not self._taken:
             self._taken = None
             self._log.note(
                 "picture",

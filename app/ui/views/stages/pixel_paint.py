@@ -14,7 +14,7 @@ from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter
 
 from ....raster.codes import Plane
-from ....raster.frame import Frame
+from ....raster.frame import BitmapFrame
 from ...framework.theme import text_font
 from ..canvas.pens import screen_pen
 from ..canvas.view import View
@@ -35,7 +35,7 @@ class Pixels:
             photograph, whose greys are mixed.
     """
 
-    frame: Frame
+    frame: BitmapFrame
     plane: Plane
     colours: list[int]
     letters: Mapping[int, str] = field(default_factory=dict)
@@ -61,7 +61,7 @@ class Window:
         return self.row0 >= self.row1 or self.col0 >= self.col1
 
 
-def window_of(frame: Frame, view: View, area: QRectF) -> Window:
+def window_of(frame: BitmapFrame, view: View, area: QRectF) -> Window:
     """Return the pixels that lie in a screen rectangle, those at its edges included."""
     x0, y0, x1, y1 = view.world_box(area)
     (col0, row1), (col1, row0) = frame.to_px(np.array([(x0, y0), (x1, y1)])).tolist()
@@ -73,14 +73,14 @@ def window_of(frame: Frame, view: View, area: QRectF) -> Window:
     )
 
 
-def screen_rect(frame: Frame, view: View, window: Window) -> QRectF:
+def screen_rect(frame: BitmapFrame, view: View, window: Window) -> QRectF:
     """Return where a window's pixels lie on the screen."""
     corners = frame.to_mm(np.array([(window.col0, window.row0), (window.col1, window.row1)], dtype=np.float64)).tolist()
     (x0, y0), (x1, y1) = corners
     return QRectF(view.to_screen((x0, y0)), view.to_screen((x1, y1)))
 
 
-def pixel_at(frame: Frame, at: tuple[float, float]) -> tuple[int, int] | None:
+def pixel_at(frame: BitmapFrame, at: tuple[float, float]) -> tuple[int, int] | None:
     """Return row and column of the pixel under a point in mm, or None beside the bitmap."""
     col, row = (math.floor(value) for value in frame.to_px(np.array([at]))[0].tolist())
     return (row, col) if 0 <= row < frame.rows and 0 <= col < frame.cols else None
@@ -125,7 +125,7 @@ def _highest(plane: Plane, ranks: NDArray[np.uint8], group: int) -> Plane:
     return np.ascontiguousarray(code[best])
 
 
-def paint_raster(painter: QPainter, view: View, area: QRectF, frame: Frame, colour: QColor) -> None:
+def paint_raster(painter: QPainter, view: View, area: QRectF, frame: BitmapFrame, colour: QColor) -> None:
     """Paint the borders of the pixels, stronger the larger they are; nothing while they are small."""
     size = frame.pitch * view.scale
     window = window_of(frame, view, area)

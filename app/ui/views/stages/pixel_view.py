@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QWidget
 
 from ....geometry.primitives import Rows, row_curve, within_half_turn
 from ....model.curves import Point
-from ....raster.frame import Frame
-from ....raster.trace import Chain
+from ....raster.frame import BitmapFrame
+from ....raster.trace import PixelChain
 from ...framework.theme import LIGHT, Theme
 from ..canvas.curve_path import curve_path
 from ..canvas.grid import paint_ruler_marks, paint_rulers
@@ -97,7 +97,7 @@ class PixelView(Viewport):
         self._rows = curve_path(*(row_curve(row) for row in within_half_turn(rows)))
         self.update()
 
-    def light(self, chains: Sequence[Chain]) -> None:
+    def light(self, chains: Sequence[PixelChain]) -> None:
         """Light up chains, with their start pixels."""
         self._lit, self._starts = QPainterPath(), QPainterPath()
         if self.pixels is not None:
@@ -188,7 +188,7 @@ class PixelView(Viewport):
         painter.drawPath(path)
         painter.restore()
 
-    def _paint_pixel(self, painter: QPainter, frame: Frame, pixel: tuple[int, int]) -> None:
+    def _paint_pixel(self, painter: QPainter, frame: BitmapFrame, pixel: tuple[int, int]) -> None:
         """Outline the pixel under the mouse, so that it is seen however small."""
         row, col = pixel
         place = screen_rect(frame, self.view, Window(row, col, row + 1, col + 1))
@@ -263,5 +263,5 @@ class PixelView(Viewport):
         self.hovered.emit(*(pixel or (-1, -1)))
 
 
-def _whole(frame: Frame, view: PixelView) -> QRectF:
+def _whole(frame: BitmapFrame, view: PixelView) -> QRectF:
     return screen_rect(frame, view.view, Window(0, 0, frame.rows, frame.cols))

@@ -14,13 +14,13 @@ from ....core.atomic import read_whole
 from ....core.errors import InputError
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.job import Job
+from ....raster.ambiguities import Ambiguity, ambiguities
 from ....raster.codes import PixelCode, Plane
-from ....raster.doubts import Ambiguity, ambiguities
-from ....raster.faces import inner_faces, shows
-from ....raster.frame import Frame
-from ....raster.picture import Picture, pitch_of, read_picture, thresholded
+from ....raster.faces import ink_meaning, inner_faces
+from ....raster.frame import BitmapFrame
+from ....raster.picture import RasterPicture, pitch_of, read_picture, thresholded
 from ....raster.picture_file import MM_PER_INCH
-from ....raster.picture_options import PictureOptions, Shows
+from ....raster.picture_options import InkMeaning, PictureOptions
 
 if TYPE_CHECKING:
     from ....usecases.bitmap_job import BitmapJob
@@ -66,16 +66,16 @@ class Reading:
     """
 
     path: Path
-    picture: Picture
+    picture: RasterPicture
     names_size: bool
     options: PictureOptions = field(default_factory=PictureOptions)
     measure: Measure = field(default_factory=Measure)
 
     @property
-    def frame(self) -> Frame:
+    def frame(self) -> BitmapFrame:
         """Where its pixels lie, mm."""
         rows, cols = self.picture.gray.shape
-        return Frame(rows, cols, self.measure.pitch)
+        return BitmapFrame(rows, cols, self.measure.pitch)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,8 +89,8 @@ class Preview:
     """
 
     reading: Reading
-    picture: Picture
-    kind: Shows
+    picture: RasterPicture
+    kind: InkMeaning
     plane: Plane
     places: tuple[Ambiguity, ...]
 
@@ -129,15 +129,15 @@ def preview_of(reading: Reading, progress: Progress = NO_PROGRESS) -> Preview:
     progress.step(0.1, "Telling ink from paper")
     ink = thresholded(reading.picture.gray, reading.measure.pitch, reading.options)
     picture = replace(ink, stretched=reading.picture.stretched)
-    kind = shows(picture.ink, reading.options.shows)
+    kind = ink_meaning(picture.ink, reading.options.shows)
     plane = np.where(
-        picture.ink, PixelCode.CONTOUR if kind is Shows.LINES else PixelCode.INSIDE, PixelCode.EMPTY
+        picture.ink, PixelCode.CONTOUR if kind is InkMeaning.LINES else PixelCode.INSIDE, PixelCode.EMPTY
     ).astype(np.uint8)
     progress.step(0.4, "Looking for what lines enclose")
-    if kind is Shows.LINES:
+    if kind is InkMeaning.LINES:
         plane[inner_faces(picture.ink)] = PixelCode.INSIDE
     progress.step(0.7, "Looking for doubtful places")
-    places = ambiguities(picture.ink) if kind is Shows.LINES else ()
+    places = ambiguities(picture.ink) if kind is InkMeaning.LINES else ()
     return Preview(reading, picture, kind, plane, places)
 
 

@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
 
 from ....raster.codes import Plane
-from ....raster.frame import Frame
+from ....raster.frame import BitmapFrame
 from ...framework.figures import counted
 from ...framework.theme import LIGHT, Theme
 from . import inks
@@ -46,7 +46,7 @@ class StagesView(QWidget):
         self.rail, self.pixels, self.player, self._line = Rail(), PixelView(), Player(), QFrame()
         self.film: Film | None = None
         self._projector: Projector | None = None
-        self._frame = Frame()
+        self._frame = BitmapFrame()
         self._preview: Pixels | None = None
         self._lay_out()
         self.setFocusProxy(self.pixels)
@@ -101,10 +101,10 @@ class StagesView(QWidget):
         self._show_pixels()
         self.theme_changed.emit(theme)
 
-    def show_film(self, film: Film | None, frame: Frame | None = None) -> None:
+    def show_film(self, film: Film | None, frame: BitmapFrame | None = None) -> None:
         """Show another film, or none: at the same stage when it has as many, else where the same step comes first."""
         at = _same_place(self.film, self.at, film)
-        self.film, self._frame = film, frame or Frame()
+        self.film, self._frame = film, frame or BitmapFrame()
         self._projector = Projector(film) if film is not None else None
         self.rail.show_steps(film.numbers if film is not None else ())
         if film is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from ....drafting.document import Change
+from ....drafting.document import DocumentChange
 from ....usecases.bitmap_options import BitmapSize
 from ...framework.controller import Controller
 from ...framework.missing import NOTHING, Missing
@@ -118,10 +118,10 @@ class Staging(Controller):
         self._size = size
         self._follow()
 
-    def _on_change(self, change: Change) -> None:
-        if not change & (Change.PART | Change.JOB):
+    def _on_change(self, change: DocumentChange) -> None:
+        if not change & (DocumentChange.PART | DocumentChange.JOB):
             return
-        if change & Change.LOADED or not self._document.part.entities:
+        if change & DocumentChange.LOADED or not self._document.part.entities:
             self.worker.cancel()
             self.error, self._asked = "", None
             self._show(None)

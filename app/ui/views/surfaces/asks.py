@@ -11,7 +11,7 @@ from typing import Any
 from ....formats.job.toml import ORIGIN_XY, ORIGIN_Z
 from ....formats.job.write import word_of
 from ....model.scene import LineType, Passes, Scene, Strategy, Surface
-from ....model.scene_shapes import Keep, Shape
+from ....model.scene_shapes import ProfileOrientation, Shape
 from ....model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
 from ....model.tool_kind import tool_kind
 
@@ -99,7 +99,7 @@ _LINES: Choices = (
     (LineType.DOTTED, "Dotted"),
     (LineType.CHAIN, "Chain"),
 )
-_KEEP: Choices = ((Keep.PARALLEL, "Parallel"), (Keep.FOLLOW, "Follows"))
+_KEEP: Choices = ((ProfileOrientation.PARALLEL, "Parallel"), (ProfileOrientation.FOLLOW, "Follows"))
 _STRATEGIES: Choices = ((Strategy.ZIGZAG, "Zigzag"), (Strategy.ONE_WAY, "One way"))
 _TOOLS: Choices = (
     ("ball", "Ball end mill"),
@@ -155,7 +155,7 @@ def shape_asks(shape: Shape) -> tuple[Ask, ...]:
         elif isinstance(value, float):
             low = 0.0 if "radius" in each.name or each.name in ("major", "minor", "scale") else -_FAR
             asks.append(Ask(Kind.NUMBER, name, key, value, "" if each.name == "scale" else "mm", low))
-        elif isinstance(value, Keep):
+        elif isinstance(value, ProfileOrientation):
             asks.append(Ask(Kind.CHOICE, name, key, value, choices=_KEEP))
         elif each.name == "faces":
             asks.append(Ask(Kind.TOLD, f"Faces {', '.join(map(str, value))}" if value else "All faces"))

@@ -115,13 +115,13 @@ def _texts(wish: _Wish, path: Path, told: tuple[Progress, list[str]]) -> Iterato
     """Yield what to write, by file; `told` is how far it is, and what the user has to know."""
     from ....formats.plot.surface_plot import VIEWS
     from ....usecases.surface_nc import write_scene_nc
-    from ....usecases.surface_plot import Drawn, PlotScene, plot_surface
+    from ....usecases.surface_plot import PlotScene, PlottedPart, plot_surface
     from ....usecases.surface_points import scene_points_csv
     from ....usecases.surface_report import surface_report
 
     (progress, remarks), computed, suffix = told, wish.shown.computed, path.suffix.lower()
     if suffix in _PLOTS:
-        sheets = plot_surface(computed, suffix, PlotScene(VIEWS[wish.view], drawn=Drawn.PATHS))
+        sheets = plot_surface(computed, suffix, PlotScene(VIEWS[wish.view], drawn=PlottedPart.PATHS))
         for number, data in enumerate(sheets, 1):
             yield path if len(sheets) == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}"), data
         return

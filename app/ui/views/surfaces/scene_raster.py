@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....model.scene import LineType
-from ....usecases.strands import Role, Strand
+from ....usecases.scene_lines import LineRole, SceneLines
 from ..cut.camera import Camera
 from .shown_scene import Picture
 
@@ -39,14 +39,21 @@ class ColourBy(Enum):
 
 
 LAYER_OF = {
-    Role.SURFACE: Layer.PATHS,
-    Role.PATH: Layer.PATHS,
-    Role.LINK: Layer.LINKS,
-    Role.RAPID: Layer.RAPIDS,
-    Role.PLUNGE: Layer.RAPIDS,
-    Role.TIP: Layer.PATHS,
+    LineRole.SURFACE: Layer.PATHS,
+    LineRole.PATH: Layer.PATHS,
+    LineRole.LINK: Layer.LINKS,
+    LineRole.RAPID: Layer.RAPIDS,
+    LineRole.PLUNGE: Layer.RAPIDS,
+    LineRole.TIP: Layer.PATHS,
 }
-_WIDTHS = {Role.SURFACE: 1.0, Role.PATH: 1.6, Role.LINK: 0.9, Role.RAPID: 1.0, Role.PLUNGE: 1.4, Role.TIP: 1.2}
+_WIDTHS = {
+    LineRole.SURFACE: 1.0,
+    LineRole.PATH: 1.6,
+    LineRole.LINK: 0.9,
+    LineRole.RAPID: 1.0,
+    LineRole.PLUNGE: 1.4,
+    LineRole.TIP: 1.2,
+}
 _DOTS = (1.0, 3.0, 1.0, 3.0)
 PATTERNS: Mapping[LineType, tuple[float, ...]] = {
     LineType.SOLID: (0.0,) * 4,
@@ -140,13 +147,13 @@ def frame_of(camera: Camera, size: tuple[int, int], ratio: float) -> Floats:
     return np.array([*camera.axes.ravel(), *camera.target, camera.scale * ratio, *size], np.float64)
 
 
-def _pen(each: Strand, style: Style, pitch: float) -> Floats:
+def _pen(each: SceneLines, style: Style, pitch: float) -> Floats:
     inks, by = style.inks, style.colour_by
     on = each.surface >= 0
     pattern = PATTERNS[LineType.SOLID]
-    if each.role in (Role.RAPID, Role.PLUNGE):
-        ink = inks.rapid if each.role is Role.RAPID else inks.plunge
-        pattern = _DOTS if each.role is Role.RAPID else pattern
+    if each.role in (LineRole.RAPID, LineRole.PLUNGE):
+        ink = inks.rapid if each.role is LineRole.RAPID else inks.plunge
+        pattern = _DOTS if each.role is LineRole.RAPID else pattern
     elif by is ColourBy.LINE:
         ink = inks.ink
         pattern = PATTERNS[inks.lines[each.surface]] if on else _DOTS
@@ -154,12 +161,12 @@ def _pen(each: Strand, style: Style, pitch: float) -> Floats:
         ink = inks.tools[each.tool]
     else:
         ink = inks.surfaces[each.surface] if on else inks.rapid
-    if each.role is Role.TIP:
+    if each.role is LineRole.TIP:
         pattern = _DOTS
-    if each.role is Role.SURFACE:
+    if each.role is LineRole.SURFACE:
         ink = tuple(round(0.55 * ground + 0.45 * value) for ground, value in zip(inks.ground, ink, strict=True))  # type: ignore[assignment]
     ratio, dense = style.ratio, min(max(pitch * style.camera.scale / _DENSE_PX, _FAINTEST), 1.0)
-    strength = dense if each.role in (Role.PATH, Role.LINK) else 1.0
+    strength = dense if each.role in (LineRole.PATH, LineRole.LINK) else 1.0
     return np.array(
         [
             *ink[::-1],

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from ....core.atomic import read_whole
 from ....core.errors import InputError
 from ....core.progress import NO_PROGRESS, Progress
-from ....usecases.strands import Role, Strand, strand
+from ....usecases.scene_lines import LineRole, SceneLines, scene_lines
 
 if TYPE_CHECKING:
     from ....model.scene import LineType
-    from ....usecases.surface import Computed, Family
+    from ....usecases.surface import ComputedFamily, ComputedScene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,7 +36,7 @@ class Picture:
         pitch: from pass to pass, about, mm; inf where there is only one.
     """
 
-    strands: tuple[Strand, ...]
+    strands: tuple[SceneLines, ...]
     marks: Floats
     labels: tuple[str, ...]
     triangles: Floats
@@ -49,7 +49,7 @@ class Picture:
     def box(self) -> tuple[Floats, Floats]:
         """Lowest and highest x, y, z of what is seen but for moves in the air, mm."""
         places = (
-            [each.points for each in self.strands if each.role not in (Role.RAPID, Role.PLUNGE)]
+            [each.points for each in self.strands if each.role not in (LineRole.RAPID, LineRole.PLUNGE)]
             or [each.points for each in self.strands]
             or [np.zeros((1, 3))]
         )
@@ -67,17 +67,17 @@ class ShownScene:
     """
 
     path: Path
-    computed: Computed
+    computed: ComputedScene
     space: Picture
     colours: tuple[str, ...]
     lines: tuple[LineType, ...]
 
     @property
-    def planes(self) -> tuple[tuple[Family, int], ...]:
+    def planes(self) -> tuple[tuple[ComputedFamily, int], ...]:
         """Family and number of every cutting plane, in the order of cutting."""
         return tuple((family, k) for family in self.computed.families for k in range(len(family.planes.offsets)))
 
-    def section(self, family: Family, plane: int) -> Picture:
+    def section(self, family: ComputedFamily, plane: int) -> Picture:
         """Return what lies on a plane: x is mm along it, z the height, y 0."""
         from ....usecases.surface_picture import outline
         from ....usecases.surface_plot import boundary_name
@@ -88,18 +88,20 @@ class ShownScene:
 
         shown = [surface.visible for surface in self.computed.scene.surfaces] + [True]
         curves = [
-            strand(Role.SURFACE, flat(curve.points), curve.owner)
+            scene_lines(LineRole.SURFACE, flat(curve.points), curve.owner)
             for curve in family.surface.curves
             if curve.plane == plane and shown[curve.owner]
         ]
         tops = [
-            strand(Role.PATH, flat(points), owner)
+            scene_lines(LineRole.PATH, flat(points), owner)
             for run in family.surface.runs
             if run.plane == plane
             for owner, points in _by_owner(run.owner, run.points)
         ]
         tips = [
-            strand(Role.TIP, flat(run.points), -1, family.tool.number) for run in family.path.runs if run.plane == plane
+            scene_lines(LineRole.TIP, flat(run.points), -1, family.tool.number)
+            for run in family.path.runs
+            if run.plane == plane
         ]
         found = family.surface.boundaries
         rows = np.flatnonzero((found.plane == plane) & (found.before >= 0) & (found.after >= 0))
@@ -139,21 +141,21 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> Sh
     from ....formats.scene.toml import sources_of
     from ....model.scene import LineType
     from ....usecases.surface import read_and_compute
-    from ....usecases.surface_picture import looked_at, move_strands
-    from ....usecases.surface_plot import Drawn, PlotScene, by_surface
+    from ....usecases.surface_picture import looked_at, move_lines
+    from ....usecases.surface_plot import PlotScene, PlottedPart, by_surface
 
     progress.step(0.0, f"Computing {path.name}")
     computed = read_and_compute(
         path.name, data, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9)
     )
     progress.step(0.9, "Preparing the picture")
-    drawn = by_surface(computed, PlotScene(drawn=Drawn.SURFACE))
+    drawn = by_surface(computed, PlotScene(drawn=PlottedPart.SURFACE))
     colours = tuple(kind.colour or colour_of(number) for number, kind in enumerate(drawn.surfaces))
     lines = tuple(
         line_of(number) if kind.line is LineType.AUTO else kind.line for number, kind in enumerate(drawn.surfaces)
     )
     space = Picture(
-        tuple(move_strands(computed)),
+        tuple(move_lines(computed)),
         np.asarray(drawn.marks),
         tuple(drawn.labels),
         *looked_at(computed),
@@ -176,7 +178,7 @@ def read_file(path: Path) -> bytes:
         raise InputError(f"Cannot read {path}: {error.strerror}. Choose another file.") from error
 
 
-def _pitch(computed: Computed) -> float:
+def _pitch(computed: ComputedScene) -> float:
     """Return how far apart the passes are that are nearest together, in the middle of their family, mm."""
     apart = [
         float(np.median(np.abs(np.diff(family.planes.offsets))))

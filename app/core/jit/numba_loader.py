@@ -1,0 +1,206 @@
+"""The only place that imports numba, and only when a kernel is wanted: it takes longer than many a command."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import pickle
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
+from importlib.machinery import ModuleSpec
+from types import FunctionType, ModuleType
+from typing import Any
+
+
+class _ImportBlocker:
+    """Hides a library from the imports of one thread."""
+
+    def __init__(self, library: str) -> None:
+        self._library, self._thread = library, threading.get_ident()
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Refuse the library, and leave all others to whoever comes next."""
+        if name.split(".")[0] == self._library and threading.get_ident() == self._thread:
+            raise ImportError(f"{name} is not needed here")
+        return None
+
+
+@contextmanager
+def _without_scipy() -> Iterator[None]:
+    """Let numba do without scipy, which it would import for linear algebra that no kernel uses: 0.16 s of every
+    start.
+    """
+    hidden = _ImportBlocker("scipy")
+    sys.meta_path.insert(0, hidden)
+    try:
+        yield
+    finally:
+        sys.meta_path.remove(hidden)
+
+
+@cache
+def _numba() -> Any:
+    plugins = _no_plugins()
+    with _without_scipy():
+        import numba
+    numba.core.entrypoints = plugins
+    return numba
+
+
+def _no_plugins() -> ModuleType:
+    """Stand in for numba's look for extensions among all installed packages, of which no kernel needs one: it reads
+    mail headers first.
+    """
+    plugins = ModuleType("numba.core.entrypoints")
+    vars(plugins)["init_all"] = lambda: None
+    return sys.modules.setdefault(plugins.__name__, plugins)
+
+
+@cache
+def _compiler() -> None:
+    """Load what compiling needs, which the machine code of kernels does not."""
+    with _without_scipy():
+        from numba.core.registry import cpu_target
+
+        cpu_target.target_context.refresh()
+        cpu_target.typing_context.refresh()
+
+
+@cache
+def version() -> str:
+    """Return a name for compiler and processor: machine code of one is of no use for another."""
+    numba = _numba()
+    import llvmlite
+
+    processor = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
+    text = repr((sys.version_info[:3], numba.__version__, llvmlite.__version__, processor, numba.config.OPT))
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def dispatcher(function: FunctionType, counts: bool, called_from_python: bool) -> Any:
+    """Return numba's object for a function, nothing compiled yet.
+
+    Args:
+        function: as it was written.
+        counts: whether it counts who holds an array.
+        called_from_python: False: only kernels call it, so that it needs no door for Python.
+    """
+    return _numba().njit(
+        nogil=True, error_model="numpy", _nrt=counts, no_cfunc_wrapper=True, no_cpython_wrapper=not called_from_python
+    )(function)
+
+
+def compile_to(made: Any, signature: str) -> Callable[[], bytes]:
+    """Compile for a signature and no other, and return what gives the machine code as bytes.
+
+    Raises:
+        numba.core.errors.NumbaError: it cannot be compiled.
+    """
+    _compiler()
+    made.compile(signature)
+    made.disable_compile()
+    (compiled,) = made.overloads.values()
+    serialize = _numba().core.serialize
+    return lambda: bytes(serialize.dumps(compiled._reduce()))
+
+
+def load_for_callers(made: Any, code: bytes) -> None:
+    """Give a dispatcher what `compile_to` once gave, so that kernels that are compiled now can call it.
+
+    Raises:
+        Exception: whatever code that does not fit runs into.
+    """
+    from numba.core.compiler import CompileResult
+
+    _compiler()
+    compiled = CompileResult._rebuild(made.targetctx, *pickle.loads(code))
+    made.targetctx.insert_user_function(compiled.entry_point, compiled.fndesc, [compiled.library])
+    made.add_overload(compiled)
+    made.disable_compile()
+
+
+class _MachineCode:
+    """Machine code alone, without the code of LLVM that other kernels are linked with: a third of the time to load."""
+
+    def __init__(self, codegen: Any, code: bytes) -> None:
+        import llvmlite.binding as llvm
+
+        self.codegen = codegen
+        codegen._engine._ee.add_object_file(llvm.ObjectFileRef.from_data(code))
+        codegen._engine.finalize_object()
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """Return the address of a function in it."""
+        return int(self.codegen._engine.get_function_address(name))
+
+
+class _Unpickler(pickle.Unpickler):
+    """Makes the environments of compiled functions without importing what these were written in: 0.15 s for one sorted
+    array.
+    """
+
+    def find_class(self, module: str, name: str) -> Any:
+        """Return what a name of a module stands for."""
+        if (module, name) == ("numba.core.environment", "_rebuild_env"):
+            return _environment
+        return super().find_class(module, name)
+
+
+def _environment(module: str, constants: list[Any], name: str) -> Any:
+    """Return the environment of a function, whose globals are for code that goes back to Python; kernels never do."""
+    from numba.core.environment import Environment, lookup_environment
+
+    known = lookup_environment(name)
+    if known is not None:
+        return known
+    made = Environment({"__name__": module})
+    made.consts[:] = constants
+    made.env_name = name
+    Environment._memo[name] = made
+    return made
+
+
+def load(made: Any, code: bytes) -> None:
+    """Give a dispatcher what `compile_to` once gave, so that Python can call it.
+
+    Raises:
+        Exception: whatever code that does not fit runs into.
+    """
+    from numba.core.compiler import CompileResult
+
+    with _without_scipy():  # which what is unpickled may import too
+        library, function, environment, signature, *_, reloaded, environments = _Unpickler(io.BytesIO(code)).load()
+    for each in reloaded:
+        each()
+    context = made.targetctx
+    # what counts who holds an array; without effect but for the first time
+    _numba().core.runtime.nrt.rtsys.initialize(context)
+    machine_code = _MachineCode(context.codegen(), library[2][0])
+    for each in environments:
+        context.codegen().set_env(each.env_name, each)
+    entry = context.get_executable(machine_code, function, environment)
+    made.add_overload(
+        CompileResult(
+            target_context=context,
+            typing_context=None,
+            library=machine_code,
+            environment=environment,
+            entry_point=entry,
+            fndesc=function,
+            type_annotation="",
+            signature=signature,
+            objectmode=False,
+            lifted=(),
+            typing_error=None,
+            call_helper=None,
+            metadata=None,
+            reload_init=reloaded,
+            referenced_envs=environments,
+        )
+    )
+    made.disable_compile()

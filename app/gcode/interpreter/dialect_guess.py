@@ -1,0 +1,54 @@
+"""Which control a program looks like it was written for."""
+
+from __future__ import annotations
+
+import re
+
+from .dialect import DIALECT_RULES, Dialect
+
+_LOOKED_AT = 50_000
+"""Bytes from the beginning; what tells a control's language stands there, or in none of the program."""
+
+_NAMED = r"(?:hitofude for|post|control|machine)[^)\n]{0,60}\b"
+"""A control's name in a comment counts where the comment says that the program is for it: a vise may be called Haas
+too.
+"""
+
+_OWN = re.compile(
+    r"\(hitofude for (" + "|".join(rules.title.lower() for rules in DIALECT_RULES.values()) + r")\b", re.IGNORECASE
+)
+"""Who wrote the program says what for, whatever other controls its comments name."""
+
+_TELLING: tuple[tuple[Dialect, re.Pattern[str]], ...] = tuple(
+    (dialect, re.compile(words, re.IGNORECASE | re.MULTILINE))
+    for dialect, words in (
+        (Dialect.GRBL, r"\bgrbl|^\s*\$[a-z0-9]"),
+        (Dialect.MACH3, r"\bmach\s?3"),
+        (
+            Dialect.LINUXCNC,
+            r"linuxcnc|^\s*(n\d+\s*)?o\s*<|#\s*<|^\s*(n\d+\s*)?o\s*\d+\s*(sub|if|while|do|repeat|call)\b|g5\.[23]|g5\.1\s*[xyij]|g64\s*p",
+        ),
+        (Dialect.HAAS, _NAMED + r"haas|^[^(\n]*g\s*(187|154\s*p|103\s*p)"),
+        (
+            Dialect.FANUC,
+            _NAMED + r"fanuc|^\s*[o:]\s*\d{1,5}\s*(\(|$)|\bif\s*\[.*goto|while\s*\[.*\]\s*do\s*\d"
+            r"|g54\.1|g6\.2|g0?5\s*p1\d{4}|g0?5\.1\s*q|g10\.6",
+        ),
+    )
+)
+
+
+def guess_dialect(data: bytes) -> Dialect:
+    """Return the control that a program looks like, LinuxCNC when nothing tells.
+
+    What a program of our own says it is for; else the first of these that speaks: a name in a comment or a word that
+    only this control has, in the order grbl, Mach3, LinuxCNC, Haas, Fanuc.
+
+    Args:
+        data: the file's bytes.
+    """
+    text = data[:_LOOKED_AT].decode("latin-1")
+    own = _OWN.search(text)
+    if own is not None:
+        return next(dialect for dialect, rules in DIALECT_RULES.items() if rules.title.lower() == own[1].lower())
+    return next((dialect for dialect, words in _TELLING if words.search(text)), Dialect.LINUXCNC)

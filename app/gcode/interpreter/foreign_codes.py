@@ -1,0 +1,113 @@
+"""What Fanuc, Haas and Mach3 write beside the codes that move the tool: modes to pass over, other spellings, cycles of
+their own.
+"""
+
+from __future__ import annotations
+
+import re
+
+from .block import Block
+from .block_fault import BlockFault
+from .codes import ROTARY, ModalGroup
+from .control import Control
+from .expression import whole
+from .flow import Flow
+from .macro import subroutine
+from .parameters import Key
+
+_MODES = {"G5", "G5.1"}
+"""High-speed machining (G5 P10000, G5.1 Q1): how exactly the control follows the path, not which."""
+
+_PASSED = {"G8": "look-ahead", "G103": "look-ahead", "G107": "a cylinder", "G108": "look-ahead"}
+_CYCLES = {
+    "G12": "a circular pocket",
+    "G13": "a circular pocket",
+    "G47": "engraved text",
+    "G70": "a circle of holes",
+    "G71": "an arc of holes",
+    "G72": "a line of holes",
+    "G150": "a pocket of the control's own",
+    "G43.4": "a tool that tilts",
+    "G43.5": "a tool that tilts",
+}
+_ARGUMENTS: dict[str, int] = {
+    letter: number for number, letter in enumerate("abcijkdef.h.m...qrstuvwxyz", 1) if letter != "."
+}
+
+LOOKED_AT = 200_000
+"""Bytes in which numbers without a point are looked for."""
+
+_BLOCK_TEXT = re.compile(
+    rb"^[ \t]*(?:/[ \t]*)?(?:[:o][ \t]*[0-9]|[a-z#][ \t]*[-+.]?[0-9])", re.IGNORECASE | re.MULTILINE
+)
+_WHOLE_LENGTH = re.compile(rb"^[^(;\n]*[xyzijr][ \t]*[-+]?[0-9]*[1-9][0-9]*(?![0-9.])", re.IGNORECASE | re.MULTILINE)
+_UNITS = re.compile(rb"g[ \t]*2[01](?![0-9.])", re.IGNORECASE)
+
+
+def is_leader(text: bytes) -> bool:
+    """Tell whether nothing in a text looks like a block, so that it is the leader before a program's per cent sign."""
+    return _BLOCK_TEXT.search(text) is None
+
+
+def warn_of_numbers(control: Control, data: bytes) -> None:
+    """Tell what a program leaves to the control's settings: what a number without a point counts in, and its units."""
+    whole_length = _WHOLE_LENGTH.search(data, 0, LOOKED_AT) if control.rules.least_mm != 1.0 else None
+    if whole_length is not None:
+        control.line = data.count(b"\n", 0, whole_length.end()) + 1
+        control.warn(
+            f"lengths without a decimal point count in {control.rules.least_mm:g} mm or {control.rules.least_inch:g} "
+            "in here."
+        )
+    if control.rules.fanuc_flow and data and _UNITS.search(data) is None:
+        control.line = 1
+        control.warn("the program names no units (G20, G21); mm are taken.")
+
+
+def warn_of_rotary(control: Control, block: Block) -> None:
+    """Tell of axes that are not followed."""
+    for letter in ROTARY:
+        if letter in block.values:
+            control.warn(f"the axis {letter.upper()} is not followed, only X, Y and Z are.", letter)
+
+
+def adapt(control: Control, block: Block) -> None:
+    """Take out of a block what does not change the path, and spell as LinuxCNC does what it spells otherwise.
+
+    Raises:
+        Fault: a cycle of the control's own, whose path the reader does not know.
+    """
+    if control.rules.splines != "G5" and block.codes.get(ModalGroup.MOTION) in _MODES and not block.has("xyzij"):
+        code = block.codes.pop(ModalGroup.MOTION)
+        _drop(block, "pqr")
+        control.warn(f"{code} chooses how the control follows the path; it is passed over.", "g")
+    for code in list(block.unknown):
+        if code in _CYCLES:
+            raise BlockFault(f"{code} is {_CYCLES[code]}, which is not followed; the reader stops here.", letter="g")
+        if code == "G154" or (code.startswith("G") and 110 <= float(code[1:]) <= 129):
+            block.unknown.remove(code)
+            block.codes[ModalGroup.OFFSET] = "G54.1"
+            block.values.setdefault("p", float(code[1:]) - 109)
+        elif code in _PASSED:
+            block.unknown.remove(code)
+            _drop(block, "pq")
+            control.warn(f"{code} ({_PASSED[code]}) is passed over.", "g")
+
+
+def _drop(block: Block, letters: str) -> None:
+    for letter in letters:
+        block.values.pop(letter, None)
+
+
+def call_macro(flow: Flow, control: Control, block: Block) -> None:
+    """Obey G65: call a program with arguments, which become #1 to #26 by their letters.
+
+    Raises:
+        Fault: the program is not in this file.
+    """
+    number = whole(block.need("p", "G65"), "P of G65")
+    count = whole(block.values.get("l", 1.0), "L of G65")
+    arguments: dict[Key, float] = {
+        _ARGUMENTS[letter]: value for letter, value in block.values.items() if letter in _ARGUMENTS
+    }
+    if count > 0:
+        flow.call(subroutine(flow, number), arguments, count)

@@ -1,0 +1,52 @@
+"""Which places lie at others: by cells, so that many of both take no longer than to sort them."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.motion import Floats
+
+_CELL = 2.5
+"""Reaches that a cell is wide; with two alone rounding might put the ends of a reach two cells apart, and what is
+between in neither.
+"""
+
+
+def near(places: Floats, others: Floats, reach: float) -> NDArray[np.bool_]:
+    """Tell which places (n, 3) have one of some others (m, 3) within a reach, mm.
+
+    Cells are wider than twice the reach, so that what is within it lies in one of at most eight: those that the corners
+    of the box of the reach round a place lie in.
+
+    Args:
+        reach: > 0; others nearer together than that are many in one cell, which costs.
+    """
+    found = np.zeros(len(places), np.bool_)
+    if not len(places) or not len(others):
+        return found
+    others = np.unique(others, axis=0)
+    width = _CELL * reach
+    keys = _keys(np.floor(others / width))
+    order = np.argsort(keys, kind="stable")
+    others, keys = others[order], keys[order]
+    for side in product((-reach, reach), repeat=3):
+        requested = _keys(np.floor((places + np.array(side)) / width))
+        at, stop = np.searchsorted(keys, requested), np.searchsorted(keys, requested, side="right")
+        open_ = np.flatnonzero(~found & (at < stop))
+        while len(open_):
+            found[open_] = np.linalg.norm(places[open_] - others[at[open_]], axis=1) <= reach
+            at[open_] += 1
+            open_ = open_[~found[open_] & (at[open_] < stop[open_])]
+    return found
+
+
+def _keys(cells: Floats) -> NDArray[np.uint64]:
+    """Return a number of each cell (n, 3); few of different cells are alike, and those only cost a distance more."""
+    whole = cells.astype(np.int64).astype(np.uint64)
+    keys: NDArray[np.uint64] = (
+        whole[:, 0] * np.uint64(0x9E3779B97F4A7C15) ^ whole[:, 1] * np.uint64(0xC2B2AE3D27D4EB4F) ^ whole[:, 2]
+    )
+    return keys

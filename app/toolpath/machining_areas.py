@@ -1,0 +1,200 @@
+"""The areas that each operation's cutter may be in, with their walls: of its curves, on its side of the lines, without
+the clamps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.progress import NO_PROGRESS, Progress
+from ..geometry.distance import DistanceField
+from ..geometry.offset.offset import OffsetLevel, offset_levels
+from ..geometry.overlay.overlay import OverlayResult, without_crossings, without_outlines
+from ..geometry.primitives import Primitives, contour_rows, pack, points_at
+from ..geometry.region import nested, polygon_contour
+from ..model.curve_selectors import Selector
+from ..model.finding import Finding
+from ..model.job import Job
+from ..model.moves import Area
+from ..model.operation import ContourOperation, DrillOperation, Operation, Side
+from ..model.part import Contour, Region
+from ..model.stock_box import extent
+from .drawn_contours import DrawnContours
+from .drill_holes import CircleHole, circle_of, hole_regions, made_by_drills
+from .leads.lead import lead_size
+from .selected import selected
+from .witness import region_findings
+
+_ON_CLAMP = 2e-5
+"""mm; a wall all of which is this near to a clamp's outline is the clamp's: ends that meet are put together by as
+much.
+"""
+
+_ROOM = 4.0
+"""Tool diameters round the drawing in which the paths outside of it lie, unless their leads ask for more; beyond is
+nothing that concerns them.
+"""
+
+_SPARE = 1.0
+"""mm that the frame is farther off than the leads need."""
+
+
+@dataclass(frozen=True, eq=False)
+class MachiningArea:
+    """An area and its walls.
+
+    Attributes:
+        regions: where the cutter may be, with all of its width.
+        primitives, distances: all that bounds them, as rows, and distances from it.
+        bare: (n,) True where a row bounds a clamp, or is the frame round the area outside: it is kept off, not
+            followed.
+        lines: contours that a path on the line follows, open and closed.
+        outlines: of clamps and frame.
+    """
+
+    regions: tuple[Region, ...]
+    primitives: Primitives
+    distances: DistanceField
+    bare: NDArray[np.bool_]
+    lines: tuple[Contour, ...] = ()
+    outlines: tuple[Contour, ...] = ()
+    _frames: dict[float, OffsetLevel] = field(default_factory=dict, repr=False)
+
+    def frame(self, distance: float, progress: Progress = NO_PROGRESS) -> OffsetLevel:
+        """Return the outermost frame of a cutter, its centre at a distance from the walls, mm, see `offset_levels`.
+
+        What is left is looked for along the frame that contours follow later: it is made once.
+
+        Raises:
+            Cancelled: by progress.
+        """
+        if distance not in self._frames:
+            (self._frames[distance],) = offset_levels(self.primitives, [distance], progress, frame=True)
+        return self._frames[distance]
+
+    def follows_bare(self, rows: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return for each row (n, 8) of a ring whether what it follows at its middle is bare."""
+        if not self.bare.any():
+            return np.zeros(len(rows), np.bool_)
+        nearest: NDArray[np.bool_] = self.bare[self.distances.nearest(points_at(rows, np.full(len(rows), 0.5)))[1]]
+        return nearest
+
+
+@dataclass
+class MachiningAreas:
+    """The sheets of a job's operations; operations alike share one.
+
+    Attributes:
+        findings: of those that were made so far, where their areas are not what was drawn.
+    """
+
+    job: Job
+    drawn: DrawnContours
+    findings: list[Finding] = field(default_factory=list)
+    _made: dict[tuple[frozenset[Selector], Side], MachiningArea | None] = field(default_factory=dict)
+
+    def of(self, operation: Operation) -> MachiningArea | None:
+        """Return the sheet of an operation; None where it has nothing to machine."""
+        side = operation.wall_side or Side.INSIDE
+        key = frozenset(operation.cut.curves), side
+        if key not in self._made:
+            self._made[key] = self._sheet(*key)
+        return self._made[key]
+
+    def areas(self) -> tuple[Area, ...]:
+        """Return the area of each operation of the job, by its index."""
+        return tuple(self._area(operation) for operation in self.job.operations)
+
+    def _area(self, operation: Operation) -> Area:
+        if isinstance(operation, DrillOperation):
+            return Area(hole_regions(self.job, self.drawn, operation)) if operation.cut.enabled else Area()
+        area = self.of(operation) if operation.cut.enabled else None
+        if area is None:
+            return Area()
+        return Area(area.regions, area.lines, operation.CLEARS, area.outlines)
+
+    def _sheet(self, curves: frozenset[Selector], side: Side) -> MachiningArea | None:
+        found = selected(self.drawn, tuple(curves))
+        closed, lines = list(found.closed), list(found.open)
+        if self._made_by_drills:
+            closed = [contour for contour in closed if circle_of(contour) not in self._made_by_drills]
+        frame = self._frame((*closed, *lines, *(c for region in self.drawn.clamps for c in region.contours)))
+        if frame is None or (side is not Side.ON and not closed):
+            return None
+        regions = self._regions({Side.INSIDE: closed, Side.OUTSIDE: [frame, *closed], Side.ON: [frame]}[side])
+        if not regions:
+            return None
+        primitives = pack(regions)
+        outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (
+            () if side is Side.INSIDE else (frame,)
+        )
+        bare = _lies_on(primitives, outlines)
+        return MachiningArea(
+            regions,
+            primitives,
+            DistanceField.of(primitives.rows),
+            bare,
+            (*closed, *lines) if side is Side.ON else (),
+            outlines,
+        )
+
+    def _regions(self, contours: Sequence[Contour]) -> tuple[Region, ...]:
+        """Return the regions that contours bound even-odd, without what clamps hold; the witness is asked about
+        them.
+        """
+        plain = without_crossings(contours) if self.drawn.crossing else OverlayResult(tuple(contours))
+        outlines = [clamp.boundary for clamp in self.drawn.clamps]
+        free = without_outlines(plain.contours, outlines)
+        nesting = nested(free.contours)
+        self.findings += [*plain.findings, *free.findings, *region_findings(contours, outlines, nesting)]
+        return nesting.regions
+
+    @cached_property
+    def _made_by_drills(self) -> frozenset[CircleHole | None]:
+        return frozenset(made_by_drills(self.job, self.drawn))
+
+    def _frame(self, contours: Sequence[Contour]) -> Contour | None:
+        """Return a box with room for every tool round all contours, counter-clockwise; None where there is no
+        contour.
+        """
+        box = extent(contours)
+        if box is None:
+            return None
+        enabled = [operation for operation in self.job.operations if operation.cut.enabled]
+        widest = max((self.job.tool(each.cut.tool).diameter for each in enabled), default=1.0)
+        wide = _ROOM * widest + max((each.cut.stock_to_leave for each in enabled), default=0.0)
+        wide = max(
+            [
+                wide,
+                *(
+                    self._led(each)
+                    for each in enabled
+                    if isinstance(each, ContourOperation) and each.side is Side.OUTSIDE
+                ),
+            ]
+        )
+        x0, y0, x1, y1 = box[0] - wide, box[1] - wide, box[2] + wide, box[3] + wide
+        return polygon_contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+    def _led(self, operation: ContourOperation) -> float:
+        """Return how far round the walls there is room for whole leads, also of what is roughed: they keep off the
+        frame too, mm.
+        """
+        tool = self.job.tool(operation.cut.tool)
+        wall = tool.radius + operation.cut.stock_to_leave + operation.finish_width
+        return 2 * wall + lead_size(operation.lead, tool) + _SPARE
+
+
+def _lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
+    """Return (n,) which rows lie on some contours, by their ends and middles."""
+    if not contours:
+        return np.zeros(len(primitives.rows), np.bool_)
+    rows, outlines = primitives.rows, DistanceField.of(np.concatenate([contour_rows(contour) for contour in contours]))
+    near = [outlines.nearest(points_at(rows, np.full(len(rows), part)), 1.0)[0] < _ON_CLAMP for part in (0.0, 0.5, 1.0)]
+    lying: NDArray[np.bool_] = near[0] & near[1] & near[2]
+    return lying

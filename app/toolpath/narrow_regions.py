@@ -1,0 +1,273 @@
+"""Where a tool does not fit: regions too small for it, and necks that part a region for it."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..core.pool import in_bands
+from ..geometry.distance import DistanceField
+from ..geometry.offset.offset import OffsetLevel, Ring, offset_levels
+from ..geometry.outlines import Outlines, polygons
+from ..geometry.primitives import Primitives, sample
+from ..model.finding import Finding, FindingKind
+from ..model.job import Job
+from ..model.operation import Operation
+from ..model.part import Region
+from ..model.tool import Tool
+from .linking.bridge import RingEdges, level_bridges
+from .linking.tree import BridgeForest
+
+_CHORD = 1e-3
+
+_WORTH_TWO_CORES = 32
+"""Largest discs from which a second core is worth its start."""
+
+_NARROWER = 1e-3
+"""mm; a neck that a tool does not pass is told as at least so much narrower than the tool needs."""
+
+_TELL = 20
+"""Necks told one by one."""
+
+_LOWER = 8
+"""Levels below the tool's at which is looked for where parts come together."""
+
+_WINDOWS = ((0.8, 25), (0.8, 161), (2.0, 161), (6.0, 161))
+"""Half sides of grids, in distances between the two parts, and points along a side: a neck may lie far off, or be much
+narrower.
+"""
+
+_REFINED = 3
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ToolRoom:
+    """The room that a tool needs.
+
+    Attributes:
+        tool: the tool.
+        width: of a gap that it can pass, mm: for a pocket tool, its diameter and what the contour tool takes along both
+            walls.
+    """
+
+    tool: Tool
+    width: float
+
+    @property
+    def text(self) -> str:
+        """Who needs how much."""
+        why = (
+            ""
+            if self.width < self.tool.diameter + 1e-6
+            else ": its diameter, and the strip that it leaves along each wall"
+        )
+        return f"T{self.tool.number} {self.tool.label} needs {self.width:.3f} mm{why}"
+
+
+def finest(job: Job, operation: Operation) -> float:
+    """Return the least width, mm, of a region that some operation of the job machines in the layers of this one, as
+    deep, on its side; inf where none does.
+    """
+
+    alike = [
+        each.cut
+        for each in job.operations
+        if each.cut.enabled
+        and each.wall_side is operation.wall_side
+        and set(each.cut.curves) == set(operation.cut.curves)
+        and each.cut.floor >= operation.cut.floor
+    ]
+    return min((2 * (job.tool(cut.tool).radius + cut.stock_to_leave) for cut in alike), default=math.inf)
+
+
+def too_small(regions: Sequence[Region], level: OffsetLevel, tool: Tool, least: float) -> list[Finding]:
+    """Return a finding for each region in which a tool has no room at all.
+
+    Args:
+        level: the rings of the tool's centre.
+        least: regions as wide as this are machined by others, mm, and count for nothing here; 0 = all are.
+    """
+    reached = {ring.region for ring in level.rings}
+    need = ToolRoom(tool, 2 * level.distance)
+    small = [region for region in regions if region.number not in reached]
+    findings = []
+    for region, (x, y, diameter) in zip(small, largest_discs(small).tolist(), strict=True):
+        text = (
+            f"Region {region.number} at ({x:.3f}, {y:.3f}) is too small: its largest disc is about {diameter:.3f} mm, "
+            f"and {need.text}. Use a smaller tool for it."
+        )
+        counts = diameter < least or 0 < need.width <= least + 1e-9
+        findings.append(
+            Finding(
+                FindingKind.REGION_TOO_SMALL, text, x, y, counts, amount=diameter, entity_ids=region.boundary.entity_ids
+            )
+        )
+    return findings
+
+
+def largest_discs(regions: Sequence[Region]) -> Floats:
+    """Return x, y, diameter (n, 3), mm, of the largest disc in each region, within 0.005 mm; none where it begins if it
+    has no area.
+    """
+    outlines = Outlines.of([contour for region in regions for contour in region.contours])
+    group = np.repeat(np.arange(len(regions)), [1 + len(region.islands) for region in regions])
+    found = np.zeros((len(regions), 3))
+    found[:, :2] = np.array([region.boundary.primitives[0].start for region in regions]).reshape(-1, 2)
+    number, shapes = polygons(outlines, group, _CHORD)
+    wide = shapely.area(shapes) > 0
+    number, shapes = number[wide], shapes[wide]
+    radii = np.concatenate(
+        in_bands(
+            lambda band: shapely.maximum_inscribed_circle(shapes[band], tolerance=_CHORD), len(shapes), _WORTH_TWO_CORES
+        )
+    )
+    found[number, :2] = shapely.get_coordinates(radii)[::2]
+    found[number, 2] = 2 * shapely.length(radii)
+    return found
+
+
+def necks(level: OffsetLevel, primitives: Primitives, field: DistanceField, tool: Tool) -> list[Finding]:
+    """Return a finding for each place where a region falls into parts because the tool does not fit through; one for
+    all beyond some.
+
+    The place is the narrowest one of the widest way between two parts next to each other.
+
+    Args:
+        level: the rings of the tool's centre.
+        primitives, field: what bounds the regions, and distances from it.
+    """
+    need = ToolRoom(tool, 2 * level.distance)
+    findings = []
+    pairs = _nearest_pairs(level)
+    lower = offset_levels(primitives, [level.distance * k / _LOWER for k in range(1, _LOWER)]) if pairs else ()
+    outlines = [np.array([_outline(ring) for ring in each.rings if ring.area > 0], dtype=object) for each in lower]
+    for a, b, region in pairs[:_TELL]:
+        (x, y), room = _narrowest(*_at_the_neck(a, b, outlines), field)
+        width = min(2 * room, need.width - _NARROWER)
+        text = f"Region {region} has a neck at ({x:.3f}, {y:.3f}), about {width:.3f} mm wide; {need.text}."
+        findings.append(Finding(FindingKind.NECK_TOO_NARROW, text, float(x), float(y), counts=False, amount=width))
+    if len(pairs) > _TELL:
+        x, y = (float(value) for value in (pairs[_TELL][0] + pairs[_TELL][1]) / 2)
+        text = f"{len(pairs) - _TELL} more necks are too narrow; {need.text}."
+        findings.append(
+            Finding(FindingKind.NECK_TOO_NARROW, text, x, y, counts=False, amount=float(len(pairs) - _TELL))
+        )
+    return findings
+
+
+def _nearest_pairs(level: OffsetLevel) -> list[tuple[Floats, Floats, int]]:
+    """Return (ends of the shortest ways that join all parts of a region, region), one less than there are parts."""
+    outer = [k for k, ring in enumerate(level.rings) if ring.area > 0]
+    count = Counter(level.rings[k].region for k in outer)
+    parts = [k for k in outer if count[level.rings[k].region] > 1]
+    if not parts:
+        return []
+    tree = BridgeForest(len(level.rings))
+    pairs = []
+    for bridge, (a, b) in level_bridges(RingEdges(level.rings), parts, tree.group, level.distance / 2):
+        tree.add(bridge)
+        pairs.append((a, b, level.rings[bridge.a.ring].region))
+    return pairs
+
+
+def _outline(ring: Ring) -> shapely.Polygon:
+    return (
+        shapely.Polygon(sample(ring.rows, _CHORD))
+        if len(ring.rows) > 2
+        else shapely.Point(ring.rows[0, :2]).buffer(1e-6)
+    )
+
+
+def _at_the_neck(a: Floats, b: Floats, outlines: Sequence[NDArray[np.object_]]) -> tuple[Floats, Floats]:
+    """Return the nearest points of the areas round two points at the first level that parts them.
+
+    Args:
+        outlines: of the areas at rising levels.
+    """
+    for areas in outlines:
+        if not len(areas):
+            return a, b
+        sizes = shapely.area(areas)
+        one, other = (areas[np.lexsort((sizes, shapely.distance(areas, shapely.Point(point))))[0]] for point in (a, b))
+        if one is not other:
+            ends = shapely.get_coordinates(shapely.shortest_line(one, other))
+            return (ends[0], ends[1]) if np.any(ends[0] != ends[1]) else (a, b)
+    return a, b
+
+
+def _narrowest(a: Floats, b: Floats, field: DistanceField) -> tuple[Floats, float]:
+    """Return (place, distance from the drawing) of the neck between two points: where the widest way is narrowest."""
+    way, reach = next(
+        (widest for window in _WINDOWS if len((widest := _widest_way(a, b, window, field))[0])),
+        (a + (b - a) * np.linspace(0, 1, 65)[:, None], float(np.hypot(*(b - a))) / 16),
+    )
+    for _ in range(_REFINED):
+        way = _to_the_middle(way, reach, field)
+        room = field.nearest(way)[0]
+        k = int(np.argmin(room))
+        found: tuple[Floats, float] = way[k], float(room[k])
+        before, after, part = way[max(k - 1, 0)], way[min(k + 1, len(way) - 1)], np.linspace(0, 1, 5)[:, None]
+        way = np.concatenate([before + (way[k] - before) * part, (way[k] + (after - way[k]) * part)[1:]])
+        reach /= 2
+    return found
+
+
+def _to_the_middle(way: Floats, reach: float, field: DistanceField) -> Floats:
+    """Return the points (n, 2) of a way moved across it, by `reach` mm or less, to where they have most room; over no
+    wall.
+    """
+    along = np.gradient(way, axis=0)
+    size = np.hypot(*along.T)
+    across = np.stack([-along[:, 1], along[:, 0]], 1) / np.where(size > 0, size, 1.0)[:, None]
+    for _ in range(5):
+        steps = np.linspace(-reach, reach, 9)
+        places = way[:, None] + across[:, None] * steps[:, None]
+        room = field.nearest(places.reshape(-1, 2))[0].reshape(len(way), -1)
+        room[field.nearest(way)[0][:, None] + room <= np.abs(steps)] = -1.0
+        way = places[np.arange(len(way)), np.argmax(room, axis=1)]
+        reach /= 3
+    return way
+
+
+def _widest_way(a: Floats, b: Floats, window: tuple[float, int], field: DistanceField) -> tuple[Floats, float]:
+    """Return (points (n, 2) of the way over a grid round two points that keeps most distance, pitch of the grid, mm).
+
+    Two grid points are neighbours when their discs without a wall overlap, so no way crosses one; n = 0 without such a
+    way.
+
+    Args:
+        window: half the grid's side in distances of the two points, and how many points it has along a side.
+    """
+    half, side = window[0] * float(np.hypot(*(b - a))), window[1]
+    axis, pitch = np.linspace(-half, half, side), 2 * half / (side - 1)
+    points = (a + b) / 2 + np.stack(np.meshgrid(axis, axis, indexing="ij"), -1).reshape(-1, 2)
+    room = field.nearest(points)[0]
+    number = np.arange(side**2).reshape(side, side)
+    sides = (
+        (number[1:], number[:-1]),
+        (number[:, 1:], number[:, :-1]),
+        (number[1:, 1:], number[:-1, :-1]),
+        (number[1:, :-1], number[:-1, 1:]),
+    )
+    pairs = np.concatenate([np.stack([one.ravel(), other.ravel()], 1) for one, other in sides])
+    pairs = pairs[room[pairs].sum(axis=1) > np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T)]
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
+
+    graph = coo_matrix((2 * room.max() - room[pairs].min(axis=1), (pairs[:, 0], pairs[:, 1])), (side**2, side**2))
+    start, end = (int(np.argmin(np.hypot(*(points - point).T))) for point in (a, b))
+    before = breadth_first_order(minimum_spanning_tree(graph), start, directed=False)[1]
+    way = [end]
+    while way[-1] != start:
+        if before[way[-1]] < 0:
+            return points[:0], pitch
+        way.append(int(before[way[-1]]))
+    return points[way[::-1]], pitch

@@ -1,0 +1,300 @@
+"""What paths have left of an area within reach of a cutter: cells of a grid that together hold all of it.
+
+Two places are told apart. Where the cutter's centre may be, all metal is within reach, and its depth in what the paths
+have left decides. Nearer to the walls only what lies beside a ring that still cuts something can be left: the straight
+walls that a larger tool has followed are clean, and are not looked at again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.memory import ask, fitting, portion
+from ..core.pool import in_bands
+from ..core.progress import Progress
+from ..geometry.distance import DistanceField
+from ..geometry.primitives import Indices, Rows, pack, points_at, within_half_turn
+from . import rest_kernels
+from .machining_areas import MachiningArea
+
+LEAST = 4e-3
+"""mm; metal in which no disc of this radius fits is none: it is thinner than what the measure of coverage counts."""
+
+_SAME = 5e-4
+"""mm by which a cutter's rim may go beyond what a path has cut and still cut nothing."""
+
+_WORTH_ASKING = 1e8
+"""Bytes from which on it is worth to look how many squares will really be found."""
+
+_AT_A_TIME, _SQUARE_BYTES = 1 << 20, 150
+"""Squares that are looked at together, few enough to be stopped between them, and what one takes meanwhile."""
+
+CELL_BYTES, CHUNK_BYTES = 100, 250
+"""What a cell in which metal is left takes until it is cleared, and a short row of a ring."""
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class CutGround:
+    """What paths have cut.
+
+    Attributes:
+        tree: rows (n, 8), orders and nodes of one tree a cutter, and (k, 3) the radius of each, mm, with where the next
+            one's begin.
+    """
+
+    tree: tuple[Rows, Indices, Rows, Floats]
+
+    @staticmethod
+    def of(paths: Sequence[tuple[Rows, float]]) -> CutGround:
+        """Return the ground that paths (rows (n, 8), radius of the cutter, mm) have cut."""
+        rows, order, nodes = [np.zeros((0, 8))], [np.zeros(0, np.int64)], [np.zeros((0, 4))]
+        cutters: list[tuple[float, int, int]] = []
+        for radius in sorted({radius for _, radius in paths}, reverse=True):
+            parts = [path for path, wide in paths if wide == radius and len(path)]
+            if not parts:
+                continue
+            field = DistanceField.of(within_half_turn(np.concatenate(parts)))
+            order.append(field.order + sum(map(len, rows)))
+            rows.append(field.rows)
+            nodes.append(field.nodes)
+            cutters.append((radius, sum(map(len, order)), sum(map(len, nodes))))
+        return CutGround(
+            (np.concatenate(rows), np.concatenate(order), np.concatenate(nodes), np.array(cutters).reshape(-1, 3))
+        )
+
+    def depth(self, points: Floats, limit: float) -> Floats:
+        """Return how deep points (m, 2) lie in what is left, mm, at most `limit`; not above 0 where it is cut."""
+        out = np.empty(len(points))
+        rest_kernels.depths_left(*self.tree, np.ascontiguousarray(points), limit, out)
+        return out
+
+    def holds(self, points: Floats, around: float) -> NDArray[np.bool_]:
+        """Return for points (m, 2) whether all within `around` of them, mm, is cut by one stretch of a path."""
+        points, out = np.ascontiguousarray(points), np.empty(len(points), np.bool_)
+
+        def look(band: slice) -> None:
+            rest_kernels.hold(*self.tree, points[band], around, out[band])
+
+        in_bands(look, len(points))
+        return out
+
+    def in_air(self, rows: Rows, radius: float, tolerance: float = _SAME) -> NDArray[np.bool_]:
+        """Return for short rows (n, 8) whether a cutter of this radius, mm, cuts nothing along them."""
+        places = np.hstack([rows[:, :2], points_at(rows, np.full(len(rows), 0.5)), rows[:, 2:4]])
+        places, out = np.ascontiguousarray(places), np.empty(len(rows), np.bool_)
+
+        def look(band: slice) -> None:
+            rest_kernels.in_air(*self.tree, places[band], np.array([radius, tolerance]), out[band])
+
+        in_bands(look, len(rows))
+        return out
+
+
+@dataclass(frozen=True, eq=False)
+class CentreReach:
+    """Where a cutter's centre may be, and the grid in which metal is looked for.
+
+    Attributes:
+        area: the area and its walls.
+        radius: of the cutter, mm.
+        closest: its centre keeps so far off the walls, mm.
+        cell: half side of the cells, mm.
+    """
+
+    area: MachiningArea
+    radius: float
+    closest: float
+    cell: float
+
+    @property
+    def corner(self) -> float:
+        """From a cell's centre to its corners, mm."""
+        return self.cell * math.sqrt(2)
+
+    def ask_memory(self, needed: float) -> None:
+        """Ask for the memory, bytes, of cells and rings as fine as the tool wants them: both grow with the square of
+        its fineness.
+
+        Raises:
+            MemoryShortError: there is not as much.
+        """
+        larger = f"{2 * self.radius / math.sqrt(fitting(needed)) * 1.05:.2g}"
+        ask(
+            needed,
+            f"Clearing what is left with a tool of {2 * self.radius:g} mm",
+            f"use one of {larger} mm or more (--contour-tool {larger}), or a smaller one before it (--pocket-tool)",
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class RestSquares:
+    """Squares that may hold metal that is left; everything else is proven cut, or out of reach.
+
+    Attributes:
+        core: centres (n, 2) of those where the cutter's centre may be. rim: of those nearer to the walls.
+        half: half their side, mm.
+    """
+
+    core: Floats
+    rim: Floats
+    half: float
+
+
+def suspects(ground: CutGround, reach: CentreReach, cutting: Rows, progress: Progress) -> RestSquares:
+    """Return the squares of a grid that may hold metal that is left, by ever finer squares.
+
+    Args:
+        cutting: pieces (n, 8) of the ring nearest to the walls along which the cutter still cuts: nearer to the walls
+            nothing is left but beside these.
+    """
+    last = 2 * reach.cell
+    area = _Area(DistanceField.of(pack(reach.area.regions).rows), DistanceField.of(cutting) if len(cutting) else None)
+    found = [np.zeros((0, 3)), *_sifted(ground, reach, area, progress)]
+    centres, walls = np.split(np.concatenate(found), [2], axis=1)
+    q, near = last * math.sqrt(2), walls[:, 0]
+    core = near + q >= reach.closest
+    return RestSquares(centres[core], centres[near - q < reach.closest], last)
+
+
+@dataclass(frozen=True, eq=False)
+class _Area:
+    """Edges of an area, and the pieces of the ring nearest to its walls that still cut; None: there are none."""
+
+    edges: DistanceField
+    cutting: DistanceField | None
+
+
+def _sifted(ground: CutGround, reach: CentreReach, area: _Area, progress: Progress) -> Iterator[Floats]:
+    """Yield the centres (n, 2) of squares of the last size, and how far from the walls they are, part after part from
+    left to right.
+    """
+    last, found = 2 * reach.cell, 0
+    low, high = area.edges.boxes[:, :2].min(axis=0), area.edges.boxes[:, 2:].max(axis=0)
+    waiting = [_grid((*low, *high), last)]
+    while waiting:
+        centres, half = waiting.pop()
+        most = min(_AT_A_TIME, portion(_SQUARE_BYTES))
+        if len(centres) > most:
+            waiting += [(centres[first : first + most], half) for first in reversed(range(0, len(centres), most))]
+            continue
+        progress.step(0.0, "Looking for what is left")
+        kept = _sieved(ground, reach, area, centres, half)
+        if half <= last:
+            found += len(kept)
+            reach.ask_memory(CELL_BYTES * found)
+            yield kept
+        elif len(kept):
+            half /= 2
+            around = np.array([[-half, -half], [half, -half], [-half, half], [half, half]])
+            waiting.append(((kept[:, None, :2] + around).reshape(-1, 2), half))
+
+
+def _sieved(ground: CutGround, reach: CentreReach, area: _Area, centres: Floats, half: float) -> Floats:
+    """Return the squares that may hold metal that is left: their centres (m, 2), and how far from the walls.
+
+    Args:
+        ground, reach: what is left, and where the cutter's centre may be.
+        area: that the squares are looked for in.
+        centres, half: (n, 2) of the squares, and half their side, mm.
+    """
+    q = half * math.sqrt(2)
+    centres = centres[~ground.holds(centres, q)]
+    # no farther than where it is decided whether a cutter's centre may be anywhere in a square
+    walls = reach.area.distances.nearest(centres, max(reach.closest, q) + 2 * q)[0]
+    open_ = walls + q >= reach.closest
+    if area.cutting is not None:
+        open_[~open_] = area.cutting.nearest(centres[~open_], reach.radius + q)[1] >= 0
+    centres, walls = centres[open_], walls[open_]
+    alone = walls > q  # all of such a square lies on one side of the walls
+    keep = ~alone
+    keep[alone] = area.edges.inside(centres[alone])
+    bytes_each = CELL_BYTES * (half / reach.cell) ** 2
+    if np.count_nonzero(keep & alone) * bytes_each > _WORTH_ASKING:
+        # all cells of such a square will be found
+        untouched = np.count_nonzero(ground.depth(centres[keep & alone], 4 * q) > q)
+        reach.ask_memory(float(untouched) * bytes_each)
+    return np.column_stack([centres[keep], walls[keep]])
+
+
+def _grid(bounds: tuple[float, float, float, float], last: float) -> tuple[Floats, float]:
+    """Return (centres (n, 2), half side) of the first squares, a power of two times the last ones' size."""
+    x0, y0, x1, y1 = bounds
+    half = last * 2.0 ** max(0, math.ceil(math.log2(max(x1 - x0, y1 - y0) / 32 / (2 * last))))
+    x, y = (
+        np.arange(math.floor(low / half / 2), math.ceil(high / half / 2)) * 2 * half + half
+        for low, high in ((x0, x1), (y0, y1))
+    )
+    return np.stack(np.meshgrid(x, y), -1).reshape(-1, 2), half
+
+
+def core_cells(ground: CutGround, reach: CentreReach, found: RestSquares) -> Floats:
+    """Return the centres (n, 2) of the cells that hold all metal left where the cutter's centre may be."""
+    return _cells(ground, reach, (found.core, found.half), _core(reach))
+
+
+def rim_cells(ground: CutGround, reach: CentreReach, found: RestSquares, cutting: Rows) -> Floats:
+    """Return the centres (n, 2) of the cells that hold all metal left nearer to the walls.
+
+    Args:
+        cutting: pieces (n, 8) of the ring nearest to the walls along which the cutter still cuts.
+    """
+    if not len(cutting) or not len(found.rim):
+        return np.zeros((0, 2))
+    rule = _rim(reach, cutting)
+    near = rule.bound.nearest(found.rim, reach.radius + found.half * math.sqrt(2))[1] >= 0
+    return _cells(ground, reach, (found.rim[near], found.half), rule)
+
+
+def left_of(
+    ground: CutGround, reach: CentreReach, cells: tuple[Floats, Floats], cutting: Rows
+) -> tuple[Floats, Floats]:
+    """Return which cells of the core and of the rim still hold metal when more is cut; args as `rim_cells`."""
+    core, rim = cells
+    left = _cells(ground, reach, (core, reach.cell), _core(reach))
+    return left, _cells(ground, reach, (rim, reach.cell), _rim(reach, cutting)) if len(rim) else rim
+
+
+@dataclass(frozen=True, eq=False)
+class _Rule:
+    """Only points at which base + sign * distance from some rows is more than 0 count."""
+
+    bound: DistanceField
+    base: float
+    sign: float
+
+
+def _core(reach: CentreReach) -> _Rule:
+    return _Rule(reach.area.distances, LEAST - reach.closest, 1.0)
+
+
+def _rim(reach: CentreReach, cutting: Rows) -> _Rule:
+    return _Rule(DistanceField.of(cutting), reach.radius, -1.0)
+
+
+def _cells(ground: CutGround, reach: CentreReach, squares: tuple[Floats, float], rule: _Rule) -> Floats:
+    """Return the cells of squares (centres (n, 2), half side) in which metal is left."""
+    (centres, half), each = squares, round(squares[1] / reach.cell) ** 2
+    centres, out = np.ascontiguousarray(centres), np.empty((len(centres) * each, 2))
+
+    def look(band: slice) -> Floats:
+        room = out[band.start * each : band.stop * each]
+        count = rest_kernels.left_cells(
+            *ground.tree,
+            rule.bound.rows,
+            rule.bound.order,
+            rule.bound.nodes,
+            np.array([rule.base, rule.sign]),
+            centres[band],
+            np.array([half, reach.cell, LEAST]),
+            room,
+        )
+        return room[:count]
+
+    return np.concatenate(in_bands(look, len(centres)))
