@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.ui.views.cut.colouring import CutColour, colouring
-from app.ui.views.cut.patch import patch_of
-from app.ui.views.cut.picture import CutPicture
-from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
+from app.ui.views.cut.cell_patch import patch_of
+from app.ui.views.cut.cut_picture import CutPicture
+from app.ui.views.cut.rendering.cut_scene import CutScene
 from tests.benchmarks.conftest import OURS, record
 from tests.ui.cut.pictures import INKS, without_a_screen
 
@@ -25,7 +25,7 @@ def scene():
     with without_a_screen() as context:
         made, picture = CutScene(context), CutPicture(heights(), 0.0, 0.0, 0.1, -10.0, 0.0)
         made.show_picture(picture)
-        made.show_colours(colouring(picture, CutColour.METAL, INKS))
+        made.show_colours(cell_colours(picture, CutColourBy.METAL, INKS))
         yield made
         made.release()
 

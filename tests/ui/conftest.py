@@ -5,7 +5,7 @@ import pytest
 from app.core.settings import Settings
 from app.drafting.document import Document
 from app.ui.framework.activity import Activity
-from app.ui.framework.computation import Computation, State
+from app.ui.framework.computation import Computation, ComputationState
 from app.ui.framework.log import Log
 from app.ui.framework.log_view import LogView
 from app.ui.framework.notice import Notice
@@ -57,5 +57,5 @@ def wiring(qtbot, one_window):
 def computed(qtbot, wiring):
     """The sample part, opened and computed."""
     wiring.files.open_sample()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     return wiring

@@ -18,7 +18,7 @@ from app.model.part import Part
 from app.ui.framework.view import View
 from app.ui.shell.keys_window import KeysWindow
 from app.ui.shell.tour import STEPS
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.modes import CanvasTool as T
 
 Place = tuple[float, float]
@@ -90,7 +90,7 @@ class DrawingStates:
         wait: lets the window live for so many milliseconds.
     """
 
-    def __init__(self, wiring: Wiring, wait: Callable[[int], None]) -> None:
+    def __init__(self, wiring: WindowController, wait: Callable[[int], None]) -> None:
         self._wiring, self._wait = wiring, wait
         self._window, self._canvas = wiring.window_, wiring.window_.canvas
 
@@ -100,7 +100,7 @@ class DrawingStates:
         document.load(replace(document.job, part=Part()))
         for line in PART:
             document.run(line)
-        self._wiring.showing.show_view(View.DRAW)
+        self._wiring.display_controller.show_view(View.DRAW)
         self._window.side.show_page("Drawing")
         self._wait(100)
         self._canvas.fit_to(SEEN)
@@ -191,7 +191,7 @@ class DrawingStates:
         window.drawing_page.layers.removal.emit("holes", 1)
         yield "question"
         window.notice.dismiss()
-        self._wiring.showing.open_findings()
+        self._wiring.display_controller.open_findings()
         yield "findings"
         window.findings_list.hide()
 
@@ -200,7 +200,7 @@ class DrawingStates:
         self._window.actions_["plot"].trigger()
         self._wait(1000)
         yield "print"
-        self._wiring.plotting.left.emit()
+        self._wiring.plot_controller.left.emit()
 
     def windows(self, folder: Path, ending: str) -> None:
         """Save the pictures of the windows beside: keys, manual, shape language."""

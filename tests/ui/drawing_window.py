@@ -9,14 +9,14 @@ from pathlib import Path
 from PySide6.QtCore import QTimer
 
 from app.ui.shell import start
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 
 
 def main() -> None:
     path = Path(sys.argv[1])
     build = start.build
 
-    def built() -> tuple[object, Wiring]:
+    def built() -> tuple[object, WindowController]:
         window, wiring = build()
         timer = QTimer(window, interval=100)
 
@@ -25,7 +25,7 @@ def main() -> None:
             print(len(wiring.document.part.entities), time.monotonic(), flush=True)
 
         timer.timeout.connect(draw)
-        wiring.files.opening.opened.connect(lambda _: timer.start())
+        wiring.files.open_controller.opened.connect(lambda _: timer.start())
         return window, wiring
 
     start.build = built

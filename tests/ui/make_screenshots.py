@@ -21,12 +21,12 @@ from PySide6.QtWidgets import QApplication
 
 from app.core.settings import ThemeChoice
 from app.fitting.point_curves.correction import CorrectionScope
-from app.ui.framework.computation import State
+from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View, views
 from app.ui.shell.start import build
-from app.ui.shell.wiring import Wiring
-from app.ui.views.nc.motion_picture import PathColour
-from app.ui.views.nc.motion_shapes import Side
+from app.ui.shell.window_controller import WindowController
+from app.ui.views.nc.motion_shapes import ViewSide
+from app.ui.views.nc.painting.motion_layer import MotionColourBy
 from tests.ui.curves.facets import facets
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.stages.scan import scan
@@ -43,14 +43,14 @@ def wait(milliseconds: int) -> None:
     loop.exec()
 
 
-def computed_sample() -> Wiring:
+def computed_sample() -> WindowController:
     """Return a shown window with the sample part, computed."""
     window, wiring = build()
     window.resize(1440, 900)
     window.show()
     wiring.files.open_sample()
     end = time.monotonic() + 120
-    while wiring.computation.state is not State.CURRENT:
+    while wiring.computation.state is not ComputationState.CURRENT:
         if time.monotonic() > end:
             raise SystemExit(
                 f"the sample was not computed: {wiring.computation.state.value} {wiring.computation.error}"
@@ -59,7 +59,7 @@ def computed_sample() -> Wiring:
     return wiring
 
 
-def take(wiring: Wiring, path: Path) -> None:
+def take(wiring: WindowController, path: Path) -> None:
     """Save what the window looks like."""
     wait(400)
     wiring.window_.grab().save(str(path))
@@ -75,13 +75,13 @@ def wait_until(done: Callable[[], bool]) -> None:
         wait(20)
 
 
-def open_program(wiring: Wiring, path: Path) -> None:
+def open_program(wiring: WindowController, path: Path) -> None:
     """Show a program in the NC view."""
     wiring.nc.open(path)
     wait_until(lambda: wiring.window_.views.nc.shown is not None and wiring.window_.views.nc.shown.source.path == path)
 
 
-def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
+def nc_states(wiring: WindowController, folder: Path) -> dict[str, Callable[[], None]]:
     """Return what the NC view is photographed with: own program, foreign ones, a side, an error, find, two programs."""
     nc = wiring.window_.views.nc
     changed = folder / "changed.ngc"
@@ -92,7 +92,7 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     def own() -> None:
         wiring.nc.back()
         wait_until(lambda: nc.shown is not None and nc.shown.source.path is None)
-        nc.set_side(Side.XY)
+        nc.set_side(ViewSide.XY)
         nc.pane.text.pick(95)
 
     def foreign() -> None:
@@ -100,13 +100,13 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
         nc.pane.text.pick(5000)
 
     def front() -> None:
-        nc.set_side(Side.XZ)
-        wait_until(lambda: nc.path.picture is not None and nc.path.picture.side is Side.XZ)
-        nc.set_colour(PathColour.MOTION)
+        nc.set_side(ViewSide.XZ)
+        wait_until(lambda: nc.path.picture is not None and nc.path.picture.side is ViewSide.XZ)
+        nc.set_colour(MotionColourBy.MOTION)
 
     def find() -> None:
-        nc.set_colour(PathColour.TOOL)
-        nc.set_side(Side.XY)
+        nc.set_colour(MotionColourBy.TOOL)
+        nc.set_side(ViewSide.XY)
         nc.pane.begin_find("X22.9")
         nc.pane.find_next()
 
@@ -123,18 +123,18 @@ def nc_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     return {"own": own, "foreign": foreign, "front": front, "find": find, "error": error, "compare": compare}
 
 
-def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
+def cut_states(wiring: WindowController) -> dict[str, Callable[[], None]]:
     """Return what the Cut view is photographed with: a moment on the way, a picked place, another program, what is
     asked of one.
     """
-    panel, cutting, view = wiring.window_.cut_panel, wiring.cutting, wiring.window_.views.cut
+    panel, cutting, view = wiring.window_.cut_panel, wiring.cut_controller, wiring.window_.views.cut
 
     def rest() -> None:
         wait(400)
-        wait_until(lambda: view.painting.fine and not cutting.zooming.worker.busy)
+        wait_until(lambda: view.render_scheduler.fine and not cutting.zoom_controller.worker.busy)
 
     def place() -> None:
-        wiring.showing.show_view(View.CUT)
+        wiring.display_controller.show_view(View.CUT)
         wiring.window_.views.cut_page.player.go(10**9)
         panel.rows[0].clicked.emit()
         rest()
@@ -150,7 +150,7 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
         rest()
 
     def played() -> None:
-        wiring.showing.show_view(View.CUT)
+        wiring.display_controller.show_view(View.CUT)
         player = wiring.window_.views.cut_page.player
         wait_until(lambda: player.timeline is not None)
         if player.timeline is not None:
@@ -162,7 +162,7 @@ def cut_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
     return {"played": played, "place": place, "foreign": foreign, "asked": lambda: program("tux.ngc")}
 
 
-def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
+def curves_states(wiring: WindowController) -> dict[str, Callable[[], None]]:
     """Return what the Curves view is photographed with: an engraving as arcs, and the place where both paths are
     farthest apart.
     """
@@ -171,10 +171,10 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
     def arcs() -> None:
         panel.points.points.buttons[False].click()
         open_program(wiring, PROGRAMS / "jsdc.gcode")
-        wiring.showing.show_view(View.CURVES)
+        wiring.display_controller.show_view(View.CURVES)
         panel.preset.buttons[0.05].click()
         panel.smooth.click()
-        wait_until(lambda: view.curves is not None and not wiring.smoothing.reading.worker.busy)
+        wait_until(lambda: view.curves is not None and not wiring.smoothing_controller.reading.worker.busy)
 
     def farthest() -> None:
         spot = view.curves.track.farthest() if view.curves is not None else None
@@ -187,7 +187,7 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
         path = Path(os.environ["HITOFUDE_CONFIG"]) / "facets.ngc"
         path.write_text(facets())
         open_program(wiring, path)
-        wiring.showing.show_view(View.CURVES)
+        wiring.display_controller.show_view(View.CURVES)
         panel.tolerance.show_value(0.2)
         panel.tolerance.committed.emit(0.2)
         panel.points.points.buttons[True].click()
@@ -195,13 +195,13 @@ def curves_states(wiring: Wiring) -> dict[str, Callable[[], None]]:
         panel.points.select.buttons[CorrectionScope.RATIO].click()
         panel.points.near.show_value(0.3)
         panel.smooth.click()
-        wait_until(lambda: view.curves is not None and not wiring.smoothing.reading.worker.busy)
+        wait_until(lambda: view.curves is not None and not wiring.smoothing_controller.reading.worker.busy)
         farthest()
 
     return {"arcs": arcs, "farthest": farthest, "points": points}
 
 
-def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
+def stage_states(wiring: WindowController, folder: Path) -> dict[str, Callable[[], None]]:
     """Return what the Stages view is photographed with: traced lines, a peel, paths, fitted lines, letters, a picture
     taken in.
     """
@@ -209,9 +209,9 @@ def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     path = scan(folder / "scan.png")
 
     def step(number: int) -> None:
-        wiring.picturing.leave()
-        wiring.showing.show_view(View.STAGES)
-        wait_until(lambda: view.film is not None and not wiring.staging.worker.busy)
+        wiring.import_controller.leave()
+        wiring.display_controller.show_view(View.STAGES)
+        wait_until(lambda: view.film is not None and not wiring.stages_controller.worker.busy)
         view.show_stage(view.film.seek_step(number, -1) if view.film is not None else 0)
         view.pixels.fit_now()
 
@@ -224,8 +224,8 @@ def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
         view.pixels.go_to((46.0, 68.0), 13)
 
     def picture() -> None:
-        wiring.picturing.open(path)
-        wait_until(lambda: wiring.picturing.preview is not None and not wiring.picturing.worker.busy)
+        wiring.import_controller.open(path)
+        wait_until(lambda: wiring.import_controller.preview is not None and not wiring.import_controller.worker.busy)
         wiring.window_.import_panel.list.setCurrentRow(-1)
 
     return {
@@ -239,7 +239,7 @@ def stage_states(wiring: Wiring, folder: Path) -> dict[str, Callable[[], None]]:
     }
 
 
-def take_drawing(wiring: Wiring, folder: Path) -> None:
+def take_drawing(wiring: WindowController, folder: Path) -> None:
     """Take every tool, page and menu of the drawing workstation; what was open is not kept."""
     states = DrawingStates(wiring, wait)
     for theme in (ThemeChoice.LIGHT, ThemeChoice.DARK):
@@ -268,18 +268,18 @@ def main() -> None:
         for width, height in SIZES:
             wiring.window_.resize(width, height)
             for view in views():
-                wiring.showing.show_view(view)
+                wiring.display_controller.show_view(view)
                 wait(50)
                 wiring.window_.canvas.fit()
                 if view is View.STAGES:
                     wait_until(lambda: wiring.window_.views.stages.film is not None)
                 if view is View.CUT:
-                    wait_until(lambda: wiring.window_.views.cut.painting.fine)
+                    wait_until(lambda: wiring.window_.views.cut.render_scheduler.fine)
                 take(wiring, folder / f"{view.value.removeprefix('view_')}-{theme.value}-{width}.png")
             for name, arrange in stage_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
                 take(wiring, folder / f"stages-{name}-{theme.value}-{width}.png")
-            wiring.picturing.leave()
+            wiring.import_controller.leave()
             for name, arrange in nc_states(wiring, Path(os.environ["HITOFUDE_CONFIG"])).items():
                 arrange()
                 take(wiring, folder / f"nc-{name}-{theme.value}-{width}.png")
@@ -289,7 +289,7 @@ def main() -> None:
             for name, arrange in cut_states(wiring).items():
                 arrange()
                 take(wiring, folder / f"cut-{name}-{theme.value}-{width}.png")
-            wiring.cutting.back()
+            wiring.cut_controller.back()
             wiring.nc.back()
     take_drawing(wiring, folder)
     wiring.window_.close()

@@ -18,9 +18,9 @@ import numpy as np
 from PySide6.QtWidgets import QApplication
 
 from app.ui.framework.theme import DARK
-from app.ui.views.cut.colouring import prepare
-from app.ui.views.cut.cut_view import CutView
-from app.ui.views.cut.painting import REST_MS
+from app.ui.views.cut.cell_colours import prepare
+from app.ui.views.cut.render_scheduler import REST_MS
+from app.ui.views.cut.view import CutView
 from tests.ui.cut.made_up import made_up
 from tests.ui.measure_window import live_until
 
@@ -53,7 +53,7 @@ def shown_view() -> CutView:
     view.set_theme(DARK)
     view.show()
     view.show_cut(made_up(CELLS))
-    live_until(lambda: view.painting.fine)
+    live_until(lambda: view.render_scheduler.fine)
     return view
 
 
@@ -64,7 +64,7 @@ def new_heights(view: CutView) -> tuple[float, float]:
     prepare(picture, view.colour)
     made = time.perf_counter()
     view.show_cut(picture)
-    while view.painting.due:
+    while view.render_scheduler.due:
         QApplication.processEvents()
     return 1000 * (time.perf_counter() - made), 1000 * (made - begun)
 
@@ -73,7 +73,7 @@ def turn(view: CutView) -> float:
     """Return how long one step of turning takes until it is on the screen, ms."""
     begun = time.perf_counter()
     view.look_now(view.model.camera.orbited(0.05, 0.0, np.array([50.0, 50.0, -10.0])))
-    while view.painting.due:
+    while view.render_scheduler.due:
         QApplication.processEvents()
     return 1000 * (time.perf_counter() - begun)
 
@@ -83,7 +83,7 @@ def fine(view: CutView) -> tuple[float, float]:
     turn(view)
     begun = last = time.perf_counter()
     longest = 0.0
-    while not view.painting.fine:
+    while not view.render_scheduler.fine:
         QApplication.processEvents()
         now = time.perf_counter()
         longest, last = max(longest, now - last), now
@@ -97,11 +97,11 @@ def measure() -> Felt:
     turns = [turn(view) for _ in range(TURNS)]
     fines = [fine(view) for _ in range(3)]
     return Felt(
-        type(view.painting.surface).__name__,
+        type(view.render_scheduler.surface).__name__,
         statistics.median(n for n, _ in news),
         statistics.median(r for _, r in news),
         statistics.median(turns[TURNS // 2 :]),
-        view.painting.budget,
+        view.render_scheduler.budget,
         statistics.median(f for f, _ in fines),
         max(p for _, p in fines),
     )

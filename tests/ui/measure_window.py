@@ -77,7 +77,7 @@ def use_fine_tools(document) -> None:
 
 def measure_gaps(drawing: Path) -> dict[str, float]:
     """Open a drawing in a window and compute it; return the longest gap in ms by what was going on."""
-    from app.ui.framework.computation import State
+    from app.ui.framework.computation import ComputationState
     from app.ui.shell.start import build, warm_up
 
     window, wiring = build()
@@ -94,7 +94,7 @@ def measure_gaps(drawing: Path) -> dict[str, float]:
     use_fine_tools(wiring.document)
     gaps.now("compute")
     wiring.compute()
-    took = live_until(lambda: wiring.computation.state in (State.CURRENT, State.FAILED))
+    took = live_until(lambda: wiring.computation.state in (ComputationState.CURRENT, ComputationState.FAILED))
     live_until(lambda: False, 0.5)
     window.worker.finish(30.0)
     print(

@@ -15,16 +15,16 @@ from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.panels.reading_section import MODEL_SPACE
 from app.ui.shell.start import build
-from app.ui.shell.wiring import Wiring
-from app.ui.views.canvas.modes import CanvasTool, ColourBy
-from app.ui.views.canvas.view import View as CanvasView
-from app.ui.views.cut.colouring import CutColour
-from app.ui.views.nc.motion_shapes import Side
+from app.ui.shell.window_controller import WindowController
+from app.ui.views.canvas.modes import CanvasTool, PathColourBy
+from app.ui.views.canvas.view_transform import ViewTransform as CanvasView
+from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.nc.motion_shapes import ViewSide
 from app.usecases.smooth import SmoothOptions
 from tests.ui.traces import fixed_values, left_in, traces
 
 SIZE = (1280, 800)
-_COLOURS = [(colour, colour.value) for colour in CutColour]
+_COLOURS = [(colour, colour.value) for colour in CutColourBy]
 
 
 class OneWindow:
@@ -38,12 +38,12 @@ class OneWindow:
     def __init__(self) -> None:
         self.made = 0
         self.left: list[str] = []
-        self._wiring: Wiring | None = None
+        self._wiring: WindowController | None = None
         self._new: dict[str, object] | None = None
         self._view = CanvasView()
         self._kept: list[tuple[object, dict[str, object]]] = []
 
-    def lend(self, qtbot: QtBot) -> Wiring:
+    def lend(self, qtbot: QtBot) -> WindowController:
         """Return a window as it is when the program starts, shown and active."""
         if self._wiring is None:
             _undress()
@@ -100,7 +100,7 @@ def _undress() -> None:
         application.setStyleSheet("")
 
 
-def _activate(qtbot: QtBot, wiring: Wiring) -> None:
+def _activate(qtbot: QtBot, wiring: WindowController) -> None:
     window = wiring.window_
     with qtbot.waitActive(window):
         window.show()
@@ -109,7 +109,7 @@ def _activate(qtbot: QtBot, wiring: Wiring) -> None:
     QApplication.processEvents()
 
 
-def reset(wiring: Wiring, view: CanvasView) -> None:
+def reset(wiring: WindowController, view: CanvasView) -> None:
     """Leave everything that was opened, drawn, chosen, typed and computed, and look at the canvas as before."""
     window, empty = wiring.window_, Document()
     wiring.cancel()
@@ -121,8 +121,8 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     wiring.nc.stop_comparing()
     if wiring.nc.foreign:
         wiring.nc.back()
-    window.views.nc.set_side(Side.XY)
-    wiring.cutting.back()
+    window.views.nc.set_side(ViewSide.XY)
+    wiring.cut_controller.back()
     window.notice.ask("")
     window.notice.hide()
     window.command_line.edit.clear()
@@ -134,13 +134,13 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     if window.preferences.settings.theme is not ThemeChoice.SYSTEM:
         window.set_theme_choice(ThemeChoice.SYSTEM)
     if window.preferences.settings.language is not Settings().language:
-        wiring.translating.choose(Settings().language)
+        wiring.translation_controller.choose(Settings().language)
     window.preferences.settings = Settings()
     window.status.show_place(0.0, 0.0)
     wiring.log.lines.clear()
     window.command_line.log.show_lines(wiring.log.lines)
-    window.canvas.set_colour_by(ColourBy.TOOL)
-    wiring.showing.show_view(View.DRAW)
+    window.canvas.set_colour_by(PathColourBy.TOOL)
+    wiring.display_controller.show_view(View.DRAW)
     window.side.show_page("Drawing")  # it is filled while it is seen
     window.side.show_page("Job")
     window.panel.choose(Subject(SubjectKind.OPERATION, 0))
@@ -153,23 +153,23 @@ def reset(wiring: Wiring, view: CanvasView) -> None:
     _forget_habits(wiring)
 
 
-def _prepared_when_shown(wiring: Wiring) -> tuple[object, ...]:
+def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
     """Return what nobody sees in a new window, and what is filled with what is shown before anybody does."""
     window, views = wiring.window_, wiring.window_.views
     cut, curves, reading = views.cut, window.curves_panel, window.drawing_page.reading
     form = window.panel.operation_form
     return (
         *(views.nc.path, views.curves.path),
-        *(cut, cut.model, cut.painting, cut.playing, cut.overlay, cut.legend.key, window.cut_panel.histogram),
+        *(cut, cut.model, cut.render_scheduler, cut.playing, cut.overlay, cut.legend.key, window.cut_panel.histogram),
         *(reading.per_inch, reading.only, reading.layers, reading.types),
-        *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing),
+        *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing_controller),
         *(each.field for each in form.fields.values()),
         *(form.peck_picture, form.side_picture, *window.cut_form.stock),
         *(views.cut_page.player, views.cut_page.transport.plot, wiring.files),
     )
 
 
-def _empty_what_is_hidden(wiring: Wiring) -> None:
+def _empty_what_is_hidden(wiring: WindowController) -> None:
     """Take away what forms and plots that are not seen any more were filled with."""
     window = wiring.window_
     window.drawing_page.reading.units.set_choices([])
@@ -202,7 +202,7 @@ def _settle() -> None:
     QApplication.processEvents()
 
 
-def _forget_habits(wiring: Wiring) -> None:
+def _forget_habits(wiring: WindowController) -> None:
     """Let nobody remember what was typed and drawn last."""
     line, runner = wiring.window_.command_line, wiring.window_.canvas.runner
     line._typed.clear()
@@ -210,17 +210,17 @@ def _forget_habits(wiring: Wiring) -> None:
     runner._last, runner.cursor = CanvasTool.LINE, (0.0, 0.0)
     runner._desk.numbers.clear()
     wiring.language.lines._line = ""
-    wiring.recovering._timer.stop()
+    wiring.recovery_controller._timer.stop()
 
 
-def _forget_changes(wiring: Wiring) -> None:
+def _forget_changes(wiring: WindowController) -> None:
     """Let nothing be asked about changes that are not saved."""
     wiring.document.load(wiring.document.job)
     wiring.language.control.text = ""
     wiring.window_.scene.document.setModified(False)
 
 
-def end(wiring: Wiring) -> None:
+def end(wiring: WindowController) -> None:
     """Close a window as its user would, without being asked about changes."""
     window = wiring.window_
     window.worker.finish(20.0)

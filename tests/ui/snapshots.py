@@ -22,7 +22,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.core.settings import ThemeChoice
 from app.ui.framework.theme import text_font
 from app.ui.shell.start import build
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 from tests.ui.drawing_states import DrawingStates
 from tests.ui.scene_states import scene_states
 
@@ -64,7 +64,7 @@ def small(picture: QPixmap) -> Picture:
     )
 
 
-def states(wiring: Wiring, theme: ThemeChoice, size: tuple[int, int]) -> Iterator[tuple[str, Picture]]:
+def states(wiring: WindowController, theme: ThemeChoice, size: tuple[int, int]) -> Iterator[tuple[str, Picture]]:
     """Put the window into every state and give its name and small picture."""
     wiring.window_.choose_theme(theme)
     wiring.window_.resize(*size)

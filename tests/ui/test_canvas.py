@@ -11,7 +11,7 @@ from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.canvas import BitmapFrame, Canvas, CanvasTool
-from app.ui.views.canvas.view import View
+from app.ui.views.canvas.view_transform import ViewTransform
 
 LEFT, RIGHT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton
 
@@ -27,7 +27,7 @@ class Hand:
         qtbot.addWidget(self.canvas)
         self.canvas.resize(824, 624)
         self.canvas.show()
-        self.canvas.set_view(View(5.0, 124.0, 574.0))
+        self.canvas.set_view(ViewTransform(5.0, 124.0, 574.0))
         self.messages: list[str] = []
         self.canvas.message.connect(self.messages.append)
 
@@ -347,9 +347,9 @@ def test_what_was_fitted_stays_fitted_when_the_widget_changes(qtbot: QtBot) -> N
 
 
 def test_cells_show_when_a_pixel_is_six_screen_pixels(hand: Hand) -> None:
-    hand.canvas.set_view(View(23.9, 100, 500))
+    hand.canvas.set_view(ViewTransform(23.9, 100, 500))
     assert not hand.canvas.cells_shown
-    hand.canvas.set_view(View(24.0, 100, 500))
+    hand.canvas.set_view(ViewTransform(24.0, 100, 500))
     assert hand.canvas.cells_shown
     hand.canvas.set_frame(BitmapFrame(100, 100, 0.1))
     assert not hand.canvas.cells_shown

@@ -21,12 +21,12 @@ from app.model.part import Contour, Entity, Part, Region
 from app.operations.compute import compute
 from app.toolpath.coverage.coverage import UncutPlace
 from app.ui.framework.theme import DARK, LIGHT, Theme
-from app.ui.views.canvas.canvas import Canvas, CanvasMode, CanvasTool, ColourBy, PathLayers
-from app.ui.views.canvas.program_chunks import chunks, plunges, rapids, rapids_path
-from app.ui.views.canvas.program_geometry import shape_moves
+from app.ui.views.canvas.canvas import Canvas, CanvasMode, CanvasTool, PathColourBy, PathLayers
+from app.ui.views.canvas.painting.move_shapes import shape_moves
+from app.ui.views.canvas.painting.program_chunks import chunks, plunges, rapids, rapids_path
+from app.ui.views.canvas.painting.program_layer import ProgramLayer
 from app.ui.views.canvas.program_hover import nearest_move
-from app.ui.views.canvas.program_picture import ProgramPicture
-from app.ui.views.canvas.view import View
+from app.ui.views.canvas.view_transform import ViewTransform
 from tests.conftest import ROOT
 
 Row = tuple[MoveKind, Purpose, tuple[float, float, float], tuple[float, float], int]
@@ -79,7 +79,7 @@ def canvas(qtbot: QtBot) -> Iterator[Canvas]:
     qtbot.addWidget(made)
     made.resize(824, 624)
     made.show()
-    made.set_view(View(8.0, 100.0, 500.0))
+    made.set_view(ViewTransform(8.0, 100.0, 500.0))
     made.set_mode(CanvasMode.PATHS)
     made.set_program(TWO_RINGS)
     yield made
@@ -110,7 +110,7 @@ def test_pocket_is_solid_and_contour_is_dashed(canvas: Canvas) -> None:
 
 
 def test_colours_follow_the_region_when_asked(canvas: Canvas) -> None:
-    canvas.set_colour_by(ColourBy.REGION)
+    canvas.set_colour_by(PathColourBy.REGION)
     assert share(along_circle(canvas, (20, 20), 10), LIGHT.regions[0]) > 0.9
     assert share(along_circle(canvas, (60, 20), 10), LIGHT.regions[1]) > 0.4
 
@@ -168,7 +168,7 @@ def test_what_is_left_is_hatched_but_for_its_holes(
         )
 
     place = UncutPlace(40.0, 50.0, 48.0, 2.0, reachable, square(4.0), (square(2.0),))
-    canvas.set_program(ProgramPicture(TWO_RINGS, (place,)))
+    canvas.set_program(ProgramLayer(TWO_RINGS, (place,)))
 
     def share_of_hatch(x: float) -> float:
         image, at = canvas.grab().toImage(), canvas.view.to_screen((x, 50.0)).toPoint()
@@ -186,7 +186,7 @@ def test_arcs_are_round_at_every_zoom(canvas: Canvas) -> None:
     for scale in (8.0, 200.0, 2000.0):
         turn = 0.3
         place = (20 + 10 * math.cos(turn), 20 + 10 * math.sin(turn))
-        canvas.set_view(View(scale).centred(place, canvas.area))
+        canvas.set_view(ViewTransform(scale).centred(place, canvas.area))
         canvas.repaint_scene()
         image = canvas.grab().toImage()
         green = [

@@ -12,11 +12,11 @@ from PySide6.QtGui import QPainterPath
 from app.geometry.sample import sample, spline_points
 from app.model.curves import Arc, Circle, Curve, Ellipse, Line, Spline
 from app.model.part import Part
-from app.ui.views.canvas.curve_path import chain_path, curve_path
-from app.ui.views.canvas.grid import _text_at, grid_steps
-from app.ui.views.canvas.part_picture import PartPicture
+from app.ui.views.canvas.painting.curve_path import chain_path, curve_path
+from app.ui.views.canvas.painting.grid import _text_at, grid_steps
+from app.ui.views.canvas.painting.part_layer import PartLayer
 from app.ui.views.canvas.snap import Snap, SnapKind, best, snaps_of, to_grid
-from app.ui.views.canvas.view import LARGEST_SCALE, View, fitted, nice_step
+from app.ui.views.canvas.view_transform import LARGEST_SCALE, ViewTransform, fitted, nice_step
 
 AREA = QRectF(24, 24, 800, 600)
 SCALES = st.floats(0.01, 1000)
@@ -25,7 +25,7 @@ PLACES = st.floats(-500, 500)
 
 @given(SCALES, PLACES, PLACES)
 def test_screen_and_world_are_inverse_and_y_runs_up(scale: float, x: float, y: float) -> None:
-    view = View(scale, 123.0, 456.0)
+    view = ViewTransform(scale, 123.0, 456.0)
     assert view.to_world(view.to_screen((x, y))) == pytest.approx((x, y), abs=1e-6)
     assert view.to_screen((x, y + 1)).y() < view.to_screen((x, y)).y()
     assert view.transform().map(QPointF(x, y)) == view.to_screen((x, y))
@@ -33,12 +33,12 @@ def test_screen_and_world_are_inverse_and_y_runs_up(scale: float, x: float, y: f
 
 @given(SCALES, st.floats(0.1, 10), PLACES, PLACES)
 def test_zooming_keeps_the_point_under_the_mouse(scale: float, factor: float, x: float, y: float) -> None:
-    view, at = View(scale, 10.0, 20.0), QPointF(x, y)
+    view, at = ViewTransform(scale, 10.0, 20.0), QPointF(x, y)
     assert view.zoomed(factor, at).to_world(at) == pytest.approx(view.to_world(at), abs=1e-6)
 
 
 def test_zoom_ends_where_numbers_would() -> None:
-    assert View(10.0).zoomed(1e9, QPointF()).scale == LARGEST_SCALE
+    assert ViewTransform(10.0).zoomed(1e9, QPointF()).scale == LARGEST_SCALE
 
 
 def test_fitted_shows_the_whole_box_in_the_middle() -> None:
@@ -48,13 +48,13 @@ def test_fitted_shows_the_whole_box_in_the_middle() -> None:
 
 
 def test_a_glide_begins_here_and_ends_there_on_the_straight_way() -> None:
-    a, b = View(5.0, 100.0, 300.0), fitted((10, 10, 20, 20), AREA)
+    a, b = ViewTransform(5.0, 100.0, 300.0), fitted((10, 10, 20, 20), AREA)
     assert a.towards(b, 1.0, AREA) == b
     begin = a.towards(b, 0.0, AREA)
     assert (begin.scale, begin.ox, begin.oy) == pytest.approx((a.scale, a.ox, a.oy))
     scales = [a.towards(b, k / 10, AREA).scale for k in range(11)]
     assert scales == sorted(scales)
-    same = View(5.0, 150.0, 310.0)
+    same = ViewTransform(5.0, 150.0, 310.0)
     assert a.towards(same, 0.5, AREA).ox == pytest.approx(125.0)
 
 
@@ -67,7 +67,7 @@ def test_steps_are_one_two_five(least: float, step: float) -> None:
 
 @given(st.floats(0.001, 20000))
 def test_the_raster_stays_readable_at_every_zoom(scale: float) -> None:
-    minor, major = grid_steps(View(scale))
+    minor, major = grid_steps(ViewTransform(scale))
     assert major * scale >= 99.9
     assert minor * scale >= 19.9
     assert major / minor == pytest.approx(round(major / minor))
@@ -178,7 +178,7 @@ def test_ends_win_over_what_is_a_little_nearer() -> None:
     ],
 )
 def test_every_point_of_a_curve_is_found_where_it_is_be_it_off_the_curve(curve: Curve) -> None:
-    picture = PartPicture()
+    picture = PartLayer()
     picture.update(Part().with_curves([curve], "0"))
     for snap in snaps_of(curve):
         assert snap in picture.near_points(snap.point, 1e-9)

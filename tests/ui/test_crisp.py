@@ -14,13 +14,13 @@ from app.model.curves import Line
 from app.model.job import Job
 from app.model.part import Part
 from app.ui.views.canvas.canvas import Canvas
-from app.ui.views.canvas.view import View
+from app.ui.views.canvas.view_transform import ViewTransform
 from app.ui.framework.theme import LIGHT
 canvas = Canvas(Document(Job(Part().with_curves([Line((20.0, 0.0), (20.0, 40.0))], "0"))), LIGHT)
 canvas.resize(400, 300)
 canvas.show()
 app.processEvents()
-canvas.set_view(View(5.0, 100.0, 250.0))
+canvas.set_view(ViewTransform(5.0, 100.0, 250.0))
 image = canvas.grab().toImage()
 ratio = image.devicePixelRatio()
 row = [image.pixelColor(x, round(160 * ratio)).lightness() for x in range(round(195 * ratio), round(205 * ratio))]

@@ -7,9 +7,9 @@ from pytestqt.qtbot import QtBot
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Line
 from app.ui.views.canvas import form_tools as form
-from app.ui.views.canvas.asking import AskingTool
-from app.ui.views.canvas.drawing_tool import Desk, Pick
+from app.ui.views.canvas.drawing_tool import Pick, ToolContext
 from app.ui.views.canvas.modes import CanvasTool
+from app.ui.views.canvas.prompt_tool import PromptTool
 from tests.ui.test_canvas import RIGHT, Hand
 
 ENTER = Qt.Key.Key_Return
@@ -132,10 +132,10 @@ NOTES = {
 
 
 @pytest.mark.parametrize("job", NOTES.values(), ids=NOTES)
-def test_notes_and_words_are_one_line(job: tuple[type[AskingTool], list[object], str]) -> None:
+def test_notes_and_words_are_one_line(job: tuple[type[PromptTool], list[object], str]) -> None:
     make, answers, line = job
     tool = make()
-    tool.desk = Desk(Document(), {})
+    tool.desk = ToolContext(Document(), {})
     made = None
     for answer in answers:
         if isinstance(answer, tuple):

@@ -9,23 +9,23 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
 from app.model.finding import Finding, FindingKind
-from app.ui.framework.computation import State
+from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 from tests.ui.conftest import WAIT_MS
 
 
-def compute(qtbot, wiring: Wiring) -> None:
+def compute(qtbot, wiring: WindowController) -> None:
     wiring.compute()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
 
 
-def listed(qtbot, wiring: Wiring, words: str):
-    wiring.showing.open_findings()
+def listed(qtbot, wiring: WindowController, words: str):
+    wiring.display_controller.open_findings()
     return next(row for row in wiring.window_.findings_list.rows if words in row.accessibleName())
 
 
-def seen(wiring: Wiring) -> tuple[float, float, float, float]:
+def seen(wiring: WindowController) -> tuple[float, float, float, float]:
     canvas = wiring.window_.canvas
     return canvas.view.world_box(canvas.area)
 
@@ -35,14 +35,14 @@ def test_a_click_shows_the_whole_contour_and_selects_it(qtbot, wiring, view) -> 
     for line in ("rect 0,0 60,40", "line 150,0 150,80 230,80"):
         wiring.document.run(line)
     compute(qtbot, wiring)
-    wiring.showing.show_view(view)
+    wiring.display_controller.show_view(view)
     row = listed(qtbot, wiring, "is open")
     qtbot.mouseClick(row, Qt.MouseButton.LeftButton)
     assert wiring.document.selection == {5, 6}
     qtbot.waitUntil(lambda: seen(wiring)[0] < 150 and seen(wiring)[2] > 230, timeout=WAIT_MS)
     x0, y0, x1, y1 = seen(wiring)
     assert y0 < 0 and y1 > 80 and (x1 - x0) < 400, "the contour is not seen whole, or too far away"
-    assert wiring.showing.view is (View.DRAW if view is View.DRAW else View.PATHS)
+    assert wiring.display_controller.view is (View.DRAW if view is View.DRAW else View.PATHS)
 
 
 def test_a_small_contour_is_looked_at_closely(qtbot, wiring) -> None:
@@ -55,7 +55,7 @@ def test_a_small_contour_is_looked_at_closely(qtbot, wiring) -> None:
 
 def test_a_finding_that_names_curves_and_no_place_leads_to_them(qtbot, wiring) -> None:
     wiring.document.run("circle 300,200 5")
-    wiring.showing.go_to(Finding(FindingKind.TINY_ENTITY, "Entity 1 is left out.", entity_ids=(1,)))
+    wiring.display_controller.go_to(Finding(FindingKind.TINY_ENTITY, "Entity 1 is left out.", entity_ids=(1,)))
     qtbot.waitUntil(lambda: abs(sum(seen(wiring)[::2]) / 2 - 300) < 0.1, timeout=WAIT_MS)
     assert wiring.document.selection == {1}
 
@@ -79,6 +79,6 @@ def test_a_layer_of_lines_that_bound_nothing_is_hidden_by_its_finding(qtbot, wir
     assert not wiring.window_.findings_list.isVisible()
     assert not next(layer for layer in wiring.document.part.layers if layer.name == "CENTER").visible
     compute(qtbot, wiring)
-    assert not [finding for finding in wiring.showing.findings if finding.counts]
+    assert not [finding for finding in wiring.display_controller.findings if finding.counts]
     wiring.document.undo()
     assert next(layer for layer in wiring.document.part.layers if layer.name == "CENTER").visible

@@ -9,9 +9,9 @@ from app.model.curves import Circle, Line
 from app.model.job import Job
 from app.model.notes import Dimension, DimensionKind, Guide, Mark
 from app.model.part import Part
-from app.ui.views.canvas.gripping import CarryTool, PullTool
+from app.ui.views.canvas.grips import GripDragTool, SelectionDragTool
 from app.ui.views.canvas.modes import CanvasMode, CanvasTool
-from app.ui.views.canvas.view import View
+from app.ui.views.canvas.view_transform import ViewTransform
 from tests.ui.test_canvas import LEFT, Hand
 
 
@@ -43,7 +43,7 @@ def test_what_a_grip_would_make_is_shown_while_it_is_dragged(plate: Hand) -> Non
     press(plate, (100, 60))
     plate.move(103, 60)
     tool = plate.canvas.runner.tool
-    assert isinstance(tool, PullTool) and plate.canvas.aim is not None
+    assert isinstance(tool, GripDragTool) and plate.canvas.aim is not None
     preview = tool.preview(plate.canvas.aim.point)
     assert [e.curve for e in preview.trial.added] == [Circle((90, 60), 13)]
     assert "3.000" in preview.label
@@ -59,7 +59,7 @@ def test_what_a_grip_would_make_is_shown_while_it_is_dragged(plate: Hand) -> Non
 def test_a_grip_that_is_clicked_takes_a_typed_length_or_the_next_click(plate: Hand) -> None:
     plate.document.run("select 5")
     plate.click((100, 60))
-    assert isinstance(plate.canvas.runner.tool, PullTool)
+    assert isinstance(plate.canvas.runner.tool, GripDragTool)
     plate.move(112, 60)
     assert plate.canvas.type_text("5")
     assert plate.said()[-1] == "pull 5 100,60 to 105,60"
@@ -78,7 +78,7 @@ def test_the_selection_is_dragged_by_any_of_its_curves_and_ctrl_copies(plate: Ha
     plate.document.run("select 1-4")
     press(plate, (20, 10))
     plate.move(25, 15)
-    assert isinstance(plate.canvas.runner.tool, CarryTool) and "Move" in plate.canvas.prompt
+    assert isinstance(plate.canvas.runner.tool, SelectionDragTool) and "Move" in plate.canvas.prompt
     plate.canvas.grab()
     plate.move(30, 26)
     release(plate, (30, 26))
@@ -162,7 +162,7 @@ def test_notes_are_seen_picked_described_and_pulled(qtbot: QtBot) -> None:
     hand = Hand(qtbot)
     empty = hand.canvas.grab().toImage()
     hand.document.load(Job(part))
-    hand.canvas.set_view(View(5.0, 124.0, 574.0))
+    hand.canvas.set_view(ViewTransform(5.0, 124.0, 574.0))
     assert hand.canvas.grab().toImage() != empty
     words: list[str] = []
     hand.canvas.hovered.connect(words.append)

@@ -5,11 +5,11 @@ import pytest
 from app.core.memory import budget_limit, machine_memory
 from app.core.settings import JobMemory, load_settings
 from app.ui.shell.memory_choice import SHARES
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 
 
 @pytest.mark.parametrize("choice", [JobMemory.QUARTER, JobMemory.MOST])
-def test_jobs_go_by_the_share_that_was_chosen(qtbot, wiring: Wiring, choice: JobMemory) -> None:
+def test_jobs_go_by_the_share_that_was_chosen(qtbot, wiring: WindowController, choice: JobMemory) -> None:
     window = wiring.window_
     assert window.actions_["memory_half"].isChecked()
     window.actions_[f"memory_{choice.value}"].trigger()

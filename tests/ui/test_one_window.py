@@ -7,7 +7,7 @@ import sys
 import pytest
 from PySide6.QtCore import Qt
 
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 from app.ui.views.canvas.modes import CanvasTool
 from tests.conftest import ROOT
 from tests.ui.one_window import OneWindow
@@ -21,7 +21,7 @@ def own(qapp):
     made.close()
 
 
-def draw(qtbot, wiring: Wiring) -> None:
+def draw(qtbot, wiring: WindowController) -> None:
     wiring.run("rect 0,0 40,20")
     wiring.window_.canvas.set_tool(CanvasTool.CIRCLE)
     qtbot.keyClicks(wiring.window_.command_line.edit, "10,10")
@@ -39,19 +39,19 @@ def test_after_drawing_and_typing_the_window_is_as_new(qtbot, own: OneWindow) ->
     assert again.log.lines == []
 
 
-def hide_the_menus(wiring: Wiring) -> None:
+def hide_the_menus(wiring: WindowController) -> None:
     wiring.window_.menuBar().hide()
 
 
-def remember_something(wiring: Wiring) -> None:
+def remember_something(wiring: WindowController) -> None:
     wiring.unit_choice._told_of = "whatever"
 
 
-def change_a_label(wiring: Wiring) -> None:
+def change_a_label(wiring: WindowController) -> None:
     wiring.window_.status.unit.setText("ell")
 
 
-def disable_an_action(wiring: Wiring) -> None:
+def disable_an_action(wiring: WindowController) -> None:
     wiring.window_.actions_["about"].setEnabled(False)
 
 

@@ -19,9 +19,9 @@ from app.model.part import Units
 from app.model.read_options import DrawingOptions
 from app.model.reading import DrawingSource, ReadingOptions
 from app.ui.shell.translation import translate_all
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 from tests.ui.conftest import WAIT_MS
-from tests.ui.test_saving import save_to
+from tests.ui.test_save_controller import save_to
 from tests.ui.test_translation import left_english, seen_texts
 
 
@@ -77,33 +77,33 @@ OLD_SVG = (
 )
 
 
-def ask(qtbot, wiring: Wiring, path: Path) -> None:
+def ask(qtbot, wiring: WindowController, path: Path) -> None:
     wiring.files.open_file(path)
     qtbot.waitUntil(wiring.window_.card.isVisible, timeout=WAIT_MS)
 
 
-def button(wiring: Wiring, words: str) -> QPushButton:
+def button(wiring: WindowController, words: str) -> QPushButton:
     return next(each for each in wiring.window_.card.buttons if each.text() == words)
 
 
-def answer(qtbot, wiring: Wiring, words: str) -> None:
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+def answer(qtbot, wiring: WindowController, words: str) -> None:
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         qtbot.mouseClick(button(wiring, words), Qt.MouseButton.LeftButton)
 
 
-def source(wiring: Wiring) -> DrawingSource:
+def source(wiring: WindowController) -> DrawingSource:
     found = wiring.document.state.source
     assert found is not None
     return found
 
 
-def size(wiring: Wiring) -> tuple[float, float]:
-    found = wiring.showing.part_size()
+def size(wiring: WindowController) -> tuple[float, float]:
+    found = wiring.display_controller.part_size()
     assert found is not None
     return found
 
 
-def reread(qtbot, wiring: Wiring, act: Callable[[], object]) -> None:
+def reread(qtbot, wiring: WindowController, act: Callable[[], object]) -> None:
     revision = wiring.document.revision
     act()
     qtbot.waitUntil(lambda: wiring.document.revision > revision, timeout=WAIT_MS)
@@ -187,7 +187,7 @@ def test_enter_takes_the_likely_answer(qtbot, wiring, tmp_path) -> None:
     ask(qtbot, wiring, written(tmp_path / "far.dxf", far))
     first = wiring.window_.card.buttons[0]
     qtbot.waitUntil(first.hasFocus)
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         qtbot.keyClick(first, Qt.Key.Key_Space)
     assert source(wiring).reading.how.to_zero
 
@@ -237,10 +237,10 @@ def test_a_stray_that_is_missing_wherever_the_drawing_stands_is_told_and_not_ask
         plate(document.modelspace())
         document.modelspace().add_circle((2e6, 0), 5)
 
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(written(tmp_path / "stray.dxf", stray))
     assert not wiring.window_.card.isVisible()
-    assert [finding.text for finding in wiring.showing.findings if "beyond 1 km" in finding.text]
+    assert [finding.text for finding in wiring.display_controller.findings if "beyond 1 km" in finding.text]
 
 
 def test_an_svg_of_an_older_editor_tells_what_it_was_read_with(qtbot, wiring, tmp_path) -> None:
@@ -277,7 +277,7 @@ def test_an_answer_after_work_was_done_is_a_step_that_can_be_undone(qtbot, wirin
     assert wiring.document.job.stock.margin == 3.0
 
 
-def show_reading(qtbot, wiring: Wiring):
+def show_reading(qtbot, wiring: WindowController):
     wiring.window_.actions_["reading"].trigger()
     section = wiring.window_.drawing_page.reading
     qtbot.waitUntil(section.isVisible)
@@ -291,7 +291,7 @@ def test_the_page_shows_how_it_was_read_and_reads_it_again(qtbot, wiring, tmp_pa
         document.modelspace().add_circle((120, 60), 5, {"layer": "Holes"})
         on_paper(document)
 
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(written(tmp_path / "both.dxf", both))
     section = show_reading(qtbot, wiring)
     assert section.file.text() == "both.dxf" and section.units.box.currentText() == "mm, as in the file"
@@ -315,7 +315,7 @@ def test_the_page_shows_how_it_was_read_and_reads_it_again(qtbot, wiring, tmp_pa
 
 
 def test_what_was_drawn_since_is_asked_about_before_it_is_replaced(qtbot, wiring, tmp_path) -> None:
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(written(tmp_path / "plate.dxf", in_metres))
     section, notice = show_reading(qtbot, wiring), wiring.window_.notice
     wiring.document.run("circle 20,10 5")
@@ -328,10 +328,10 @@ def test_what_was_drawn_since_is_asked_about_before_it_is_replaced(qtbot, wiring
 
 
 def test_a_way_in_which_it_cannot_be_read_is_refused_and_shown_no_longer(qtbot, wiring, tmp_path) -> None:
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(written(tmp_path / "plate.dxf", in_metres))
     section = show_reading(qtbot, wiring)
-    with qtbot.waitSignal(wiring.files.rereading.failed, timeout=WAIT_MS) as caught:
+    with qtbot.waitSignal(wiring.files.reread_controller.failed, timeout=WAIT_MS) as caught:
         section.layers.chosen.emit(("0",))
     assert "without layer 0 nothing is left" in caught.args[0]
     assert section.layers.text.text() == "none" and source(wiring).reading == ReadingOptions()
@@ -345,7 +345,7 @@ def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(q
     assert load_project(tmp_path / "yard.hito")[0].state.source == source(wiring)
     assert 'path = "drawn.dxf"' in (tmp_path / "yard.hito").read_text("utf-8")
     wiring.files.new()
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(tmp_path / "yard.hito")
     assert not wiring.window_.card.isVisible() and size(wiring) == pytest.approx((40.0, 20.0))
     section = show_reading(qtbot, wiring)
@@ -358,11 +358,11 @@ def test_a_project_keeps_how_its_drawing_was_read_and_opens_without_a_question(q
 
 def test_a_project_whose_drawing_is_gone_says_so(qtbot, wiring, tmp_path) -> None:
     path = written(tmp_path / "plate.dxf", in_metres)
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
     save_to(qtbot, wiring, tmp_path / "plate.hito")
     path.unlink()
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(tmp_path / "plate.hito")
     section = show_reading(qtbot, wiring)
     qtbot.waitUntil(lambda: bool(section.trouble.text()), timeout=WAIT_MS)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from app.ui.shell.drawing_export import offered
-from app.ui.shell.files import open_filter
+from app.ui.shell.drawing_export_controller import offered
+from app.ui.shell.file_controller import open_filter
 from tests.formats.test_registry import registered  # noqa: F401 (a fixture for each test here)
 from tests.ui.conftest import WAIT_MS
 
@@ -14,7 +14,7 @@ def test_open_offers_and_reads_it(qtbot, wiring, tmp_path: Path) -> None:
     assert "*.foo" in open_filter()
     path = tmp_path / "x.foo"
     path.write_text("0 0 40 30\n")
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
     assert len(wiring.document.part.entities) == 4
 

@@ -13,7 +13,7 @@ from app.model.job import Job
 from app.model.part import Part
 from app.ui.framework.theme import LIGHT
 from app.ui.views.canvas.canvas import Canvas
-from app.ui.views.canvas.view import View
+from app.ui.views.canvas.view_transform import ViewTransform
 
 EDITS = (
     "line 30,30 60,55",
@@ -48,7 +48,7 @@ def shown(qtbot: QtBot, count: int) -> Canvas:
     qtbot.addWidget(canvas)
     canvas.resize(824, 624)
     canvas.show()
-    canvas.set_view(View(5.0, 124.0, 574.0))
+    canvas.set_view(ViewTransform(5.0, 124.0, 574.0))
     canvas.grab()
     qtbot.waitUntil(lambda: canvas.sharp)
     return canvas
@@ -146,9 +146,13 @@ def around(canvas: Canvas, image: QImage, place: Point) -> QImage:
 
 
 @pytest.mark.parametrize(
-    "near", [View(30.0, -1088.0, 1812.0), View(8.0, 24.0, 724.0)], ids=["far smaller", "a little smaller"]
+    "near",
+    [ViewTransform(30.0, -1088.0, 1812.0), ViewTransform(8.0, 24.0, 724.0)],
+    ids=["far smaller", "a little smaller"],
 )
-def test_zooming_out_shows_at_once_what_the_last_picture_did_not_reach(qtbot: QtBot, heavy: Canvas, near: View) -> None:
+def test_zooming_out_shows_at_once_what_the_last_picture_did_not_reach(
+    qtbot: QtBot, heavy: Canvas, near: ViewTransform
+) -> None:
     far = heavy.view
     heavy.set_view(near)
     heavy.grab()

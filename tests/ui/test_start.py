@@ -53,24 +53,24 @@ def test_commands_go_to_the_command_line_without_the_window():
 CLOSE_WHILE_COMPUTING = """
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
-import app.ui.shell.wiring as wiring
-plain = wiring.Wiring.__init__
+import app.ui.shell.window_controller as wiring
+plain = wiring.WindowController.__init__
 def watched(self, window):
     plain(self, window)
-    self.files.opening.opened.connect(lambda _: (self.compute(), QTimer.singleShot(300, window.close)))
-wiring.Wiring.__init__ = watched
+    self.files.open_controller.opened.connect(lambda _: (self.compute(), QTimer.singleShot(300, window.close)))
+wiring.WindowController.__init__ = watched
 """
 
 
 CLOSE_WHEN_SHOWN = """
 from PySide6.QtCore import QTimer
-import app.ui.views.nc.control as control
-plain = control.NcControl._on_foreign
+import app.ui.views.nc.controller as control
+plain = control.NcController._on_foreign
 def watched(self, remember, shown):
     plain(self, remember, shown)
     print(shown.source.name, len(shown.shapes))
     QTimer.singleShot(50, self._view.window().close)
-control.NcControl._on_foreign = watched
+control.NcController._on_foreign = watched
 """
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.framework.verdict import Level, Verdict
+from app.ui.framework.verdict import VerdictLevel, VerdictSummary
 from app.ui.shell.badge import Badge
 from app.ui.shell.status_bar import StatusBar
 
@@ -33,7 +33,7 @@ def test_where_room_is_short_the_badge_leaves_out_whole_parts(qtbot, room, shown
     badge = Badge()
     qtbot.addWidget(badge)
     parts = ["✓ 0 gouge", "0 left", "15 places out of reach", "2 strokes", "4:12"]
-    badge.show_verdict(Verdict(Level.OK, " · ".join(parts)))
+    badge.show_verdict(VerdictSummary(VerdictLevel.OK, " · ".join(parts)))
     fits = badge.fitting(round(room * badge.fontMetrics().horizontalAdvance(badge.text())))
     assert fits.removesuffix(" · …").split(" · ") == parts[:shown]
     assert fits.endswith("…") is (shown < 5)

@@ -103,9 +103,9 @@ def test_a_word_typed_begins_a_tool_and_option_words_go_to_it(wiring):
 
 
 def test_a_tool_taken_elsewhere_shows_the_drawing(wiring):
-    wiring.showing.show_view(View.NC)
+    wiring.display_controller.show_view(View.NC)
     enter(wiring, "slot")
-    assert wiring.showing.view is View.DRAW
+    assert wiring.display_controller.view is View.DRAW
 
 
 def test_the_menu_at_the_mouse_selects_what_lies_there_and_offers_what_can_be_done(wiring, qtbot):

@@ -7,15 +7,15 @@ import pytest
 from app.drafting.document import Document
 from app.model.curves import Arc, Circle, Curve, Line, Point
 from app.model.part import Part
-from app.ui.views.canvas.aim import AimRules, aim, rounded
 from app.ui.views.canvas.chain_tools import LineTool, PolylineTool
 from app.ui.views.canvas.drawing_tool import DrawingTool
 from app.ui.views.canvas.modes import CanvasTool
-from app.ui.views.canvas.part_picture import PartPicture
+from app.ui.views.canvas.painting.part_layer import PartLayer
 from app.ui.views.canvas.round_tools import ArcCentreTool, CircleTool
-from app.ui.views.canvas.running import ToolRunner
 from app.ui.views.canvas.snap import SnapKind
-from app.ui.views.canvas.tools import TOOLS, RectangleTool
+from app.ui.views.canvas.snapped_point import SnapRules, rounded, snapped_point
+from app.ui.views.canvas.tool_runner import ToolRunner
+from app.ui.views.canvas.tool_table import TOOLS, RectangleTool
 from app.ui.views.canvas.typed_values import TypedValues, rows_of
 
 PLACES = {
@@ -150,12 +150,12 @@ def test_a_free_point_is_rounded_to_less_than_a_pixel() -> None:
 def test_points_of_the_drawing_win_over_straight_and_grid() -> None:
     tool = LineTool()
     tool.add((0.0, 0.0))
-    rules = AimRules(snap=True, grid=True, straight=True, grid_step=5.0, scale=10.0)
-    drawn, empty = PartPicture(), PartPicture()
+    rules = SnapRules(snap=True, grid=True, straight=True, grid_step=5.0, scale=10.0)
+    drawn, empty = PartLayer(), PartLayer()
     drawn.update(Part().with_curves((Line((20.0, 7.0), (30.0, 7.0)),), "0"))
-    found = aim((20.4, 7.3), tool, drawn, rules)
+    found = snapped_point((20.4, 7.3), tool, drawn, rules)
     assert (found.point, found.snap and found.snap.kind) == ((20.0, 7.0), SnapKind.END)
-    free = aim((20.4, 7.3), tool, empty, rules)
+    free = snapped_point((20.4, 7.3), tool, empty, rules)
     assert free.point == (20.0, 0.0)
 
 
@@ -163,8 +163,8 @@ def test_the_chain_may_snap_to_its_own_first_point() -> None:
     tool = LineTool()
     for place in ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0)):
         tool.add(place)
-    rules = AimRules(snap=True, grid=False, straight=False, grid_step=1.0, scale=10.0)
-    assert aim((0.4, 0.4), tool, PartPicture(), rules).point == (0.0, 0.0)
+    rules = SnapRules(snap=True, grid=False, straight=False, grid_step=1.0, scale=10.0)
+    assert snapped_point((0.4, 0.4), tool, PartLayer(), rules).point == (0.0, 0.0)
 
 
 def test_the_runner_carries_lines_out_and_tells_errors() -> None:

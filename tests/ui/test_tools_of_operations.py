@@ -12,11 +12,11 @@ from app.drafting.document import Document
 from app.model.job import Job
 from app.model.operation import OPERATION_KINDS, CutParameters, DrillOperation
 from app.model.tool import Tool, ToolKind
-from app.ui.framework.computation import Computation, State
+from app.ui.framework.computation import Computation, ComputationState
 from app.ui.framework.labels import Elided
 from app.ui.framework.worker import Worker
 from app.ui.panels.side_panel import SidePanel
-from app.ui.views.stages.reel import Wish, reel_of
+from app.ui.views.stages.film_set import FilmRequest, film_set_of
 from app.usecases.bitmap_job import drawn_job
 from app.usecases.bitmap_options import BitmapSize
 from tests.part_shapes import circle, layered_part, square
@@ -58,10 +58,10 @@ def test_it_is_computed_or_refused(qtbot, word, tool, way):
     if way == "pixels":
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()
-    qtbot.waitUntil(lambda: computation.state is not State.RUNNING, timeout=20_000)
+    qtbot.waitUntil(lambda: computation.state is not ComputationState.RUNNING, timeout=20_000)
     worker.finish()
     assert computation.error == refused(word, tool)
-    assert computation.state is (State.FAILED if computation.error else State.CURRENT)
+    assert computation.state is (ComputationState.FAILED if computation.error else ComputationState.CURRENT)
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.kind.value)
@@ -80,7 +80,7 @@ def test_computing_says_why_not_in_notice_status_and_findings(qtbot, wiring):
     window, drill = wiring.window_, Tool(1, 6.0, ToolKind.DRILL)
     wiring.document.load(Job(PART, (drill,), (OPERATION_KINDS["pocket"](CutParameters(1)),)))
     wiring.compute()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.FAILED, timeout=20_000)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.FAILED, timeout=20_000)
     assert window.notice.text.text() == window.status.message.toolTip() == NO_MILL.format("pocket")
     assert window.status.badge.text() == "Could not be computed"
     window.canvas.hovered.emit("Part")
@@ -98,8 +98,8 @@ def test_all_operations_off_is_said_whichever_way(qtbot, pixels):
     if pixels:
         computation.pixels = job.part, drawn_job(job, BitmapSize(100)).part
     computation.start()
-    qtbot.waitUntil(lambda: computation.state is State.FAILED, timeout=20_000)
+    qtbot.waitUntil(lambda: computation.state is ComputationState.FAILED, timeout=20_000)
     worker.finish()
     assert ALL_OFF in computation.error
     with pytest.raises(ParameterError, match=ALL_OFF):
-        reel_of(Wish(job, BitmapSize(100)))
+        film_set_of(FilmRequest(job, BitmapSize(100)))

@@ -13,13 +13,13 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, 
 
 from app.core.resources import resource
 from app.core.settings import Language, load_settings
+from app.ui.framework.catalogue import Catalogue, catalogue, set_language, tr
 from app.ui.framework.fields import LABEL_WIDTH, NumberField
 from app.ui.framework.theme import TEXT_PX
-from app.ui.framework.words import Catalogue, catalogue, speak, tr
 from app.ui.shell.actions import menus, plain
 from app.ui.shell.translation import code_of, translate_all
-from app.ui.views.canvas.asking import AskingTool
-from app.ui.views.canvas.tools import TOOLS
+from app.ui.views.canvas.prompt_tool import PromptTool
+from app.ui.views.canvas.tool_table import TOOLS
 
 ENTRIES: dict[str, str] = tomllib.loads(resource("translations", "ja.toml").read_text("utf-8"))["words"]
 HOLE = re.compile(r"\{n?\}")
@@ -29,7 +29,7 @@ OWN_NAMES = {"English", "日本語", "NC"}
 @pytest.fixture(autouse=True)
 def english_again():
     yield
-    speak("en")
+    set_language("en")
 
 
 @pytest.fixture
@@ -92,7 +92,7 @@ def test_what_is_said_later_is_looked_up_before_it_is_seen(qtbot, japanese) -> N
     assert window.notice.text.text() == "新しい図面を始めますか。 この図面はまだどのファイルにも保存されていません。"
     assert "作図を続ける" in [button.text() for button in window.notice.buttons]
     japanese.cancel()
-    japanese.showing.show_hovered("Cancelled; nothing has changed.")
+    japanese.display_controller.show_hovered("Cancelled; nothing has changed.")
     window.grab()
     assert window.status.message.text() == "中止しました。何も変更していません。"
 
@@ -135,7 +135,7 @@ def test_one_entry_serves_menu_tip_and_button() -> None:
 
 
 def test_what_the_catalogue_lacks_stays_english() -> None:
-    speak("ja")
+    set_language("ja")
     assert tr("Never heard of") == "Never heard of"
     assert tr("Fit") == "全体表示"
     assert catalogue("en").look_up("Fit") is None
@@ -187,11 +187,11 @@ def test_nothing_of_the_window_is_left_in_english(japanese) -> None:
 
 @pytest.mark.parametrize("kind", TOOLS)
 def test_every_tool_asks_in_japanese(kind) -> None:
-    speak("ja")
+    set_language("ja")
     tool = TOOLS[kind]()
     asked = (
         {tr(ask.prompt) for ask in tool.asks if ask}
-        if isinstance(tool, AskingTool)
+        if isinstance(tool, PromptTool)
         else {tr(words) for words in tool.prompts}
     )
     assert left_english({tr(tool.prompt), *asked}) == []
@@ -213,10 +213,10 @@ def test_a_chosen_item_stays_chosen_when_its_name_changes(qtbot) -> None:
     qtbot.addWidget(box)
     box.addItems(["Climb", "Conventional"])
     box.setCurrentIndex(1)
-    speak("ja")
+    set_language("ja")
     translate_all(box)
     assert (box.currentText(), box.currentIndex()) == ("アップカット", 1)
-    speak("en")
+    set_language("en")
     translate_all(box)
     assert box.currentText() == "Conventional"
 

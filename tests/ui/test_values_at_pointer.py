@@ -14,13 +14,13 @@ from pytestqt.qtbot import QtBot
 
 from app.drafting.document import Document
 from app.model.curves import Circle, Line, Point
-from app.ui.framework.words import catalogue
-from app.ui.shell.wiring import Wiring
-from app.ui.views.canvas.asking import AskingTool
-from app.ui.views.canvas.drawing_tool import Desk, DrawingTool
+from app.ui.framework.catalogue import catalogue
+from app.ui.shell.window_controller import WindowController
+from app.ui.views.canvas.drawing_tool import DrawingTool, ToolContext
 from app.ui.views.canvas.modes import CanvasTool as T
-from app.ui.views.canvas.running import ToolRunner
-from app.ui.views.canvas.tools import TOOLS
+from app.ui.views.canvas.prompt_tool import PromptTool
+from app.ui.views.canvas.tool_runner import ToolRunner
+from app.ui.views.canvas.tool_table import TOOLS
 from app.ui.views.canvas.typed_values import rows_of
 from app.ui.views.canvas.value_boxes import PLACE, RADIUS, SIZE, SPAN, STEP, PointBoxes
 from app.ui.views.canvas.value_picture import SheetPlace, ValueSheet
@@ -347,12 +347,12 @@ def test_every_box_of_every_tool_has_a_japanese_name(kind: T) -> None:
     for line in PLATE:
         document.run(line)
     tool, words = TOOLS[kind](), catalogue("ja")
-    if isinstance(tool, AskingTool):
-        tool.desk = Desk(document, {})
+    if isinstance(tool, PromptTool):
+        tool.desk = ToolContext(document, {})
     for _ in range(4):
         names = {row.box.name for row in rows_of(tool)} - {"X", "Y"}
         assert {name for name in names if words.look_up(name) is None} == set()
-        if isinstance(tool, AskingTool):
+        if isinstance(tool, PromptTool):
             tool.answers = [*tool.answers, (3.0, 4.0)]
         tool.points = [*tool.points, (3.0, 4.0)]
 
@@ -455,7 +455,7 @@ def test_the_sheet_moves_with_the_mouse(qtbot: QtBot) -> None:
 class Counting:
     """A mouse and a keyboard on the real window that count clicks and values."""
 
-    def __init__(self, qtbot: QtBot, wiring: Wiring) -> None:
+    def __init__(self, qtbot: QtBot, wiring: WindowController) -> None:
         self._qtbot, self._window = qtbot, wiring.window_
         self.clicks = self.values = 0
 
@@ -473,7 +473,7 @@ class Counting:
 
 
 def test_a_plate_with_round_corners_and_two_holes_takes_two_clicks_and_eleven_values(
-    qtbot: QtBot, wiring: Wiring
+    qtbot: QtBot, wiring: WindowController
 ) -> None:
     hand = Counting(qtbot, wiring)
     hand.tool(T.RECTANGLE_ROUND)

@@ -4,7 +4,7 @@ import pytest
 
 from app.model.finding import Finding, FindingKind
 from app.ui.framework.figures import clock, counted, grouped
-from app.ui.framework.verdict import Level, figures, short, verdict, worst_first
+from app.ui.framework.verdict import VerdictLevel, figures, short, verdict_summary, worst_first
 
 CLEAN = {
     "gouge": {"count": 0, "max_mm": 0.0},
@@ -19,8 +19,8 @@ CORNER = Finding(FindingKind.LEFT_UNREACHABLE, "Corners stay.", 0.0, 0.0, counts
 
 
 def test_clean_program_shows_its_figures():
-    assert verdict((CORNER,), CLEAN).text == "✓ 0 gouge · 0 left · 2 strokes · 4:12"
-    assert verdict((CORNER,), CLEAN).level is Level.OK
+    assert verdict_summary((CORNER,), CLEAN).text == "✓ 0 gouge · 0 left · 2 strokes · 4:12"
+    assert verdict_summary((CORNER,), CLEAN).level is VerdictLevel.OK
 
 
 def test_places_out_of_reach_are_counted():
@@ -41,18 +41,18 @@ def test_area_left_is_said_in_plain_figures(area, said):
 
 
 def test_worst_finding_stands_first():
-    shown = verdict((OPEN, CORNER, GOUGE), CLEAN)
-    assert shown.level is Level.BAD
+    shown = verdict_summary((OPEN, CORNER, GOUGE), CLEAN)
+    assert shown.level is VerdictLevel.BAD
     assert shown.text == "Gouge 0.120 mm at (41.2, 8.0) · 1 more"
     assert worst_first((CORNER, OPEN, GOUGE)) == (GOUGE, OPEN, CORNER)
 
 
 def test_finding_of_the_drawing_is_amber():
-    assert verdict((OPEN,), CLEAN).level is Level.REMARK
+    assert verdict_summary((OPEN,), CLEAN).level is VerdictLevel.REMARK
 
 
 def test_program_without_moves_is_never_green():
-    assert verdict((), CLEAN | {"moves": {"G0": 0, "G1": 0}}).level is Level.REMARK
+    assert verdict_summary((), CLEAN | {"moves": {"G0": 0, "G1": 0}}).level is VerdictLevel.REMARK
 
 
 def test_figures_for_people():
@@ -69,4 +69,4 @@ def test_every_kind_of_finding_has_its_place_and_its_name(kind):
 
 def test_the_badges_tip_says_what_the_time_is_made_of():
     data = {"moves": {"cut": 1}, "time_s": 100.0, "time_parts_s": {"cut": 60.0, "rapid": 5.0, "wait": 35.0}}
-    assert verdict((), data).tip == "Cutting and rapids 1:05, tool changes and waiting 0:35"
+    assert verdict_summary((), data).tip == "Cutting and rapids 1:05, tool changes and waiting 0:35"

@@ -4,8 +4,8 @@ import pytest
 from PySide6.QtWidgets import QLabel
 
 from app.ui.framework.controller import Controller
-from app.ui.framework.missing import NOTHING, Missing
-from app.ui.framework.view import Page, View, register, unregister
+from app.ui.framework.missing import NOTHING, MissingHint
+from app.ui.framework.view import View, ViewPage, register, unregister
 from app.ui.framework.workspace import Workspace
 from app.ui.shell.start import build
 from tests.ui.one_window import end
@@ -43,15 +43,15 @@ class Plain(QLabel):
 def counted(qtbot):
     made: list[Counter] = []
 
-    def page(workspace: Workspace) -> Page:
+    def page(workspace: Workspace) -> ViewPage:
         shown, beside = Plain(), QLabel("beside")
         counter = Counter(shown, workspace)
         made.append(counter)
-        return Page(
+        return ViewPage(
             shown,
             shown,
             prompt=lambda: "Draw, and it counts",
-            missing=lambda: NOTHING if shown.text() else Missing("Nothing is counted yet.", "Count", "compute"),
+            missing=lambda: NOTHING if shown.text() else MissingHint("Nothing is counted yet.", "Count", "compute"),
             summary=lambda: f"{shown.text()} counted",
             side=lambda: beside,
             controller=counter,
@@ -70,7 +70,7 @@ def test_a_view_that_is_registered_is_in_the_window(counted) -> None:
     window = wiring.window_
     assert list(window.top_bar.tabs)[-1] == "view_counter"
     window.actions_["view_counter"].trigger()
-    page = wiring.showing.page
+    page = wiring.display_controller.page
     assert window.views.currentWidget() is page.widget is counter.label and counter.seen
     assert page.side().isVisible() and window.side.isHidden() and window.tool_strip.isHidden()
     assert window.views.empty.sentence.text() == "Nothing is counted yet."

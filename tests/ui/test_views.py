@@ -5,12 +5,12 @@ from PySide6.QtCore import Qt
 
 from app.drafting.document import Document
 from app.ui.framework.fade import FADE_MS
-from app.ui.framework.samples import Sample
+from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import LIGHT
-from app.ui.framework.view import Page, View
-from app.ui.shell.views import Views
+from app.ui.framework.view import View, ViewPage
+from app.ui.shell.view_stack import ViewStack
 from app.ui.views.canvas.canvas import Canvas
-from app.ui.views.canvas.modes import ColourBy
+from app.ui.views.canvas.modes import PathColourBy
 
 
 @pytest.fixture
@@ -18,9 +18,9 @@ def views(qtbot):
     document = Document()
     document.run("circle 50,50 20")
     canvas = Canvas(document, LIGHT)
-    made = Views(canvas)
-    drawn = Page(canvas, canvas)
-    made.take_pages({View.DRAW: drawn, View.PATHS: drawn, View.NC: Page(made.nc, made.nc)})
+    made = ViewStack(canvas)
+    drawn = ViewPage(canvas, canvas)
+    made.take_pages({View.DRAW: drawn, View.PATHS: drawn, View.NC: ViewPage(made.nc, made.nc)})
     qtbot.addWidget(made)
     made.resize(900, 600)
     made.show()
@@ -53,7 +53,7 @@ def test_legend_closes_up_when_an_entry_goes(views):
     views.show_missing("", "", shows_paths=True)
     tall = legend.height()
     legend.show_left(False, False)
-    assert legend.height() == tall - 2 * legend.rows[Sample.LEFT].height()
+    assert legend.height() == tall - 2 * legend.rows[PathLineKind.LEFT].height()
 
 
 def test_legend_folds_where_there_is_no_room_for_it(qtbot, views):
@@ -73,13 +73,13 @@ def test_legend_folds_where_there_is_no_room_for_it(qtbot, views):
 def test_samples_are_grey_while_colours_tell_the_region(qtbot, views):
     views.show_view(View.PATHS)
     views.show_missing("", "", shows_paths=True)
-    line = views.legend.rows[Sample.POCKET].line
+    line = views.legend.rows[PathLineKind.POCKET].line
 
     def middle():
         return line.grab().toImage().pixelColor(line.width() // 2, line.height() // 2).name()
 
     before = middle()
-    qtbot.mouseClick(views.legend.colour.buttons[ColourBy.REGION], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(views.legend.colour.buttons[PathColourBy.REGION], Qt.MouseButton.LeftButton)
     assert middle() != before
-    qtbot.mouseClick(views.legend.colour.buttons[ColourBy.TOOL], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(views.legend.colour.buttons[PathColourBy.TOOL], Qt.MouseButton.LeftButton)
     assert middle() == before

@@ -10,14 +10,14 @@ from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from app.core.resources import resource
 from app.core.settings import ThemeChoice, load_settings
-from app.ui.framework.computation import State
-from app.ui.framework.samples import Sample
+from app.ui.framework.computation import ComputationState
+from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.framework.view import View
 from app.ui.panels.changes import Subject, SubjectKind
-from app.ui.shell.files import FIRST_START
-from app.ui.shell.memory import fit_onto
-from app.ui.views.canvas.modes import CanvasTool, ColourBy
+from app.ui.shell.file_controller import FIRST_START
+from app.ui.shell.window_geometry import fit_onto
+from app.ui.views.canvas.modes import CanvasTool, PathColourBy
 from tests.ui.conftest import WAIT_MS
 
 NO_UNITS = (
@@ -33,7 +33,7 @@ def press(qtbot, wiring, key, modifier=Qt.KeyboardModifier.NoModifier):
 def test_first_start_shows_the_sample_computed(computed):
     window = computed.window_
     assert window.notice.text.text() == FIRST_START
-    assert computed.showing.view is View.PATHS
+    assert computed.display_controller.view is View.PATHS
     assert window.status.badge.text().startswith("✓ 0 gouge · 0 left · ")
     assert window.file_label.text() == "fig2.dxf"
     assert window.views.legend.isVisible()
@@ -51,18 +51,18 @@ def test_changed_tool_makes_the_paths_out_of_date_until_f5(qtbot, computed):
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
     assert computed.window_.status.badge.text() == "Out of date"
     press(qtbot, computed, Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: computed.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     assert computed.computation.made is not before
     assert "4" in next(t.label for t in computed.computation.made.job.tools if t.number == 1)
 
 
 def test_undo_of_the_change_makes_the_paths_current_again(qtbot, computed):
     computed.document.run("circle 150,50 10")
-    assert computed.computation.state is State.STALE
+    assert computed.computation.state is ComputationState.STALE
     action = computed.window_.actions_["undo"]
     assert action.text() == "&Undo circle"
     press(qtbot, computed, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
-    assert computed.computation.state is State.CURRENT
+    assert computed.computation.state is ComputationState.CURRENT
     assert computed.window_.actions_["redo"].text() == "&Redo circle"
 
 
@@ -75,30 +75,30 @@ def test_tabs_lead_from_drawing_to_nc(qtbot, computed):
     qtbot.mouseClick(window.top_bar.tabs["view_draw"], Qt.MouseButton.LeftButton)
     assert window.views.currentWidget() is window.canvas
     press(qtbot, computed, Qt.Key.Key_3, Qt.KeyboardModifier.ControlModifier)
-    assert computed.showing.view is View.PATHS
+    assert computed.display_controller.view is View.PATHS
 
 
 def test_export_writes_what_was_computed(qtbot, computed, tmp_path):
     target = tmp_path / "part"
-    computed.files.exporting.choose_file = lambda _: target
-    with qtbot.waitSignal(computed.files.exporting.written, timeout=WAIT_MS):
+    computed.files.export_controller.choose_file = lambda _: target
+    with qtbot.waitSignal(computed.files.export_controller.written, timeout=WAIT_MS):
         press(qtbot, computed, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
     assert (tmp_path / "part.ngc").read_text("ascii") == computed.computation.made.nc.text
 
 
 def test_export_that_cannot_be_written_says_so(qtbot, computed, tmp_path):
-    computed.files.exporting.choose_file = lambda _: tmp_path / "no" / "folder.ngc"
-    with qtbot.waitSignal(computed.files.exporting.failed) as caught:
-        computed.files.exporting.start()
+    computed.files.export_controller.choose_file = lambda _: tmp_path / "no" / "folder.ngc"
+    with qtbot.waitSignal(computed.files.export_controller.failed) as caught:
+        computed.files.export_controller.start()
     assert "folder.ngc" in caught.args[0]
     assert computed.window_.notice.text.text() == caught.args[0]
 
 
 def test_export_of_a_changed_job_computes_first_and_shows_findings_before_the_file(qtbot, computed, tmp_path):
     target = tmp_path / "open.ngc"
-    computed.files.exporting.choose_file = lambda _: target
+    computed.files.export_controller.choose_file = lambda _: target
     computed.document.run("line 150,0 150,50 170,50")
-    computed.files.exporting.start()
+    computed.files.export_controller.start()
     notice = computed.window_.notice
     qtbot.waitUntil(lambda: [b.text() for b in notice.buttons] == ["Show", "Write anyway"], timeout=WAIT_MS)
     assert "open contour" in notice.text.text()
@@ -111,12 +111,12 @@ def test_cancel_is_answered_within_0_2_s(qtbot, wiring, data):
     wiring.files.open_file(data / "dxf" / "complex.dxf")
     qtbot.waitUntil(lambda: bool(wiring.document.part.entities), timeout=WAIT_MS)
     press(qtbot, wiring, Qt.Key.Key_F5)
-    assert wiring.computation.state is State.RUNNING
+    assert wiring.computation.state is ComputationState.RUNNING
     qtbot.waitUntil(lambda: wiring.window_.status.bar.value() > 0, timeout=WAIT_MS)
     begun = time.monotonic()
     qtbot.mouseClick(wiring.window_.status.cancel, Qt.MouseButton.LeftButton)
     assert time.monotonic() - begun < 0.2
-    assert wiring.computation.state is State.NONE
+    assert wiring.computation.state is ComputationState.NONE
     assert wiring.window_.status.badge.text() == "Not computed"
     assert not wiring.window_.status.bar.isVisible()
 
@@ -128,7 +128,7 @@ def test_answer_for_a_job_that_has_changed_is_dropped(qtbot, computed):
     computed.document.run("circle 150,50 10")
     qtbot.wait(1500)
     assert computed.computation.made is before
-    assert computed.computation.state is State.STALE
+    assert computed.computation.state is ComputationState.STALE
 
 
 def test_drawing_by_command_and_by_mouse_then_computing(qtbot, wiring):
@@ -147,8 +147,8 @@ def test_drawing_by_command_and_by_mouse_then_computing(qtbot, wiring):
     qtbot.mouseClick(window.canvas, Qt.MouseButton.LeftButton, pos=middle + middle / 12)
     assert wiring.document.log[-1].command.startswith("circle ")
     press(qtbot, wiring, Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
-    assert wiring.showing.view is View.PATHS
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
+    assert wiring.display_controller.view is View.PATHS
 
 
 def test_wrong_command_is_answered_in_the_log(qtbot, wiring):
@@ -169,15 +169,15 @@ def test_characters_typed_over_the_canvas_begin_a_command(qtbot, wiring):
 def test_drawing_without_units_asks_above_the_canvas(qtbot, wiring, tmp_path):
     path = tmp_path / "plate.dxf"
     path.write_text(NO_UNITS, "ascii")
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
     card = wiring.window_.card
     assert card.title.text() == "plate.dxf" and card.text.text() == "It names no units. It was read in mm."
     assert "40 \u00d7 40 mm" in [label.text() for label in card.findChildren(QLabel)]
     inch = next(b for b in card.buttons if b.text() == "Read in inch")
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         qtbot.mouseClick(inch, Qt.MouseButton.LeftButton)
-    assert wiring.showing.part_size() == pytest.approx((1016.0, 1016.0))
+    assert wiring.display_controller.part_size() == pytest.approx((1016.0, 1016.0))
 
 
 def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
@@ -186,7 +186,7 @@ def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
         '<svg xmlns="http://www.w3.org/2000/svg"><rect width="40" height="20" stroke="black" fill="none"/></svg>',
         "ascii",
     )
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
     card = wiring.window_.card
     assert card.text.text() == "It has no real size. It names no editor and was read with 96 units to the inch."
@@ -198,22 +198,22 @@ def test_an_svg_in_pixels_can_be_read_in_mm(qtbot, wiring, tmp_path):
         "Read in mm",
         "Read in inch",
     ]
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         qtbot.mouseClick(card.buttons[3], Qt.MouseButton.LeftButton)
-    assert wiring.showing.part_size() == pytest.approx((40.0, 20.0))
+    assert wiring.display_controller.part_size() == pytest.approx((40.0, 20.0))
 
 
 def test_a_drawing_in_words_opens_in_the_window(qtbot, wiring):
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(resource("samples", "plate.draw"))
-    assert wiring.showing.part_size() == pytest.approx((90.0, 60.0))
+    assert wiring.display_controller.part_size() == pytest.approx((90.0, 60.0))
 
 
 def test_file_that_is_no_drawing_leaves_the_document(qtbot, computed, tmp_path):
     path = tmp_path / "empty.dxf"
     path.write_bytes(b"")
     job = computed.document.job
-    with qtbot.waitSignal(computed.files.opening.failed, timeout=WAIT_MS) as caught:
+    with qtbot.waitSignal(computed.files.open_controller.failed, timeout=WAIT_MS) as caught:
         computed.files.open_file(path)
     assert "empty.dxf" in caught.args[0]
     assert computed.document.job is job
@@ -227,7 +227,7 @@ def test_dropped_drawing_is_opened(qtbot, wiring, samples):
     enter, drop = QDragEnterEvent(QPoint(400, 10), *how), QDropEvent(QPointF(400, 10), *how)
     QApplication.sendEvent(wiring.window_, enter)
     assert enter.isAccepted()
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         QApplication.sendEvent(wiring.window_, drop)
     assert wiring.document.path == Path(samples / "fig2.dxf")
 
@@ -265,7 +265,7 @@ def test_theme_switches_and_is_remembered(wiring):
 def test_finding_leads_to_its_place(qtbot, computed):
     computed.document.run("line 150,0 150,50 170,50")
     computed.compute()
-    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: computed.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     badge, findings = computed.window_.status.badge, computed.window_.findings_list
     assert badge.property("verdict") == "remark"
     qtbot.mouseClick(badge, Qt.MouseButton.LeftButton)
@@ -289,16 +289,16 @@ def test_legend_tells_of_left_material_only_when_there_is_some(qtbot, wiring):
 
     def compute():
         wiring.compute()
-        qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+        qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
 
     wiring.document.run("circle 50,50 20")
     compute()
-    assert not rows[Sample.LEFT].isVisible()
-    assert not rows[Sample.UNREACHABLE].isVisible()
+    assert not rows[PathLineKind.LEFT].isVisible()
+    assert not rows[PathLineKind.UNREACHABLE].isVisible()
     wiring.document.run("rect 80,30 120,70")
     compute()
-    assert not rows[Sample.LEFT].isVisible()
-    assert rows[Sample.UNREACHABLE].isVisible()
+    assert not rows[PathLineKind.LEFT].isVisible()
+    assert rows[PathLineKind.UNREACHABLE].isVisible()
 
 
 def test_empty_command_line_leaves_undo_to_the_drawing(qtbot, wiring):
@@ -332,8 +332,8 @@ def test_window_fits_onto_a_small_screen(qtbot, wiring):
 
 def test_legend_folds_and_colours_by_region(qtbot, computed):
     legend = computed.window_.views.legend
-    qtbot.mouseClick(legend.colour.buttons[ColourBy.REGION], Qt.MouseButton.LeftButton)
-    assert computed.window_.canvas.colour_by is ColourBy.REGION
+    qtbot.mouseClick(legend.colour.buttons[PathColourBy.REGION], Qt.MouseButton.LeftButton)
+    assert computed.window_.canvas.colour_by is PathColourBy.REGION
     tall = legend.height()
     qtbot.mouseClick(legend.fold, Qt.MouseButton.LeftButton)
     assert legend.height() < tall / 2
@@ -349,7 +349,7 @@ def test_tool_strip_follows_the_canvas(qtbot, wiring):
     qtbot.keyClick(line, Qt.Key.Key_Return)
     qtbot.keyClicks(line, "@30<90")
     qtbot.keyClick(line, Qt.Key.Key_Return)
-    assert wiring.showing.part_size() == pytest.approx((0.0, 30.0))
+    assert wiring.display_controller.part_size() == pytest.approx((0.0, 30.0))
     press(qtbot, wiring, Qt.Key.Key_Escape)
     press(qtbot, wiring, Qt.Key.Key_Escape)
     assert wiring.window_.tool_strip.buttons["tool_select"].isChecked()
@@ -366,16 +366,16 @@ def test_hidden_field_does_not_choose_another_row(qtbot, wiring):
 
 def test_opening_while_computing_leaves_the_computation(qtbot, computed, data):
     computed.computation.start()
-    with qtbot.waitSignal(computed.files.opening.opened, timeout=WAIT_MS):
-        computed.files.opening.open(data / "dxf" / "gear.dxf")
-    assert computed.computation.state is State.NONE
+    with qtbot.waitSignal(computed.files.open_controller.opened, timeout=WAIT_MS):
+        computed.files.open_controller.open(data / "dxf" / "gear.dxf")
+    assert computed.computation.state is ComputationState.NONE
     assert not computed.window_.worker.busy
     assert not computed.window_.status.bar.isVisible()
 
 
 def test_drawing_that_changed_while_a_file_was_read_is_kept(qtbot, wiring, samples):
-    with qtbot.waitSignal(wiring.files.opening.failed, timeout=WAIT_MS) as caught:
-        wiring.files.opening.open(samples / "fig2.dxf")
+    with qtbot.waitSignal(wiring.files.open_controller.failed, timeout=WAIT_MS) as caught:
+        wiring.files.open_controller.open(samples / "fig2.dxf")
         wiring.document.run("circle 10,10 5")
     assert "was changed while fig2.dxf was being read" in caught.args[0]
     assert len(wiring.document.part.entities) == 1
@@ -383,12 +383,12 @@ def test_drawing_that_changed_while_a_file_was_read_is_kept(qtbot, wiring, sampl
 
 def test_drawings_opened_lately_are_in_the_menu(qtbot, wiring, data):
     path = data / "dxf" / "genshi.dxf"
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         wiring.files.open_file(path)
     recent = wiring.window_.actions_.recent
     recent.aboutToShow.emit()
     assert recent.actions()[0].text() == str(path)
-    with qtbot.waitSignal(wiring.files.opening.opened, timeout=WAIT_MS):
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
         recent.actions()[0].trigger()
 
 
@@ -397,4 +397,4 @@ def test_words_of_the_window_can_be_typed(qtbot, wiring):
     for words in ("rect 0,0 40,30", "compute"):
         qtbot.keyClicks(line, words)
         qtbot.keyClick(line, Qt.Key.Key_Return)
-    assert wiring.computation.state is State.RUNNING
+    assert wiring.computation.state is ComputationState.RUNNING

@@ -32,7 +32,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.toml_tables import Keyword
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 
 _SIMPLE = (bool, int, float, str, bytes, Path, enum.Enum, type(None))
 _CODE = {FunctionType, MethodType, type}
@@ -89,12 +89,12 @@ def _sort_of(kind: type) -> _Sort:
     return _Sort.OURS if ours else _Sort.OTHER
 
 
-def traces(wiring: Wiring) -> dict[str, object]:
+def traces(wiring: WindowController) -> dict[str, object]:
     """Return every value by the way that leads to it, from the wiring and from the window."""
     return dict(_walk(wiring))
 
 
-def _walk(wiring: Wiring) -> Iterator[tuple[str, object]]:
+def _walk(wiring: WindowController) -> Iterator[tuple[str, object]]:
     seen: set[int] = set()
     fixed: dict[int, bool] = {}
     waiting: deque[tuple[str, object]] = deque([("wiring", wiring), ("window", wiring.window_)])
@@ -209,7 +209,7 @@ def differences(before: dict[str, object], after: dict[str, object]) -> list[str
     return list(_differing(before, after.items()))
 
 
-def left_in(wiring: Wiring, before: dict[str, object], most: int = 100) -> list[str]:
+def left_in(wiring: WindowController, before: dict[str, object], most: int = 100) -> list[str]:
     """Return a line for each value of a window that is not what it was; after so many nobody looks for more."""
     return list(islice(_differing(before, _walk(wiring)), most))
 

@@ -17,14 +17,14 @@ from ...model.finding import Finding
 from ...model.job import Job
 from ...model.moves import Program
 from ...model.part import Part
-from .worker import Answer, Worker
+from .worker import JobOutcome, Worker
 
 if TYPE_CHECKING:
     from ...usecases.bitmap_part import BitmapPart
     from ...usecases.make import MakeResult
 
 
-class State(Enum):
+class ComputationState(Enum):
     """What the window knows about the tool paths of the job as it is now."""
 
     NONE = "Not computed"
@@ -35,7 +35,7 @@ class State(Enum):
 
 
 @dataclass(frozen=True)
-class Computed:
+class ComputationResult:
     """What a run gives: the result, and its moves prepared for painting, so that showing them costs the window
     nothing.
     """
@@ -91,15 +91,15 @@ class Computation(QObject):
         self._unsubscribe = document.subscribe(self._on_change)
 
     @property
-    def state(self) -> State:
+    def state(self) -> ComputationState:
         """Where the tool paths stand."""
         if self._job_id is not None:
-            return State.RUNNING
+            return ComputationState.RUNNING
         if self.error:
-            return State.FAILED
+            return ComputationState.FAILED
         if self.made is None:
-            return State.NONE
-        return State.CURRENT if self._made_for is self._document.job else State.STALE
+            return ComputationState.NONE
+        return ComputationState.CURRENT if self._made_for is self._document.job else ComputationState.STALE
 
     @property
     def outdated(self) -> bool:
@@ -124,10 +124,10 @@ class Computation(QObject):
 
     def _compute(
         self, job: Job, pixels: BitmapPart | None, findings: tuple[Finding, ...], progress: Progress
-    ) -> Computed:
+    ) -> ComputationResult:
         made = _make(job, pixels, findings, progress)
         progress.step(0.95, "Preparing the picture")
-        return Computed(made, self._prepare(made))
+        return ComputationResult(made, self._prepare(made))
 
     def pixels_of(self, part: Part) -> BitmapPart | None:
         """Return the pixels of a part that is a picture's and was not drawn in since, else None."""
@@ -150,7 +150,7 @@ class Computation(QObject):
 
     def operation_times(self) -> dict[int, float]:
         """Return the time of each operation, seconds, by its index; nothing while the result is out of date."""
-        if self.made is None or self.state is not State.CURRENT:
+        if self.made is None or self.state is not ComputationState.CURRENT:
             return {}
         return {
             index: each["time_s"] for index, each in enumerate(self.made.report.data["operations"]) if each["enabled"]
@@ -164,12 +164,12 @@ class Computation(QObject):
         self.error = ""
         self.changed.emit()
 
-    def _on_done(self, answer: Answer) -> None:
+    def _on_done(self, answer: JobOutcome) -> None:
         if answer.job_id != self._job_id:
             return
         job = self._end()
         if answer.revision == self._document.revision:
-            assert isinstance(answer.value, Computed)
+            assert isinstance(answer.value, ComputationResult)
             self.made, self.picture, self._made_for = answer.value.made, answer.value.picture, job
             self.changed.emit()
             self.finished.emit()
@@ -181,7 +181,7 @@ class Computation(QObject):
         job, self._job_id, self._snapshot = self._snapshot, None, None
         return job
 
-    def _on_failed(self, answer: Answer) -> None:
+    def _on_failed(self, answer: JobOutcome) -> None:
         if answer.job_id == self._job_id:
             self._end()
             self.error = answer.error or ""

@@ -10,13 +10,13 @@ class Controller(QObject):
 
     Signals:
         failed(sentence): what went wrong. said(sentence): what was done, in a line.
-        changed(): the view shows or lacks something else. front_wanted(): the view shall come to the front.
+        changed(): the view shows or lacks something else. front_requested(): the view shall come to the front.
     """
 
     failed = Signal(str)
     said = Signal(str)
     changed = Signal()
-    front_wanted = Signal()
+    front_requested = Signal()
 
     def see(self, seen: bool) -> None:
         """Be told that the view came to the front, or no longer is there."""

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QButtonGroup, QComboBox, QGridLayout, QHBoxLayout,
 from ...core.errors import HitofudeError
 from ...drafting.expressions.errors import CommandError
 from ...drafting.expressions.numbers import length
+from .display_unit import clean, display_unit_name, display_unit_size
 from .labels import Elided, muted
-from .shown_unit import clean, shown_name, shown_size
 
 LABEL_WIDTH = 92
 VALUE_WIDTH = 84
@@ -24,7 +24,7 @@ _COUNTED = ("", "px")  # units of what comes in whole numbers where no decimals 
 
 
 @dataclass(frozen=True, slots=True)
-class Spec:
+class NumberSpec:
     """What a number field asks for.
 
     Attributes:
@@ -48,7 +48,7 @@ class Spec:
     @property
     def size(self) -> float:
         """How much of the unit one of what is shown and typed is."""
-        return shown_size() if shown_name(self.unit) != self.unit else 1.0
+        return display_unit_size() if display_unit_name(self.unit) != self.unit else 1.0
 
     def text(self, value: float) -> str:
         """Return a value as it is shown: inches with a decimal more."""
@@ -65,13 +65,13 @@ class Spec:
             and text[:1].isnumeric()
             and any(letter.isalpha() or letter in "\"'°%" for letter in text)
         ):
-            kind = f"is in {shown_name(self.unit)}" if self.unit else "has no unit"
+            kind = f"is in {display_unit_name(self.unit)}" if self.unit else "has no unit"
             raise HitofudeError(f"{self.name} {kind}; type the number alone.")
         value = clean(length(text, self.size))
         if self.decimals == 0 and self.unit in _COUNTED and value != int(value):
             raise HitofudeError(f"{self.name} is {value:g}; use a whole number.")
         if not self.low <= value <= self.high:
-            unit, size = self.unit if self.unit in ("", "°") else f" {shown_name(self.unit)}", self.size
+            unit, size = self.unit if self.unit in ("", "°") else f" {display_unit_name(self.unit)}", self.size
             raise HitofudeError(
                 f"{self.name} is {value / size:g}{unit}; use {self.low / size:g} to {self.high / size:g}."
             )
@@ -118,7 +118,9 @@ class NumberField(QWidget):
 
     committed = Signal(object)
 
-    def __init__(self, spec: Spec, read: Callable[[str], float] | None = None, reason: QLabel | None = None) -> None:
+    def __init__(
+        self, spec: NumberSpec, read: Callable[[str], float] | None = None, reason: QLabel | None = None
+    ) -> None:
         """Make a field.
 
         Args:
@@ -132,7 +134,7 @@ class NumberField(QWidget):
         self._value: float | None = 0.0
         self._before: float | None = 0.0
         self.edit, self.note, self.reason = QLineEdit(), Elided(role="muted"), reason or reason_label()
-        self.unit = muted(shown_name(spec.unit))
+        self.unit = muted(display_unit_name(spec.unit))
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setFixedSize(VALUE_WIDTH, ROW_HEIGHT)
         self.edit.setAccessibleName(spec.name)
@@ -188,7 +190,7 @@ class NumberField(QWidget):
 
     def follow_unit(self) -> None:
         """Show the same value in the unit that the window shows now; what is being typed is given up."""
-        self.unit.setText(shown_name(self.spec.unit))
+        self.unit.setText(display_unit_name(self.spec.unit))
         self._take(self._value)
         self._mark("")
 

@@ -9,18 +9,18 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from ...model.job import Job
-from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, Spec
+from .fields import LABEL_WIDTH, ChoiceField, ListField, NumberField, NumberSpec
 from .icons import IconButton, icon
 from .labels import Elided, muted
 from .samples import Switch
-from .section import EDGE, Section
+from .section import EDGE, PanelSection
 from .theme import LIGHT, Theme
 
 Edit = Callable[[Job, float], Job]
 MaybeEdit = Callable[[Job, float | None], Job]
 
 
-class Fold(QToolButton):
+class FoldButton(QToolButton):
     """The head of a group: a click shows or hides its rows."""
 
     def __init__(self, title: str) -> None:
@@ -42,12 +42,12 @@ class Fold(QToolButton):
         self.setIcon(icon("down" if self.isChecked() else "right", theme, theme.muted))
 
 
-class Group(QWidget):
+class FieldGroup(QWidget):
     """Rows of a form under a head that folds them."""
 
     def __init__(self, title: str) -> None:
         super().__init__()
-        self.fold, self.summary, self.body = Fold(title), Elided(role="muted"), QWidget()
+        self.fold, self.summary, self.body = FoldButton(title), Elided(role="muted"), QWidget()
         self.summary.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         head = QHBoxLayout()
         head.setContentsMargins(EDGE - 6, 4, EDGE, 0)
@@ -97,7 +97,7 @@ class SwitchField(QWidget):
         self.switch.setChecked(on)
 
 
-class Form(Section):
+class FormSection(PanelSection):
     """A section of fields.
 
     Signals:
@@ -119,11 +119,11 @@ class Form(Section):
         else:
             self.head.addSpacing(4)
 
-        self._group: Group | None = None
+        self._group: FieldGroup | None = None
 
-    def begin_group(self, title: str) -> Group:
+    def begin_group(self, title: str) -> FieldGroup:
         """Begin a group: what is added next is in it."""
-        self._group = Group(title)
+        self._group = FieldGroup(title)
         self.rows.addWidget(self._group)
         return self._group
 
@@ -134,7 +134,9 @@ class Form(Section):
         else:
             self._group.rows.addWidget(widget)
 
-    def add_number(self, spec: Spec, edit: Edit | MaybeEdit, read: Callable[[str], float] | None = None) -> NumberField:
+    def add_number(
+        self, spec: NumberSpec, edit: Edit | MaybeEdit, read: Callable[[str], float] | None = None
+    ) -> NumberField:
         """Add a number field; `edit(job, value)` gives the job with that value, None where the field may be left
         empty.
         """

@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 )
 
 from ...drafting.document import LogLine
+from .catalogue import tr
 from .theme import LIGHT, Theme, mono_font, text_font
-from .words import tr
 
 SHOWN_LINES = 3
 LINE_PX = 20

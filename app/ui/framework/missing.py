@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Missing:
+class MissingHint:
     """What a view lacks: a sentence, and the button (with the name of its action) that makes it."""
 
     sentence: str = ""
@@ -14,4 +14,4 @@ class Missing:
     action: str = "open"
 
 
-NOTHING = Missing()
+NOTHING = MissingHint()

@@ -12,7 +12,7 @@ from ...model.operation import Operation
 from .theme import LIGHT, Theme
 
 
-class Sample(Enum):
+class PathLineKind(Enum):
     """Kinds of lines that a drawing of paths has."""
 
     PART = "Part"
@@ -28,43 +28,43 @@ class Sample(Enum):
     WEDGES = "Wedges"
 
 
-def sample_pen(sample: Sample, theme: Theme) -> QPen:
+def sample_pen(sample: PathLineKind, theme: Theme) -> QPen:
     """Return the pen that paths of this kind are drawn with."""
     colours = {
-        Sample.PART: theme.ink,
-        Sample.POCKET: theme.pocket,
-        Sample.REST: theme.rest,
-        Sample.CONTOUR: theme.contour,
-        Sample.LINK: theme.pocket,
-        Sample.RAPID: theme.rapid,
-        Sample.PLUNGE: theme.plunge,
-        Sample.LEFT: theme.left,
-        Sample.UNREACHABLE: theme.unreachable,
-        Sample.CLAMP: theme.warning,
-        Sample.WEDGES: theme.regions[4],
+        PathLineKind.PART: theme.ink,
+        PathLineKind.POCKET: theme.pocket,
+        PathLineKind.REST: theme.rest,
+        PathLineKind.CONTOUR: theme.contour,
+        PathLineKind.LINK: theme.pocket,
+        PathLineKind.RAPID: theme.rapid,
+        PathLineKind.PLUNGE: theme.plunge,
+        PathLineKind.LEFT: theme.left,
+        PathLineKind.UNREACHABLE: theme.unreachable,
+        PathLineKind.CLAMP: theme.warning,
+        PathLineKind.WEDGES: theme.regions[4],
     }
-    pen = QPen(colours[sample], 1.0 if sample in (Sample.LINK, Sample.RAPID, Sample.PART) else 1.8)
+    pen = QPen(colours[sample], 1.0 if sample in (PathLineKind.LINK, PathLineKind.RAPID, PathLineKind.PART) else 1.8)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-    if sample is Sample.CONTOUR:
+    if sample is PathLineKind.CONTOUR:
         pen.setDashPattern([3.0, 1.6])
-    elif sample is Sample.RAPID:
+    elif sample is PathLineKind.RAPID:
         pen.setDashPattern([1.2, 2.4])
     return pen
 
 
-def sample_of(operation: Operation) -> Sample:
+def sample_of(operation: Operation) -> PathLineKind:
     """Return the line that an operation's paths are drawn with, by what it does."""
     if operation.DRILLS:
-        return Sample.PLUNGE
+        return PathLineKind.PLUNGE
     if operation.FOLLOWS_WALLS:
-        return Sample.CONTOUR
-    return Sample.POCKET if operation.COARSE else Sample.REST
+        return PathLineKind.CONTOUR
+    return PathLineKind.POCKET if operation.COARSE else PathLineKind.REST
 
 
 class LineSample(QWidget):
     """26 px of a path's line."""
 
-    def __init__(self, sample: Sample, parent: QWidget | None = None) -> None:
+    def __init__(self, sample: PathLineKind, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._sample, self._theme = sample, LIGHT
         self._any_colour = False
@@ -86,18 +86,23 @@ class LineSample(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setOpacity(1.0 if self.isEnabled() else 0.35)
         pen = sample_pen(self._sample, self._theme)
-        if self._any_colour and self._sample in (Sample.POCKET, Sample.REST, Sample.CONTOUR, Sample.LINK):
+        if self._any_colour and self._sample in (
+            PathLineKind.POCKET,
+            PathLineKind.REST,
+            PathLineKind.CONTOUR,
+            PathLineKind.LINK,
+        ):
             pen.setColor(self._theme.muted)
         painter.setPen(pen)
         middle = QPointF(self.width() / 2, self.height() / 2)
-        if self._sample is Sample.PLUNGE:
+        if self._sample is PathLineKind.PLUNGE:
             painter.setPen(QPen(self._theme.plunge, 1.4))
             painter.drawEllipse(middle, 4.2, 4.2)
             painter.setPen(QPen(self._theme.plunge, 2.6, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
             painter.drawPoint(middle)
-        elif self._sample in (Sample.LEFT, Sample.UNREACHABLE, Sample.CLAMP):
+        elif self._sample in (PathLineKind.LEFT, PathLineKind.UNREACHABLE, PathLineKind.CLAMP):
             self._hatch(painter, painter.pen().color())
-        elif self._sample is Sample.WEDGES:
+        elif self._sample is PathLineKind.WEDGES:
             self._facets(painter)
         else:
             painter.drawLine(QPointF(1, middle.y()), QPointF(self.width() - 1, middle.y()))

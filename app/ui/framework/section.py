@@ -45,7 +45,7 @@ def theme_children(parent: QWidget, theme: Theme) -> None:
             child.set_theme(theme)
 
 
-class Section(QWidget):
+class PanelSection(QWidget):
     """Heading and rows, 16 px from the panel's edges."""
 
     def __init__(self, title: str) -> None:
@@ -70,7 +70,7 @@ class Section(QWidget):
         self.rows.addLayout(line)
 
 
-class Row(QWidget):
+class ListRow(QWidget):
     """A line of a list that can be chosen with the mouse or the keyboard; `widgets` fill it from the left."""
 
     clicked = Signal()

@@ -11,7 +11,7 @@ from ...model.finding import Finding, FindingKind
 from .figures import clock, counted, grouped
 
 
-class Level(Enum):
+class VerdictLevel(Enum):
     """How a verdict is coloured; the value is what the style sheet looks at."""
 
     NONE = "none"
@@ -71,10 +71,10 @@ _RED = {
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class VerdictSummary:
     """A level, the line that the badge shows, and what the time is made of."""
 
-    level: Level
+    level: VerdictLevel
     text: str
     tip: str = ""
 
@@ -84,11 +84,11 @@ def worst_first(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
     return tuple(sorted(findings, key=lambda f: (not f.counts, _WORST_FIRST.index(f.kind))))
 
 
-def finding_level(finding: Finding) -> Level:
+def finding_level(finding: Finding) -> VerdictLevel:
     """Return the colour of one finding."""
     if not finding.counts:
-        return Level.NONE
-    return Level.BAD if finding.kind in _RED else Level.REMARK
+        return VerdictLevel.NONE
+    return VerdictLevel.BAD if finding.kind in _RED else VerdictLevel.REMARK
 
 
 def short(finding: Finding) -> str:
@@ -139,12 +139,14 @@ def times(data: Mapping[str, Any]) -> str:
     return f"Cutting and rapids {clock(parts['cut'] + parts['rapid'])}, tool changes and waiting {clock(parts['wait'])}"
 
 
-def verdict(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> Verdict:
+def verdict_summary(findings: tuple[Finding, ...], data: Mapping[str, Any]) -> VerdictSummary:
     """Return the verdict on a computed program from its findings and its report."""
     counting = [f for f in worst_first(findings) if f.counts]
     more = f" · {len(counting) - 1} more" if len(counting) > 1 else ""
     if not any(data.get("moves", {}).values()):
-        return Verdict(Level.REMARK, _sentence(counting[0]) + more if counting else "No closed contour to machine")
+        return VerdictSummary(
+            VerdictLevel.REMARK, _sentence(counting[0]) + more if counting else "No closed contour to machine"
+        )
     if not counting:
-        return Verdict(Level.OK, f"✓ {figures(data)}", times(data))
-    return Verdict(finding_level(counting[0]), _sentence(counting[0]) + more, times(data))
+        return VerdictSummary(VerdictLevel.OK, f"✓ {figures(data)}", times(data))
+    return VerdictSummary(finding_level(counting[0]), _sentence(counting[0]) + more, times(data))

@@ -9,7 +9,7 @@ from typing import ClassVar, Protocol
 from PySide6.QtWidgets import QWidget
 
 from .controller import Controller
-from .missing import NOTHING, Missing
+from .missing import NOTHING, MissingHint
 from .workspace import Workspace
 
 
@@ -23,7 +23,7 @@ class Zoomable(Protocol):
         """Zoom about the middle."""
 
 
-def _nothing() -> Missing:
+def _nothing() -> MissingHint:
     return NOTHING
 
 
@@ -36,7 +36,7 @@ def _no_side() -> QWidget | None:
 
 
 @dataclass(frozen=True, eq=False)
-class Page:
+class ViewPage:
     """What a view puts into the window.
 
     Attributes:
@@ -50,7 +50,7 @@ class Page:
     widget: QWidget
     viewport: Zoomable
     prompt: Callable[[], str] = _no_words
-    missing: Callable[[], Missing] = _nothing
+    missing: Callable[[], MissingHint] = _nothing
     summary: Callable[[], str] = _no_words
     side: Callable[[], QWidget | None] = _no_side
     controller: Controller | None = None
@@ -68,7 +68,7 @@ class View:
     value: str
     text: str
     key: str = ""
-    make: Callable[[Workspace], Page] | None = None
+    make: Callable[[Workspace], ViewPage] | None = None
 
     DRAW: ClassVar[View]
     STAGES: ClassVar[View]

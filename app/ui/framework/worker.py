@@ -28,7 +28,7 @@ SWITCH_INTERVAL_S = 0.0005
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class JobOutcome:
     """What a job ended with.
 
     Attributes:
@@ -44,7 +44,7 @@ class Answer:
 
 
 @dataclass(frozen=True, slots=True)
-class _Work:
+class _PendingJob:
     """A job on its way: what to run and where to answer."""
 
     job_id: int
@@ -79,9 +79,9 @@ _NO_COLLECTOR = _NoCollector()
 class _Runner(threading.Thread):
     """Runs one job. A daemon: a library call that does not return never keeps the program from ending."""
 
-    def __init__(self, work: _Work, worker: Worker) -> None:
+    def __init__(self, work: _PendingJob, worker: Worker) -> None:
         super().__init__(name=f"job {work.job_id}", daemon=True)
-        self._work: _Work | None = work
+        self._work: _PendingJob | None = work
         self._context = copy_context()
         self._worker, self._told, self._fraction = worker, 0.0, 0.0
         self._head_start = worker.head_start_s
@@ -98,7 +98,7 @@ class _Runner(threading.Thread):
             self._told = now
             self._worker.told.emit(job_id, fraction, text)
 
-    def _run(self, work: _Work) -> None:
+    def _run(self, work: _PendingJob) -> None:
         value, error = None, None
         try:
             remarks = partial(self._worker.remark_told.emit, work.job_id)
@@ -125,7 +125,7 @@ class _Runner(threading.Thread):
                 "report this."
             )
         if not work.cancelled.is_set() and isValid(self._worker):  # the window may have gone meanwhile
-            self._worker.answered.emit(Answer(work.job_id, work.revision, value, error))
+            self._worker.answered.emit(JobOutcome(work.job_id, work.revision, value, error))
 
 
 class Worker(QObject):
@@ -141,13 +141,13 @@ class Worker(QObject):
 
     progress = Signal(float, str)
     remarked = Signal(str)
-    done = Signal(Answer)
-    failed = Signal(Answer)
+    done = Signal(JobOutcome)
+    failed = Signal(JobOutcome)
     cancelled = Signal(int)
     busy_changed = Signal(bool)
     told = Signal(int, float, str)
     remark_told = Signal(int, str)
-    answered = Signal(Answer)
+    answered = Signal(JobOutcome)
 
     def __init__(self, parent: QObject | None = None, head_start_s: float = HEAD_START_S) -> None:
         super().__init__(parent)
@@ -155,7 +155,7 @@ class Worker(QObject):
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._threads: list[_Runner] = []
         self._next_id = 1
-        self._current: _Work | None = None
+        self._current: _PendingJob | None = None
         self.told.connect(self._on_told, Qt.ConnectionType.QueuedConnection)
         self.remark_told.connect(self._on_remark, Qt.ConnectionType.QueuedConnection)
         self.answered.connect(self._on_answered, Qt.ConnectionType.QueuedConnection)
@@ -172,7 +172,7 @@ class Worker(QObject):
             The job's id, as in the answer.
         """
         replaced = self._drop()
-        work = _Work(self._next_id, revision, function, threading.Event())
+        work = _PendingJob(self._next_id, revision, function, threading.Event())
         self._next_id += 1
         self._current = work
         self._threads = [thread for thread in self._threads if thread.is_alive()]
@@ -197,7 +197,7 @@ class Worker(QObject):
         for thread in self._threads:
             thread.join(wait_s)
 
-    def _drop(self) -> _Work | None:
+    def _drop(self) -> _PendingJob | None:
         work, self._current = self._current, None
         if work is not None:
             work.cancelled.set()
@@ -213,8 +213,8 @@ class Worker(QObject):
         if self._current is not None and self._current.job_id == job_id:
             self.remarked.emit(sentence)
 
-    @Slot(Answer)
-    def _on_answered(self, answer: Answer) -> None:
+    @Slot(JobOutcome)
+    def _on_answered(self, answer: JobOutcome) -> None:
         if self._current is None or self._current.job_id != answer.job_id:
             return
         self._current = None

@@ -13,7 +13,7 @@ from ...model.tool import Tool
 from ..framework.figures import clock, counted, grouped
 from ..framework.icons import IconButton
 from ..framework.labels import muted
-from ..framework.section import Row, Section, theme_children
+from ..framework.section import ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
 from .library import side_by_side
 
@@ -25,18 +25,18 @@ ALL = 0.99995
 """Share of an area from which all of it is said to be reached."""
 
 
-class AdviceSection(Section):
+class AdviceSection(PanelSection):
     """A list of tools with what each would do, and the tightest places of the drawing.
 
     Signals:
         closed(). for_pocket(tool), for_contour(tool): take a tool for pockets, or for contours and rest machining.
-        place_wanted(x, y): show a place, mm.
+        place_requested(x, y): show a place, mm.
     """
 
     closed = Signal()
     for_pocket = Signal(object)
     for_contour = Signal(object)
-    place_wanted = Signal(float, float)
+    place_requested = Signal(float, float)
 
     def __init__(self) -> None:
         super().__init__("Which tool?")
@@ -48,14 +48,14 @@ class AdviceSection(Section):
         self.add_indented(self.said)
         self.rows.addSpacing(4)
         heads = (("Flat", DIAMETER_PX), ("reaches", SHARE_PX), ("leaves", LEFT_PX))
-        self._head = Row(*(self._cell(muted(text), wide) for text, wide in heads), muted("time"), stretch_after=2)
+        self._head = ListRow(*(self._cell(muted(text), wide) for text, wide in heads), muted("time"), stretch_after=2)
         self._head.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._head.setEnabled(False)
         self.rows.addWidget(self._head)
         self.pocket_button, self.contour_button = QPushButton("For pockets"), QPushButton("For contours and rest")
         self.pocket_button.clicked.connect(lambda: self._send(self.for_pocket.emit))
         self.contour_button.clicked.connect(lambda: self._send(self.for_contour.emit))
-        self._made: list[Row] = []
+        self._made: list[ListRow] = []
         self._tools: list[Tool] = []
         self._places: list[QPushButton] = []
         self._chosen = -1
@@ -104,7 +104,7 @@ class AdviceSection(Section):
         left = "" if choice.share > ALL else f"{grouped(choice.left_mm2, 1)} mm\u00b2"
         time = clock(choice.times.total) if choice.times is not None else ""
         cells = ((name, DIAMETER_PX), (QLabel(share), SHARE_PX), (muted(left), LEFT_PX))
-        row = Row(*(self._cell(label, wide) for label, wide in cells), QLabel(time), stretch_after=2)
+        row = ListRow(*(self._cell(label, wide) for label, wide in cells), QLabel(time), stretch_after=2)
         row.setToolTip(
             f"{counted(choice.parts, 'area')}; the largest disc it leaves is {choice.left_disc:.2f} mm wide; "
             f"time with {advice.contour.label} for walls and rest, roughly"
@@ -121,7 +121,7 @@ class AdviceSection(Section):
         button.setProperty("role", "link")
         button.setToolTip("Show the place")
         button.setCursor(Qt.CursorShape.PointingHandCursor)
-        button.clicked.connect(lambda: self.place_wanted.emit(spot.x, spot.y))
+        button.clicked.connect(lambda: self.place_requested.emit(spot.x, spot.y))
         self.add_indented(button)
         self._places.append(button)
 

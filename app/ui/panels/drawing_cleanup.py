@@ -12,16 +12,16 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QProgressBar, QP
 
 from ...core.tolerances import JOIN
 from ...model.curves import Point
-from ..framework.fields import NumberField, Spec
+from ..framework.fields import NumberField, NumberSpec
 from ..framework.figures import counted, grouped
 from ..framework.labels import muted
-from ..framework.section import Section
+from ..framework.section import PanelSection
 
 MOST = 200
 """Faults that are listed; the others are counted."""
 
 _ROW_PX, _MOST_ROWS = 24, 6
-TOLERANCE = Spec(
+TOLERANCE = NumberSpec(
     "Tolerance",
     "mm",
     1e-5,
@@ -32,7 +32,7 @@ TOLERANCE = Spec(
 
 
 @dataclass(frozen=True, slots=True)
-class Listed:
+class ListedFault:
     """One fault as it is listed: its words, its place, and the curves that have it."""
 
     kind: str
@@ -41,7 +41,7 @@ class Listed:
     ids: tuple[int, ...]
 
 
-class CleanUpSection(Section):
+class CleanUpSection(PanelSection):
     """Asks for a tolerance, and shows what was found.
 
     Signals:
@@ -64,7 +64,7 @@ class CleanUpSection(Section):
         self.look, self.mend = QPushButton("Look"), QPushButton("Mend")
         self.mend.setProperty("role", "primary")
         self.words, self.list, self.bar = QLabel(), QListWidget(), QProgressBar()
-        self._faults: tuple[Listed, ...] = ()
+        self._faults: tuple[ListedFault, ...] = ()
         self._busy = False
         self._lay_out()
         self.look.clicked.connect(self._on_look)
@@ -108,7 +108,7 @@ class CleanUpSection(Section):
         self.bar.show()
         self.look.setText("Cancel")
 
-    def show_faults(self, faults: Sequence[Listed], reply: str) -> None:
+    def show_faults(self, faults: Sequence[ListedFault], reply: str) -> None:
         """Show what was found, and what mending it comes to; without a reply there is nothing to mend."""
         self._faults = tuple(faults[:MOST])
         self.list.clear()

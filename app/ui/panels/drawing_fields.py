@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
 
 from ...model.curves import Point
-from ..framework.fields import LABEL_WIDTH, NumberField, Spec, reason_label
+from ..framework.fields import LABEL_WIDTH, NumberField, NumberSpec, reason_label
 from ..framework.labels import Elided, muted
 
 COORDINATE_WIDTH = 72
@@ -24,7 +24,7 @@ class PointField(QWidget):
 
     committed = Signal(object)
 
-    def __init__(self, spec: Spec, read: Callable[[str], float]) -> None:
+    def __init__(self, spec: NumberSpec, read: Callable[[str], float]) -> None:
         super().__init__()
         self.reason = reason_label()
         self.across, self.up = (

@@ -8,14 +8,14 @@ from PySide6.QtWidgets import QListWidget, QListWidgetItem
 
 from ...drafting.document import Document
 from ..framework.labels import muted
-from ..framework.section import Section
+from ..framework.section import PanelSection
 from ..framework.theme import LIGHT, Theme
 
 LEAST_PX = 120
 BEGINNING = "Beginning"
 
 
-class HistorySection(Section):
+class HistorySection(PanelSection):
     """Every change of a document by name, the oldest first; the one where it stands is chosen, those taken back are
     faint.
 

@@ -16,16 +16,16 @@ from ...model.part import Layer
 from ..framework.figures import counted, grouped
 from ..framework.icons import IconButton
 from ..framework.labels import Elided, muted
-from ..framework.section import EDGE, Row, Section, theme_children
+from ..framework.section import EDGE, ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
-from .swatch import HARD_TO_SEE, HUES, Swatch
+from .swatch import HARD_TO_SEE, HUES, LayerColourButton
 
 ROW_PX = 28
 MOST_ROWS = 8
 TIP = "Click: draw on it; double click: rename; drag, Alt+Up, Alt+Down: order; right click: more; Del: remove"
 
 
-class LayerRow(Row):
+class LayerRow(ListRow):
     """One layer.
 
     Signals:
@@ -38,7 +38,7 @@ class LayerRow(Row):
     def __init__(self, layer: Layer) -> None:
         self.name, self.text = Elided(layer.name), name_text(layer.name)
         self.eye, self.bolt = IconButton("eye", ""), IconButton("lock-open", "")
-        self.swatch, self.count, self.edit = Swatch(layer.name), muted(), QLineEdit(layer.name)
+        self.swatch, self.count, self.edit = LayerColourButton(layer.name), muted(), QLineEdit(layer.name)
         super().__init__(self.eye, self.bolt, self.swatch, self.name, self.edit, self.count, stretch_after=-1, wide=3)
         self.layout().setStretch(4, 1)  # type: ignore[union-attr]
         self.layout().setSpacing(4)  # type: ignore[union-attr]
@@ -117,7 +117,7 @@ class LayerRow(Row):
         self.more.emit(event.globalPos())
 
 
-class LayersSection(Section):
+class LayersSection(PanelSection):
     """Every layer of a document.
 
     Signals:

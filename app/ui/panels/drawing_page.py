@@ -13,7 +13,7 @@ from ...drafting.document import Document, DocumentChange
 from ...drafting.expressions.errors import reason_of
 from ...geometry.sample import Box
 from ..framework.fields import NumberField
-from ..framework.section import Section, hairline
+from ..framework.section import PanelSection, hairline
 from .drawing_cleanup import CleanUpSection
 from .drawing_fields import PointField
 from .drawing_history import HistorySection
@@ -90,12 +90,12 @@ class DrawingPage(QScrollArea):
         self._below_reading.setVisible(not self.reading.isHidden())
         self.history.refresh()
 
-    def show_section(self, section: Section) -> None:
+    def show_section(self, section: PanelSection) -> None:
         """Bring a section into sight, and give it the keyboard."""
         self.refresh()
         QTimer.singleShot(0, self, lambda: self._reveal(section))
 
-    def _reveal(self, section: Section) -> None:
+    def _reveal(self, section: PanelSection) -> None:
         self.ensureWidgetVisible(section, 0, 0)
         found = [
             w for w in section.findChildren(QWidget) if w.isVisible() and w.focusPolicy() & Qt.FocusPolicy.TabFocus

@@ -23,13 +23,13 @@ from ...geometry.sample import Box
 from ...model.curves import Arc, Circle, Curve, Ellipse, Spline
 from ...model.notes import Dimension, Shape
 from ...model.part import Units
-from ..framework.fields import ListField, NumberField, Spec
+from ..framework.display_unit import clean, display_unit_name, display_unit_size
+from ..framework.fields import ListField, NumberField, NumberSpec
 from ..framework.figures import TIMES, counted, grouped
 from ..framework.labels import muted
-from ..framework.section import EDGE, Section
-from ..framework.shown_unit import clean, shown_name, shown_size
-from .adding_up import AddingUp
+from ..framework.section import EDGE, PanelSection
 from .drawing_fields import COORDINATE_WIDTH, Figure, PointField
+from .totals import TotalsCalculator
 
 VARIOUS = "various"
 """What a field shows while what is selected differs in it."""
@@ -44,7 +44,7 @@ _UNITS = {Units.MM: "mm", Units.INCH: "inch", Units.CM: "cm", Units.M: "m", Unit
 
 
 @dataclass(frozen=True, slots=True)
-class Selected:
+class SelectedEntities:
     """What is selected: numbers, shapes and layers, curves first."""
 
     ids: tuple[int, ...]
@@ -52,13 +52,13 @@ class Selected:
     layers: tuple[str, ...]
 
     @staticmethod
-    def of(document: Document) -> Selected:
+    def of(document: Document) -> SelectedEntities:
         """Return what is selected in a document."""
         part, chosen = document.part, document.selection
         items = [(e.id, e.curve, e.layer) for e in part.entities if e.id in chosen] if chosen else []
         notes = [(n.id, n.shape, n.layer) for n in part.notes if n.id in chosen]
         ids, shapes, layers = zip(*items, *notes, strict=True) if items or notes else ((), (), ())
-        return Selected(tuple(ids), tuple(shapes), tuple(dict.fromkeys(layers)))
+        return SelectedEntities(tuple(ids), tuple(shapes), tuple(dict.fromkeys(layers)))
 
     @property
     def properties(self) -> Mapping[str, Property]:
@@ -87,7 +87,7 @@ class Selected:
         return values[0]
 
 
-class PropertiesSection(Section):
+class PropertiesSection(PanelSection):
     """Shows a document's selection.
 
     Signals:
@@ -108,8 +108,8 @@ class PropertiesSection(Section):
         self.fields: dict[str, NumberField | PointField] = {}
         self.figures: dict[str, Figure] = {}
         self._shown: object = None
-        self._selected = Selected((), (), ())
-        self._adding = AddingUp()
+        self._selected = SelectedEntities((), (), ())
+        self._adding = TotalsCalculator()
         self._adding.done.connect(self._show_sum)
         self.add_indented(self.layer)
         self._body = QWidget()
@@ -125,7 +125,7 @@ class PropertiesSection(Section):
 
     def refresh(self, extent: Box | None) -> None:
         """Show what is selected as it is now; `extent` is that of the whole drawing."""
-        self._selected = selected = Selected.of(self._document)
+        self._selected = selected = SelectedEntities.of(self._document)
         properties = selected.properties
         figures = _figures(selected) if selected.ids else _whole(self._document, extent)
         shown = (tuple(properties.items()), tuple(figures), len(selected.ids) > 1)
@@ -165,7 +165,7 @@ class PropertiesSection(Section):
     def _field(self, word: str, known: Property) -> NumberField | PointField:
         several = len(self._selected.ids) > 1
         angle = known.kind is PropertyKind.ANGLE
-        spec = Spec(
+        spec = NumberSpec(
             word.capitalize(),
             "°" if angle else "mm",
             -_FARTHEST,
@@ -192,11 +192,11 @@ class PropertiesSection(Section):
 
     def _read(self, units: Mapping[str, float], text: str) -> float:
         """Return what a text means here, where the drawing's names can be used."""
-        scope = replace(self._document.session.scope, units=units, plain=shown_size())
+        scope = replace(self._document.session.scope, units=units, plain=display_unit_size())
         return number_of(read_value(text), scope) if units is ANGLE_UNITS else clean(length_of(read_value(text), scope))
 
 
-def _remark(selected: Selected) -> str:
+def _remark(selected: SelectedEntities) -> str:
     if not selected.ids:
         return "nothing selected"
     if len(selected.ids) > 1:
@@ -204,7 +204,7 @@ def _remark(selected: Selected) -> str:
     return f"{kind_name(selected.shapes[0]).capitalize()} {selected.ids[0]}"
 
 
-def _kinds(selected: Selected) -> str:
+def _kinds(selected: SelectedEntities) -> str:
     counts = Counter(kind_name(shape) for shape in selected.shapes).most_common()
     words = [counted(count, kind) for kind, count in counts[:_FIRST_KINDS]]
     rest = sum(count for _, count in counts[_FIRST_KINDS:])
@@ -217,18 +217,20 @@ def _size(box: Box) -> str:
 
 def _plain(length: float) -> str:
     """Return a length in the unit that is shown, without its name; inches with a decimal more."""
-    return grouped(length) if shown_size() == 1.0 else grouped(length / shown_size(), 4)
+    return grouped(length) if display_unit_size() == 1.0 else grouped(length / display_unit_size(), 4)
 
 
 def _length(length: float) -> str:
-    return f"{_plain(length)} {shown_name('mm')}"
+    return f"{_plain(length)} {display_unit_name('mm')}"
 
 
-def _figures(selected: Selected) -> dict[str, str]:
+def _figures(selected: SelectedEntities) -> dict[str, str]:
     """Return what there is to read of what is selected and cannot be set."""
     curves = [shape for shape in selected.shapes if isinstance(shape, Curve)]
     area = enclosed_area(curves) if len(curves) <= _MOST_ROUND else None
-    closed = {"Area": f"{grouped(area / shown_size() ** 2)} {shown_name('mm')}²"} if area is not None else {}
+    closed = (
+        {"Area": f"{grouped(area / display_unit_size() ** 2)} {display_unit_name('mm')}²"} if area is not None else {}
+    )
     if len(selected.ids) == 1:
         return (_of_curve(curves[0]) if curves else _of_note(selected.shapes[0])) | closed
     return {"Kinds": _kinds(selected)} | ({TOTAL: "", EXTENT: ""} if curves else {}) | closed

@@ -8,24 +8,26 @@ from ...gcode.posts.posts import post_titles
 from ...model.job import LARGEST_JOIN, Copies, Job, OriginXY, OriginZ
 from ...model.operation import Order
 from ...model.part import Units
-from ..framework.fields import ChoiceField, ListField, Spec
-from ..framework.form import Form
-from . import drawings
+from ..framework.fields import ChoiceField, ListField, NumberSpec
+from ..framework.form import FormSection
+from . import parameter_sketches
 from .changes import with_order
-from .pictures import Picture
+from .sketch import SketchWidget
 
 
-class JobForm(Form):
+class JobForm(FormSection):
     """Stock, origin, heights, how drawings are joined, post and units of the NC text."""
 
     def __init__(self) -> None:
         super().__init__("Stock and origin")
         self.margin = self.add_number(
-            Spec("Stock margin", low=0, high=10_000, tip="How far the stock reaches beyond the part on every side."),
+            NumberSpec(
+                "Stock margin", low=0, high=10_000, tip="How far the stock reaches beyond the part on every side."
+            ),
             lambda job, v: replace(job, stock=replace(job.stock, margin=v)),
         )
         self.thickness = self.add_number(
-            Spec("Thickness", low=0.001, high=10_000, tip="Height of the stock; Z 0 is its top."),
+            NumberSpec("Thickness", low=0.001, high=10_000, tip="Height of the stock; Z 0 is its top."),
             lambda job, v: replace(job, stock=replace(job.stock, thickness=v)),
         )
         self.origin_xy = ListField("Origin XY", [(o, o.value.capitalize()) for o in OriginXY])
@@ -33,7 +35,7 @@ class JobForm(Form):
         self.origin_z = ListField("Origin Z", [(o, o.value.capitalize()) for o in OriginZ])
         self.add_choice("Origin Z", self.origin_z, lambda job, v: replace(job, origin_z=OriginZ(v)))
         self.safe_z = self.add_number(
-            Spec(
+            NumberSpec(
                 "Safe Z",
                 low=0.001,
                 high=10_000,
@@ -42,7 +44,7 @@ class JobForm(Form):
             lambda job, v: replace(job, safe_z=v, retract_z=min(job.retract_z, v)),
         )
         self.join = self.add_number(
-            Spec(
+            NumberSpec(
                 "Join tolerance", low=0, high=LARGEST_JOIN, tip="Loose ends of the drawing nearer than this are joined."
             ),
             lambda job, v: replace(job, join_tolerance=v),
@@ -63,15 +65,16 @@ class JobForm(Form):
     def _add_copies(self) -> None:
         self.copies_group = self.begin_group("Copies")
         self.columns = self.add_number(
-            Spec("Columns", "", 1, 1000, 0, False, "How many along X."), lambda job, v: self._copied(job, columns=v)
+            NumberSpec("Columns", "", 1, 1000, 0, False, "How many along X."),
+            lambda job, v: self._copied(job, columns=v),
         )
         self.rows_of = self.add_number(
-            Spec("Rows", "", 1, 1000, 0, False, "How many along Y."), lambda job, v: self._copied(job, rows=v)
+            NumberSpec("Rows", "", 1, 1000, 0, False, "How many along Y."), lambda job, v: self._copied(job, rows=v)
         )
         tip = "From one copy to the next, same point to same point."
-        self.dx = self.add_number(Spec("Every X", low=-99_999, tip=tip), lambda job, v: self._copied(job, dx=v))
-        self.dy = self.add_number(Spec("Every Y", low=-99_999, tip=tip), lambda job, v: self._copied(job, dy=v))
-        self.copies_picture = Picture(drawings.copies, "The part in a grid")
+        self.dx = self.add_number(NumberSpec("Every X", low=-99_999, tip=tip), lambda job, v: self._copied(job, dx=v))
+        self.dy = self.add_number(NumberSpec("Every Y", low=-99_999, tip=tip), lambda job, v: self._copied(job, dy=v))
+        self.copies_picture = SketchWidget(parameter_sketches.copies, "The part in a grid")
         self.add_picture(self.copies_picture)
 
     def _add_clamps(self) -> None:
@@ -81,7 +84,7 @@ class JobForm(Form):
             "Keep-out layer", self.clamps, lambda job, v: replace(job, keep_out_layers=(str(v),) if v else ())
         )
         self.clamp_height = self.add_number(
-            Spec("Height", low=0, high=10_000, tip="Of clamps above the stock's top; rapids go over them."),
+            NumberSpec("Height", low=0, high=10_000, tip="Of clamps above the stock's top; rapids go over them."),
             lambda job, v: replace(job, keep_out_height=v),
         )
 

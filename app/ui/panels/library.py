@@ -17,7 +17,7 @@ from ..framework.fields import ROW_HEIGHT, ListField
 from ..framework.figures import counted, grouped
 from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
-from ..framework.section import Row, Section, theme_children
+from ..framework.section import ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
 from .changes import for_material, row_for
 from .tool_kinds import KINDS, icon_of, use_of
@@ -45,7 +45,7 @@ def materials(tools: tuple[Tool, ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names[row.material.casefold()] for tool in tools for row in tool.feeds))
 
 
-class LibrarySection(Section):
+class LibrarySection(PanelSection):
     """Every tool of the libraries, kind by kind, the thinnest first.
 
     Signals:
@@ -69,7 +69,7 @@ class LibrarySection(Section):
         self.details, self.none = QLabel(), muted(NONE_FOUND)
         self.add_button, self.put_button = QPushButton("Add to job"), QPushButton("Replace")
         self._libraries: tuple[ToolLibrary, ...] = ()
-        self._rows: list[tuple[Tool, Row]] = []
+        self._rows: list[tuple[Tool, ListRow]] = []
         self._chosen: Tool | None = None
         self._material, self._room = "", LEAST_ROWS
         self._theme: Theme | None = None
@@ -188,9 +188,9 @@ class LibrarySection(Section):
         kept = next((tool for tool in found if tool == self._chosen), None)
         self.choose(kept or (found[0] if found else None))
 
-    def _row(self, tool: Tool) -> Row:
+    def _row(self, tool: Tool) -> ListRow:
         shown = for_material(tool, self._material)
-        row = Row(
+        row = ListRow(
             IconLabel(icon_of(tool.kind)),
             Elided(tool.label),
             muted(f"{grouped(shown.spindle_speed, 0)} rpm"),

@@ -14,7 +14,7 @@ from ..framework.figures import TIMES, clock, grouped
 from ..framework.icons import IconButton, IconLabel
 from ..framework.labels import Elided, muted
 from ..framework.samples import LineSample, Switch, sample_of
-from ..framework.section import Row, Section, theme_children
+from ..framework.section import ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
 from .changes import Subject, SubjectKind, operation_name, refusal
 from .tool_kinds import KINDS, icon_of
@@ -26,7 +26,7 @@ def _bold(text: str) -> QLabel:
     return made
 
 
-class ListSection(Section):
+class ListSection(PanelSection):
     """A heading and rows, each with its own subject.
 
     Signals:
@@ -38,7 +38,7 @@ class ListSection(Section):
 
     def __init__(self, title: str) -> None:
         super().__init__(title)
-        self._rows: dict[Subject, Row] = {}
+        self._rows: dict[Subject, ListRow] = {}
         self._theme: Theme | None = None
 
     def clear_rows(self) -> None:
@@ -49,7 +49,7 @@ class ListSection(Section):
             row.deleteLater()
         self._rows = {}
 
-    def add_row(self, subject: Subject, row: Row) -> None:
+    def add_row(self, subject: Subject, row: ListRow) -> None:
         """Put a row at the end."""
         self._rows[subject] = row
         row.clicked.connect(lambda: self.chosen.emit(subject))
@@ -91,12 +91,12 @@ class JobSection(ListSection):
         for name, value in (("Stock", self.stock), ("Origin", self.origin)):
             label = muted(name)
             label.setFixedWidth(56)
-            row = Row(label, value, stretch_after=1)
+            row = ListRow(label, value, stretch_after=1)
             row.setFixedHeight(24)
             row.setAccessibleName(name)
             self._add_job_row(row)
 
-    def _add_job_row(self, row: Row) -> None:
+    def _add_job_row(self, row: ListRow) -> None:
         subject = Subject(SubjectKind.JOB, len(self._rows))
         self._rows[subject] = row
         row.clicked.connect(lambda: self.chosen.emit(Subject(SubjectKind.JOB)))
@@ -161,7 +161,7 @@ class ToolSection(ListSection):
             number = _bold(f"T{tool.number}")
             number.setMinimumWidth(24)
             speed = muted(f"{grouped(tool.spindle_speed, 0)} rpm")
-            row = Row(IconLabel(icon_of(tool.kind)), number, Elided(tool.label), speed, stretch_after=2)
+            row = ListRow(IconLabel(icon_of(tool.kind)), number, Elided(tool.label), speed, stretch_after=2)
             row.setToolTip(KINDS[tool.kind])
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
@@ -215,7 +215,7 @@ class OperationSection(ListSection):
             row.setToolTip("Drag, or Alt+Up and Alt+Down: cut earlier or later; Ctrl+D: duplicate; Del: remove")
             self.add_row(Subject(SubjectKind.OPERATION, index), row)
 
-    def _operation_row(self, index: int, operation: Operation, job: Job, time: QLabel) -> Row:
+    def _operation_row(self, index: int, operation: Operation, job: Job, time: QLabel) -> ListRow:
         cut = operation.cut
         name = operation_name(operation)
         switch = Switch(f"{name} on or off")
@@ -226,7 +226,7 @@ class OperationSection(ListSection):
         sample.setEnabled(cut.enabled)
         tool = next((t for t in job.tools if t.number == cut.tool), None)
         text = f"T{cut.tool} {tool.label}" if tool is not None else f"T{cut.tool} is missing"
-        return Row(
+        return ListRow(
             switch,
             sample,
             QLabel(name),

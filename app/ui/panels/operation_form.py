@@ -19,15 +19,15 @@ from ...model.operation import CutParameters, Operation, Side, parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField, NumberField
 from ..framework.figures import counted
-from ..framework.form import Form
+from ..framework.form import FormSection
 from ..framework.icons import IconButton
 from ..framework.labels import muted
 from ..framework.samples import StepoverDrawing
-from . import drawings
+from . import parameter_sketches
 from .changes import operation_name, refusal, with_operation
 from .operation_groups import EXTRAS, OperationGroup, nothing_beside
 from .parameter_fields import ParameterField, field_of, spec_of
-from .pictures import Picture
+from .sketch import SketchWidget
 
 USUAL_SHARE = 0.85
 """Of the diameter: what the stepover with the least path comes to on most parts; for the drawing beside the field."""
@@ -45,7 +45,7 @@ def _has_rings(operation: Operation) -> bool:
     return "stepover" in parameters_of(type(operation))
 
 
-class OperationForm(Form):
+class OperationForm(FormSection):
     """Everything that can be set of one operation.
 
     Signals:
@@ -122,11 +122,11 @@ class OperationForm(Form):
         self.of(_has_rings, self.add_picture(self.drawing, muted("Overlap"), self.overlap))
 
     def _add_side(self) -> None:
-        self.side_picture, self.side_words = Picture(drawings.side, "Where the path runs"), muted()
+        self.side_picture, self.side_words = SketchWidget(parameter_sketches.side, "Where the path runs"), muted()
         self.of(lambda operation: operation.FOLLOWS_WALLS, self.add_picture(self.side_picture, self.side_words))
 
     def _add_strokes(self) -> None:
-        self.peck_picture = Picture(drawings.peck, "The strokes of the drill")
+        self.peck_picture = SketchWidget(parameter_sketches.peck, "The strokes of the drill")
         self.of(lambda operation: operation.DRILLS, self.add_picture(self.peck_picture))
 
     def with_values(self, job: Job, values: Mapping[str, Any]) -> Job:

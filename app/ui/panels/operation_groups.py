@@ -19,11 +19,11 @@ from ...model.job import Job
 from ...model.operation import Operation, Side, parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField
-from ..framework.form import Group
+from ..framework.form import FieldGroup
 from ..framework.labels import muted
-from . import drawings
+from . import parameter_sketches
 from .parameter_fields import ParameterField
-from .pictures import Picture
+from .sketch import SketchWidget
 
 BY_HAND = "Put tabs by hand"
 USE_SELECTION = "Use selection"
@@ -39,7 +39,7 @@ class GroupHost(Protocol):
     tabs: SignalInstance
     selection: SignalInstance
 
-    def begin_group(self, title: str) -> Group:
+    def begin_group(self, title: str) -> FieldGroup:
         """Begin a group: what is added next is in it."""
 
     def add(self, widget: QWidget) -> None:
@@ -53,7 +53,7 @@ class GroupHost(Protocol):
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownOperation:
     """What is shown: an operation, its tool where the job has it, and the job."""
 
     operation: Operation
@@ -66,7 +66,7 @@ class Shown:
         return other if placed is None else placed.of(self.operation)
 
 
-Show = Callable[[Shown], None]
+Show = Callable[[ShownOperation], None]
 
 
 class OperationGroup:
@@ -85,7 +85,7 @@ class OperationGroup:
         mine = [placed for key, placed in parameters_of(type(operation)).items() if key in self._keys]
         walls = self.title in _OF_WALLS and operation.wall_side is Side.ON
         self.group.setVisible(bool(mine) and not walls)
-        self._show(Shown(operation, tool, job))
+        self._show(ShownOperation(operation, tool, job))
         words = ""
         for placed in mine:
             if placed.has_effect(operation) and (word := _words(placed, operation)):
@@ -121,10 +121,10 @@ def _words(placed: ParameterPlace, operation: Operation) -> str:
 
 
 def _floor(form: GroupHost) -> Show:
-    picture = Picture(drawings.passes, "Passes down to the floor")
+    picture = SketchWidget(parameter_sketches.passes, "Passes down to the floor")
     form.add_picture(picture)
 
-    def show(shown: Shown) -> None:
+    def show(shown: ShownOperation) -> None:
         cut = shown.operation.cut
         picture.show_values(cut.depth, cut.stepdown, cut.finish_depth, cut.floor_to_leave)
 
@@ -132,10 +132,10 @@ def _floor(form: GroupHost) -> Show:
 
 
 def _entry(form: GroupHost) -> Show:
-    picture = Picture(drawings.entry, "The way down into metal")
+    picture = SketchWidget(parameter_sketches.entry, "The way down into metal")
     form.add_picture(picture, muted("What does not fit falls back, and is told."))
 
-    def show(shown: Shown) -> None:
+    def show(shown: ShownOperation) -> None:
         entry = shown.operation.cut.entry
         picture.show_values(list(EntryKind).index(entry.kind), math.degrees(entry.angle))
 
@@ -143,11 +143,14 @@ def _entry(form: GroupHost) -> Show:
 
 
 def _walls(form: GroupHost) -> Show:
-    picture, corner = Picture(drawings.wall, "What stays on the wall"), Picture(drawings.dog_bone, "An inner corner")
+    picture, corner = (
+        SketchWidget(parameter_sketches.wall, "What stays on the wall"),
+        SketchWidget(parameter_sketches.dog_bone, "An inner corner"),
+    )
     form.add_picture(picture)
     corner_row = form.add_picture(corner)
 
-    def show(shown: Shown) -> None:
+    def show(shown: ShownOperation) -> None:
         bones = shown.value("dog_bones")
         diameter = shown.tool.diameter if shown.tool else 1.0
         picture.show_values(shown.operation.cut.stock_to_leave, shown.value("finish_width", 0.0), diameter)
@@ -158,10 +161,10 @@ def _walls(form: GroupHost) -> Show:
 
 
 def _lead(form: GroupHost) -> Show:
-    picture = Picture(drawings.lead, "The way to the wall")
+    picture = SketchWidget(parameter_sketches.lead, "The way to the wall")
     form.add_picture(picture)
 
-    def show(shown: Shown) -> None:
+    def show(shown: ShownOperation) -> None:
         kind, diameter = shown.value("lead"), shown.tool.diameter if shown.tool else 1.0
         if kind is not None:
             given = shown.value("lead_radius")
@@ -172,14 +175,14 @@ def _lead(form: GroupHost) -> Show:
 
 
 def _tabs(form: GroupHost) -> Show:
-    picture, words = Picture(drawings.tab, "A tab"), muted()
+    picture, words = SketchWidget(parameter_sketches.tab, "A tab"), muted()
     form.add_picture(picture, words)
     form.hand = QPushButton(BY_HAND)
     form.hand.setToolTip("Click beside a contour to put a tab, on a tab to take it away; Esc ends.")
     form.hand.clicked.connect(form.tabs)
     form.add(form.hand)
 
-    def show(shown: Shown) -> None:
+    def show(shown: ShownOperation) -> None:
         places = shown.value("tab_places", ())
         picture.show_values(
             shown.value("tab_width", 0.0),
@@ -202,7 +205,7 @@ def _curves(form: GroupHost) -> Show:
     form.use.clicked.connect(form.selection)
     form.add(form.use)
 
-    def show(shown: Shown) -> None:
+    def show(shown: ShownOperation) -> None:
         field, own = form.fields["curves"].field, shown.operation.cut.curves
         assert isinstance(field, ListField)
         choices: list[tuple[object, str]] = [

@@ -11,7 +11,7 @@ from typing import Any
 
 from ...model.fields import Parameter, ParameterPlace, Unit
 from ...model.operation import Operation
-from ..framework.fields import ChoiceField, ListField, NumberField, Spec
+from ..framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ..framework.form import SwitchField
 
 Field = NumberField | ChoiceField | ListField | SwitchField
@@ -21,10 +21,10 @@ _DECIMALS = {Unit.LENGTH: 3, Unit.ANGLE: 2, Unit.SHARE: 0, Unit.COUNT: 0}
 _SIGNS = {Unit.LENGTH: "mm", Unit.ANGLE: "°", Unit.SHARE: "%", Unit.COUNT: ""}
 
 
-def spec_of(declared: Parameter) -> Spec:
+def spec_of(declared: Parameter) -> NumberSpec:
     """Return what a number field asks for."""
     empty = f"; empty: {declared.auto}" if declared.auto else ""
-    return Spec(
+    return NumberSpec(
         declared.short or declared.label,
         _SIGNS[declared.unit],
         declared.shown(declared.low),

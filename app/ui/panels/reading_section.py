@@ -14,13 +14,13 @@ from ...formats.reading_question import NO_CHOICE, UNIT_WORDS, FileContents
 from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
-from ..framework.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, Spec, reason_label
+from ..framework.fields import LABEL_WIDTH, ROW_HEIGHT, ListField, NumberField, NumberSpec, reason_label
 from ..framework.form import SwitchField
 from ..framework.labels import Elided, muted
-from ..framework.section import Section
+from ..framework.section import PanelSection
 
 MODEL_SPACE, NOTHING, ALL_SHOWN = "Model space", "none", "all that are shown"
-PER_INCH = Spec(
+PER_INCH = NumberSpec(
     "Per inch",
     "",
     LEAST_PER_INCH,
@@ -86,7 +86,7 @@ class ChecksField(QWidget):
         self.chosen.emit((*kept, name) if checked else kept)
 
 
-class ReadingSection(Section):
+class ReadingSection(PanelSection):
     """Shows the reading of a document's source; there is nothing to see of one that was drawn here.
 
     Signals:

@@ -31,7 +31,7 @@ _COLUMNS = 5
 _COLOUR = re.compile(r"#?([0-9a-fA-F]{6})")
 
 
-class Swatch(QToolButton):
+class LayerColourButton(QToolButton):
     """Shows a colour; a click offers others.
 
     Signals:
@@ -62,7 +62,7 @@ class Swatch(QToolButton):
 
     def offer(self) -> None:
         """Show the colours below the swatch."""
-        palette = Palette(self.colour, self._theme, self)
+        palette = ColourPalette(self.colour, self._theme, self)
         palette.chosen.connect(self.chosen)
         palette.move(self.mapToGlobal(self.rect().bottomLeft()))
         palette.show()
@@ -82,7 +82,7 @@ def paint_colour(painter: QPainter, place: QRectF, colour: str, theme: Theme) ->
     painter.drawRoundedRect(place, 3, 3)
 
 
-class Palette(QFrame):
+class ColourPalette(QFrame):
     """Colours to choose from, and a line for any other.
 
     Signals:
@@ -95,12 +95,12 @@ class Palette(QFrame):
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("findings")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.hues: dict[str, Hue] = {}
+        self.hues: dict[str, ColourButton] = {}
         grid = QGridLayout(self)
         grid.setContentsMargins(8, 8, 8, 8)
         grid.setSpacing(4)
         for at, (value, name) in enumerate(HUES.items()):
-            hue = self.hues[value] = Hue(value, name, theme)
+            hue = self.hues[value] = ColourButton(value, name, theme)
             hue.clicked.connect(lambda _=False, v=value: self._choose(v))
             grid.addWidget(hue, at // _COLUMNS, at % _COLUMNS)
         self.other = QLineEdit(colour)
@@ -125,7 +125,7 @@ class Palette(QFrame):
         self.chosen.emit(colour)
 
 
-class Hue(QToolButton):
+class ColourButton(QToolButton):
     """One colour of the palette."""
 
     def __init__(self, colour: str, name: str, theme: Theme) -> None:

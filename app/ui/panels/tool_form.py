@@ -11,52 +11,60 @@ from PySide6.QtWidgets import QLabel
 from ...model.job import Job
 from ...model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
 from ...model.tool_kind import tool_kind
-from ..framework.fields import ListField, NumberField, Spec
-from ..framework.form import Form
+from ..framework.fields import ListField, NumberField, NumberSpec
+from ..framework.form import FormSection
 from .changes import for_material, material_of, with_tool
-from .hold_group import HoldGroup
+from .tool_assembly_group import ToolAssemblyGroup
 from .tool_kinds import KINDS, USUAL_ANGLES
 
 
-class ToolForm(Form):
+class ToolForm(FormSection):
     """Number, kind, shape, speed, feeds and holder of one tool."""
 
     def __init__(self) -> None:
         super().__init__("Tool", removable="tool")
         self._number = 0
-        self.number = self._add(Spec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v)))
+        self.number = self._add(
+            NumberSpec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v))
+        )
         self.kind = ListField("Kind", list(KINDS.items()))
         self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: _as_kind(tool, tool_kind(v))))
-        self.diameter = self._add(Spec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v))
-        self.corner = self._add(Spec("Corner radius", low=0, high=1000), lambda tool, v: replace(tool, corner_radius=v))
+        self.diameter = self._add(
+            NumberSpec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v)
+        )
+        self.corner = self._add(
+            NumberSpec("Corner radius", low=0, high=1000), lambda tool, v: replace(tool, corner_radius=v)
+        )
         self.angle = self._add(
-            Spec("Full angle", "°", 1, 179, 2, False, "Of the point, or of the cone.", "unknown"),
+            NumberSpec("Full angle", "°", 1, 179, 2, False, "Of the point, or of the cone.", "unknown"),
             lambda tool, v: replace(tool, tip_angle=math.radians(v or 0.0)),
         )
         self.tip = self._add(
-            Spec("Tip", low=0, high=1000, tip="Diameter of the flat at the point, or of the ball at the tip."),
+            NumberSpec("Tip", low=0, high=1000, tip="Diameter of the flat at the point, or of the ball at the tip."),
             lambda tool, v: replace(tool, tip_diameter=v),
         )
-        self.flutes = self._add(Spec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v)))
+        self.flutes = self._add(
+            NumberSpec("Flutes", "", 1, 100, 0, False), lambda tool, v: replace(tool, flutes=int(v))
+        )
         self.material = ListField("Feeds for", [])
         self.add_choice("Feeds", self.material, lambda job, v: self._edit(job, lambda tool: for_material(tool, str(v))))
         self.speed = self._add(
-            Spec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v)
+            NumberSpec("Speed", "rpm", 1, 200_000, 0, False), lambda tool, v: replace(tool, spindle_speed=v)
         )
         self.feed = self._add(
-            Spec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v)
+            NumberSpec("Feed", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, feed_rate=v)
         )
         self.plunge = self._add(
-            Spec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v)
+            NumberSpec("Plunge", "mm/min", LEAST_RATE, 100_000, 0, False), lambda tool, v: replace(tool, plunge_rate=v)
         )
         self.chip = QLabel()
         self.chip.setWordWrap(True)
         self.chip.setContentsMargins(0, 4, 0, 0)
         self.chip.setProperty("role", "muted")
         self.add(self.chip)
-        self.hold = HoldGroup(self, self._edit)
+        self.hold = ToolAssemblyGroup(self, self._edit)
 
-    def _add(self, spec: Spec, edit: Callable[[Tool, float], Tool]) -> NumberField:
+    def _add(self, spec: NumberSpec, edit: Callable[[Tool, float], Tool]) -> NumberField:
         return self.add_number(spec, lambda job, v: self._edit(job, lambda tool: edit(tool, v)))
 
     def _edit(self, job: Job, edit: Callable[[Tool], Tool]) -> Job:

@@ -20,8 +20,8 @@ from ...model.finding import Finding
 from ..framework.fields import restyle
 from ..framework.figures import counted
 from ..framework.labels import muted
-from ..framework.section import Row, heading
-from ..framework.verdict import Level, Verdict, finding_level, short, worst_first
+from ..framework.section import ListRow, heading
+from ..framework.verdict import VerdictLevel, VerdictSummary, finding_level, short, worst_first
 
 _TURN = "◐◓◑◒"
 _TURN_MS = 150
@@ -46,9 +46,9 @@ class Badge(QPushButton):
         self._timer = QTimer(self)
         self._timer.setInterval(_TURN_MS)
         self._timer.timeout.connect(self._advance)
-        self.show_verdict(Verdict(Level.NONE, "Not computed"))
+        self.show_verdict(VerdictSummary(VerdictLevel.NONE, "Not computed"))
 
-    def show_verdict(self, verdict: Verdict) -> None:
+    def show_verdict(self, verdict: VerdictSummary) -> None:
         """Show a verdict that stands."""
         self._timer.stop()
         self.setToolTip("\n".join(filter(None, (verdict.text if _PART in verdict.text else "", verdict.tip))))
@@ -85,9 +85,9 @@ class Badge(QPushButton):
 
     def _advance(self) -> None:
         self._turn = (self._turn + 1) % len(_TURN)
-        self._show(Level.NONE, f"{_TURN[self._turn]} Computing")
+        self._show(VerdictLevel.NONE, f"{_TURN[self._turn]} Computing")
 
-    def _show(self, level: Level, text: str) -> None:
+    def _show(self, level: VerdictLevel, text: str) -> None:
         self.setText(text)
         self.setAccessibleName(f"Verdict: {text}")
         if self.property("verdict") != level.value:
@@ -108,7 +108,7 @@ class FindingsList(QFrame):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("findings")
-        self.rows: list[Row] = []
+        self.rows: list[ListRow] = []
         self._layers: frozenset[str] = frozenset()
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 12, 0, 8)
@@ -166,17 +166,17 @@ class FindingsList(QFrame):
         area.setFixedHeight(min(inner.sizeHint().height(), 360))
         return area
 
-    def _row(self, finding: Finding) -> Row:
+    def _row(self, finding: Finding) -> ListRow:
         label = QLabel(finding.text.replace("mm2", "mm²"))
         label.setWordWrap(True)
         label.setFixedWidth(_TEXT_PX)
         label.setToolTip(short(finding))
-        if finding_level(finding) is Level.BAD:
+        if finding_level(finding) is VerdictLevel.BAD:
             label.setProperty("role", "error")
         elif not finding.counts:
             label.setProperty("role", "muted")
         mends = finding.layer in self._layers
-        row = Row(_above(label, self._hiding(finding.layer)) if mends else label)
+        row = ListRow(_above(label, self._hiding(finding.layer)) if mends else label)
         row.setFixedHeight(label.heightForWidth(_TEXT_PX) + 12 + (_BUTTON_PX if mends else 0))
         row.setAccessibleName(label.text())
         self.rows.append(row)

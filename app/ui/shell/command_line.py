@@ -13,14 +13,14 @@ from ..framework.labels import Elided
 from ..framework.log_view import LogView
 from ..framework.theme import LIGHT, Theme, mono_font, text_font
 from ..views.language.blocks import depth_change
-from ..views.language.completion import Offer, OfferList
-from .completing import common_beginning
+from ..views.language.completion import CompletionItem, CompletionList
+from .command_completion import common_beginning
 
 GOES_ON = "end closes the block, Esc gives it up"
 _PENDING_PX = 360
 _MOST_REMEMBERED_LINES = 20
 _POINT = re.compile(r"\s*[-+@(.\d][^;]*")
-Completions = Callable[[str], tuple[str, list[Offer]]]
+Completions = Callable[[str], tuple[str, list[CompletionItem]]]
 
 
 class CommandLine(QWidget):
@@ -55,7 +55,7 @@ class CommandLine(QWidget):
         self.edit.installEventFilter(self)
         self.sign, self.pending = QLabel(">"), Elided(role="muted")
         self.options: dict[str, QToolButton] = {}
-        self.offers: OfferList | None = None
+        self.offers: CompletionList | None = None
         self._theme: Theme = LIGHT
         self._prompt = ""
         self._block: list[str] = []
@@ -225,15 +225,15 @@ class CommandLine(QWidget):
         self.edit.setSelection(self.edit.cursorPosition() - len(begun), len(begun))
         self.edit.insert(word)
 
-    def _show_offers(self, found: list[Offer]) -> None:
+    def _show_offers(self, found: list[CompletionItem]) -> None:
         if self.offers is None:
-            self.offers = OfferList(self.window())
+            self.offers = CompletionList(self.window())
             self.offers.taken.connect(self._take_offer)
         self.offers.set_theme(self._theme)
         place = QRect(self.edit.mapTo(self.window(), self.edit.cursorRect().topLeft()), self.edit.cursorRect().size())
         self.offers.show_offers(found, place.translated(QPoint(-8, 0)), self.window().rect())
 
-    def _take_offer(self, offer: Offer) -> None:
+    def _take_offer(self, offer: CompletionItem) -> None:
         self._end_offers()
         self._put(offer.word + offer.behind, self.completions(self.edit.text()[: self.edit.cursorPosition()])[0])
 

@@ -13,7 +13,7 @@ from ...drafting.document import Document
 from ..framework.commands import Commands
 from ..views.canvas.canvas import Canvas
 from .actions import MACHINE_THIS, plain
-from .proposing import WAYS
+from .proposal_controller import WAYS
 
 _FOR_SELECTION = (
     "tool_move",
@@ -44,7 +44,7 @@ class ContextMenu(QObject):
         super().__init__(canvas)
         self._canvas, self._document, self._commands = canvas, document, commands
         self.menu: QMenu | None = None
-        canvas.menu_wanted.connect(self.open)
+        canvas.menu_requested.connect(self.open)
 
     def open(self, at: QPoint) -> None:
         """Open the menu at a point of the screen; what lies under the mouse is selected first, unless it is."""

@@ -29,7 +29,7 @@ _HEADINGS_PX = {1: 20, 2: HEADING_PX, 3: TEXT_PX}
 
 
 @dataclass(frozen=True, slots=True)
-class Page:
+class HelpPage:
     """One page: its file's stem, its heading, its text in Markdown."""
 
     name: str
@@ -37,18 +37,18 @@ class Page:
     text: str
 
 
-def pages() -> tuple[Page, ...]:
+def pages() -> tuple[HelpPage, ...]:
     """Return the pages of the manual, those for users first."""
     paths = sorted(resource("docs").glob("*.md"), key=lambda path: (_rank(path), path.stem))
     texts = [(path.stem, path.read_text(encoding="utf-8")) for path in paths]
-    return tuple(Page(name, text.partition("\n")[0].lstrip("# ").replace("`", ""), text) for name, text in texts)
+    return tuple(HelpPage(name, text.partition("\n")[0].lstrip("# ").replace("`", ""), text) for name, text in texts)
 
 
 def _rank(path: Path) -> int:
     return _FIRST.index(path.stem) if path.stem in _FIRST else len(_FIRST)
 
 
-def rendered(page: Page, theme: Theme) -> QTextDocument:
+def rendered(page: HelpPage, theme: Theme) -> QTextDocument:
     """Return a page as a document: headings, tables with hairlines, words of the language in fixed pitch."""
     made = QTextDocument()
     made.setDefaultFont(text_font())

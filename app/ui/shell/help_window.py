@@ -12,7 +12,7 @@ from ..framework.fields import restyle
 from ..framework.labels import muted
 from ..framework.theme import LIGHT, Theme, mixed
 from ..views.language.usage import usage_of
-from .help_pages import Page, pages, rendered
+from .help_pages import HelpPage, pages, rendered
 
 _SIZE = (860, 640)
 _LIST_PX = 200
@@ -30,7 +30,7 @@ class HelpWindow(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setWindowTitle("Hitofude: manual")
         self.resize(*_SIZE)
-        self.pages: tuple[Page, ...] = ()
+        self.pages: tuple[HelpPage, ...] = ()
         self._theme, self._laid_out = LIGHT, dict[str, QTextDocument]()
         self.search, self.count, self.list, self.browser = QLineEdit(), muted(), QListWidget(), QTextBrowser()
         self.search.setPlaceholderText("Search the manual")

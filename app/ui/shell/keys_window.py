@@ -18,8 +18,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from ..framework.catalogue import tr
 from ..framework.fuzzy import fit
-from ..framework.words import tr
 from .actions import Actions, plain
 from .shortcuts import Shortcuts
 

@@ -21,32 +21,32 @@ from ..framework.log import Log
 from ..framework.notice import Notice
 from ..framework.preferences import Preferences
 from ..framework.theme import DARK, LIGHT, Theme
-from ..framework.view import Page, View
+from ..framework.view import View, ViewPage
 from ..framework.worker import Worker
 from ..framework.workspace import Workspace
 from ..panels.drawing_page import DrawingPage
 from ..panels.side_panel import SidePanel
 from ..panels.side_tabs import SideTabs
 from ..views.canvas.canvas import Canvas
-from ..views.canvas.program_picture import ProgramPicture
-from ..views.curves.curves_panel import CurvesPanel
-from ..views.cut.cut_panel import CutPanel
+from ..views.canvas.painting.program_layer import ProgramLayer
+from ..views.curves.panel import CurvesPanel
+from ..views.cut.panel import CutPanel
 from ..views.cut.setup_form import SetupForm
-from ..views.nc.reading import SUFFIXES as PROGRAM_SUFFIXES
+from ..views.nc.program_reader import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.plot.panel import PlotPanel
 from ..views.stages.import_panel import ImportPanel
-from ..views.stages.stages_panel import StagesPanel
+from ..views.stages.panel import StagesPanel
 from ..views.surfaces.scene_document import SceneDocument
-from ..views.surfaces.scene_side import SceneSide
+from ..views.surfaces.scene_tabs import SceneTabs
 from .actions import Actions
 from .badge import FindingsList
-from .bars import TopBar
 from .command_line import CommandLine
-from .memory import remember_geometry
 from .question_card import QuestionCard
 from .status_bar import StatusBar
 from .tool_strip import ToolStrip
-from .views import Views
+from .top_bar import TopBar
+from .view_stack import ViewStack
+from .window_geometry import remember_geometry
 
 if TYPE_CHECKING:
     from ...usecases.make import MakeResult
@@ -54,9 +54,9 @@ if TYPE_CHECKING:
 SIZE = (1440, 900)
 
 
-def picture_of(made: MakeResult) -> ProgramPicture:
+def picture_of(made: MakeResult) -> ProgramLayer:
     """Return the moves of a result prepared for painting."""
-    return ProgramPicture(made.program, made.coverage.places)
+    return ProgramLayer(made.program, made.coverage.places)
 
 
 class MainWindow(QMainWindow):
@@ -84,7 +84,7 @@ class MainWindow(QMainWindow):
         self.computation = Computation(document, self.worker, picture_of)
         self.actions_ = Actions(self)
         self.canvas = Canvas(document, self.theme)
-        self.views, self.panel, self.cut_panel = Views(self.canvas), SidePanel(document), CutPanel()
+        self.views, self.panel, self.cut_panel = ViewStack(self.canvas), SidePanel(document), CutPanel()
         self.side = SideTabs()
         self.side.add_page("Job", self.panel, "stock, tools and operations")
         self.drawing_page = DrawingPage(document, lambda: self.canvas.picture.lookup.box)
@@ -92,7 +92,7 @@ class MainWindow(QMainWindow):
         self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
         self.scene = SceneDocument(self)
-        self.scene_side = SceneSide(self.scene)
+        self.scene_side = SceneTabs(self.scene)
         self.sides: list[QWidget] = [
             self.side,
             self.import_panel,
@@ -153,7 +153,7 @@ class MainWindow(QMainWindow):
         self.resize(*SIZE)
         self.canvas.setFocus()
 
-    def take_pages(self, pages: dict[View, Page]) -> None:
+    def take_pages(self, pages: dict[View, ViewPage]) -> None:
         """Show the pages of the views, and lay out what those that are new put beside themselves."""
         self.views.take_pages(pages)
         for page in pages.values():

@@ -22,8 +22,8 @@ from ...drafting.document import Document
 from ..framework.icons import pixmap
 from ..framework.worker import Worker
 from .main_window import MainWindow
-from .memory import restore_geometry
-from .wiring import Wiring
+from .window_controller import WindowController
+from .window_geometry import restore_geometry
 
 _ENGINES = (
     "ezdxf",
@@ -58,10 +58,10 @@ def _warm(settings: Settings, progress: Progress) -> None:
     warm(progress)
 
 
-def build() -> tuple[MainWindow, Wiring]:
+def build() -> tuple[MainWindow, WindowController]:
     """Return a window with an empty document, not shown yet, and its wiring."""
     window = MainWindow(Document(), load_settings())
-    wiring = Wiring(window)
+    wiring = WindowController(window)
     window.set_theme_choice(window.preferences.settings.theme)
     window.setWindowIcon(pixmap("app", window.theme.accent_text, 3))
     return window, wiring
@@ -88,12 +88,14 @@ def _tell_mistake(
     )
 
 
-def begin(wiring: Wiring, path: Path | None) -> None:
+def begin(wiring: WindowController, path: Path | None) -> None:
     """Open a file, and then offer what a crash has left; without a file offer that, or else open the sample part."""
     if path is None:
-        wiring.recovering.offer(wiring.files.open_sample)
+        wiring.recovery_controller.offer(wiring.files.open_sample)
         return
-    wiring.files.opening.opened.connect(lambda _: wiring.recovering.offer(), Qt.ConnectionType.SingleShotConnection)
+    wiring.files.open_controller.opened.connect(
+        lambda _: wiring.recovery_controller.offer(), Qt.ConnectionType.SingleShotConnection
+    )
     wiring.files.open_file(path)
 
 

@@ -9,11 +9,11 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from ..framework.catalogue import tr
 from ..framework.labels import muted
 from ..framework.preferences import Preferences
 from ..framework.section import heading
-from ..framework.words import tr
-from .bars import TopBar
+from .top_bar import TopBar
 
 WIDTH, _GAP, _EDGE = 320, 10, 8
 SEEN = "seen"
@@ -31,7 +31,7 @@ class Landmarks:
 
 
 @dataclass(frozen=True)
-class Step:
+class TourStep:
     """One step: what it is beside, a heading and one or two sentences."""
 
     at: Callable[[Landmarks], QWidget]
@@ -40,32 +40,32 @@ class Step:
 
 
 STEPS = (
-    Step(
+    TourStep(
         lambda marks: marks.tool_strip,
         "Draw",
         "Take a tool and click. Points snap to ends, middles and centres; typed values stand beside the mouse.",
     ),
-    Step(
+    TourStep(
         lambda marks: marks.command_line,
         "Type",
         "Every click is also a line of words, and every line draws: try  rect 0,0 60,40  and Enter.",
     ),
-    Step(
+    TourStep(
         lambda marks: marks.top_bar.compute,
         "Compute",
         "F5 makes the tool paths from the drawing, the tools and the operations at the right.",
     ),
-    Step(
+    TourStep(
         lambda marks: marks.badge,
         "Look",
         "The verdict: gouges, material left, strokes and time. A click lists the places, another goes there.",
     ),
-    Step(
+    TourStep(
         lambda marks: marks.top_bar.tabs["view_cut"],
         "Cut",
         "The program, cut out of its stock. Drag turns it; a click on the metal shows the line that cut there.",
     ),
-    Step(
+    TourStep(
         lambda marks: marks.top_bar.export,
         "Export",
         "What is written is read back and cut first; what is wrong with it is told before the file is kept.",
@@ -99,7 +99,7 @@ class Callout(QFrame):
         column.addLayout(row)
         self.hide()
 
-    def say(self, step: Step, number: int) -> None:
+    def say(self, step: TourStep, number: int) -> None:
         """Show a step by its number, from 0."""
         last = number == len(STEPS) - 1
         self.title.setText(tr(step.title))

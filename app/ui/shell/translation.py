@@ -15,13 +15,13 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QMenu, QWidget
 
 from ...core.settings import Language
+from ..framework.catalogue import active_language, catalogue, set_language
 from ..framework.commands import Commands, on_trigger
 from ..framework.preferences import Preferences
-from ..framework.words import catalogue, speak, spoken
 
 
 @dataclass(frozen=True)
-class _Slot:
+class _TextSlot:
     """A text of an object: how it is read and written."""
 
     name: str
@@ -39,21 +39,21 @@ def _set_action_text(action: QAction, text: str) -> None:
 
 
 _TEXT = {
-    QAction: (_Slot("text", QAction.text, _set_action_text), _Slot("tip", QAction.toolTip, QAction.setToolTip)),
-    QMenu: (_Slot("title", QMenu.title, QMenu.setTitle),),
-    QLabel: (_Slot("text", QLabel.text, QLabel.setText),),
-    QAbstractButton: (_Slot("text", QAbstractButton.text, QAbstractButton.setText),),
-    QLineEdit: (_Slot("placeholder", QLineEdit.placeholderText, QLineEdit.setPlaceholderText),),
+    QAction: (_TextSlot("text", QAction.text, _set_action_text), _TextSlot("tip", QAction.toolTip, QAction.setToolTip)),
+    QMenu: (_TextSlot("title", QMenu.title, QMenu.setTitle),),
+    QLabel: (_TextSlot("text", QLabel.text, QLabel.setText),),
+    QAbstractButton: (_TextSlot("text", QAbstractButton.text, QAbstractButton.setText),),
+    QLineEdit: (_TextSlot("placeholder", QLineEdit.placeholderText, QLineEdit.setPlaceholderText),),
 }
-_ACCESS = _Slot("access", QWidget.accessibleName, QWidget.setAccessibleName)
-_WIDGET = (_Slot("tip", QWidget.toolTip, QWidget.setToolTip), _ACCESS)
+_ACCESS = _TextSlot("access", QWidget.accessibleName, QWidget.setAccessibleName)
+_WIDGET = (_TextSlot("tip", QWidget.toolTip, QWidget.setToolTip), _ACCESS)
 _PAINTED = (QLabel, QAbstractButton, QLineEdit, QComboBox)
 _ENGLISH, _SHOWN = Qt.ItemDataRole.UserRole + 101, Qt.ItemDataRole.UserRole + 102
 _SEEN = (QEvent.Type.Paint, QEvent.Type.ToolTip)
 _DEFAULT_ACTION = "defaultAction"
 
 
-def _slots(thing: QObject) -> tuple[_Slot, ...]:
+def _slots(thing: QObject) -> tuple[_TextSlot, ...]:
     own = next((slots for kind, slots in _TEXT.items() if isinstance(thing, kind)), ())
     if hasattr(thing, _DEFAULT_ACTION) and getattr(thing, _DEFAULT_ACTION)() is not None:
         return (_ACCESS,)
@@ -70,7 +70,7 @@ def translate(thing: QObject) -> None:
         if shown is None and not text:
             continue
         english = source if text == shown else text
-        wanted = catalogue(spoken()).look_up(english) or english
+        wanted = catalogue(active_language()).look_up(english) or english
         if wanted != text:
             slot.write(thing, wanted)
         if wanted != english or shown is not None:
@@ -82,7 +82,7 @@ def translate(thing: QObject) -> None:
 
 def _translate_choices(box: QComboBox) -> None:
     """Show what can be chosen; which one is chosen stays."""
-    words = catalogue(spoken())
+    words = catalogue(active_language())
     with QSignalBlocker(box):
         for at in range(box.count()):
             text, shown = box.itemText(at), box.itemData(at, _SHOWN)
@@ -101,7 +101,7 @@ def translate_all(root: QObject) -> None:
         translate(thing)
 
 
-class _Later(QObject):
+class _DeferredTranslation(QObject):
     """Looks up what was written since, just before it is seen."""
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
@@ -116,13 +116,13 @@ class _Later(QObject):
         return False
 
 
-class Translating:
+class TranslationController:
     """View, Language: switches at once and remembers it."""
 
     def __init__(self, root: QWidget, preferences: Preferences, commands: Commands) -> None:
         """Make one; `root` and what belongs to it speaks the language."""
         self._root, self._preferences, self._commands = root, preferences, commands
-        self._later, self._qt = _Later(root), QTranslator(root)
+        self._later, self._qt = _DeferredTranslation(root), QTranslator(root)
         for choice in Language:
             on_trigger(commands, f"language_{choice.value}", partial(self.choose, choice))
         self._show(preferences.settings.language)
@@ -138,8 +138,8 @@ class Translating:
         assert application is not None
         application.removeEventFilter(self._later)
         application.removeTranslator(self._qt)
-        before = spoken()
-        speak(code)
+        before = active_language()
+        set_language(code)
         if code != "en":
             if self._qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
                 application.installTranslator(self._qt)

@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QWidget
 from ...core.settings import ShownUnits
 from ...drafting.language.unit_of_line import in_unit
 from ..framework.commands import Commands, on_trigger
+from ..framework.display_unit import set_display_unit
 from ..framework.fields import NumberField
 from ..framework.preferences import Preferences
-from ..framework.shown_unit import show_in
 from ..panels.drawing_page import DrawingPage
 from ..views.canvas.viewport import Viewport
 from .status_bar import StatusBar
@@ -44,7 +44,7 @@ class UnitChoice:
     def _show(self, units: ShownUnits) -> None:
         self._commands[f"units_{units.value}"].setChecked(True)
         self._status.set_unit(SIZES[units], {ShownUnits.MM: "mm", ShownUnits.INCH: "in"}[units])
-        show_in(SIZES[units])
+        set_display_unit(SIZES[units])
         for field in self._root.findChildren(NumberField):
             field.follow_unit()
         for page in self._root.findChildren(DrawingPage):

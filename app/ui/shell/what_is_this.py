@@ -11,25 +11,25 @@ from PySide6.QtGui import QWhatsThisClickedEvent
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenuBar, QToolButton, QWhatsThis, QWidget
 
 from ...drafting.language.language import command_word
-from ..framework.words import tr
+from ..framework.catalogue import tr
 from ..panels.drawing_page import DrawingPage
 from ..panels.reading_section import ReadingSection
 from ..panels.side_panel import SidePanel
 from ..panels.side_tabs import SideTabs
 from ..views.canvas.canvas import Canvas
-from ..views.curves.curves_panel import CurvesPanel
-from ..views.curves.curves_view import CurvesView
-from ..views.cut.cut_panel import CutPanel
-from ..views.cut.cut_view import CutView
+from ..views.curves.panel import CurvesPanel
+from ..views.curves.view import CurvesView
+from ..views.cut.panel import CutPanel
 from ..views.cut.transport import Transport
+from ..views.cut.view import CutView
 from ..views.language.page import TextPage
-from ..views.nc.nc_view import NcView
-from ..views.stages.stages_view import StagesView
+from ..views.nc.view import NcView
+from ..views.stages.view import StagesView
+from ..views.surfaces.panel import ScenePanel
 from ..views.surfaces.points_page import PointsPage
-from ..views.surfaces.scene_panel import ScenePanel
-from ..views.surfaces.scene_side import SceneSide
+from ..views.surfaces.scene_tabs import SceneTabs
 from ..views.surfaces.scene_text import SceneText
-from ..views.surfaces.surfaces_view import SurfacesView
+from ..views.surfaces.view import SurfacesView
 from .command_line import CommandLine
 from .help_window import HelpWindow
 from .question_card import QuestionCard
@@ -111,7 +111,7 @@ PLACES: dict[type[QWidget], tuple[str, str]] = {
         "scene",
     ),
     PointsPage: ("Where the topmost surface changes, plane by plane. A click shows the place.", "scene"),
-    SceneSide: (
+    SceneTabs: (
         "Scene: surfaces, passes, tools and stock. Text: the same in words. Points: where surfaces meet.",
         "scene",
     ),

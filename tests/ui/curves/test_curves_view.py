@@ -13,7 +13,7 @@ from app.gcode.interpreter.dialect import Dialect
 from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.ui.framework.view import View
-from app.ui.views.nc.motion_shapes import Side
+from app.ui.views.nc.motion_shapes import ViewSide
 from tests.ui.curves.facets import facets
 from tests.ui.nc.opened import WAIT_MS, open_file
 
@@ -39,7 +39,7 @@ def opened(qtbot, wiring, tmp_path):
     path.write_text(ring())
     open_file(qtbot, wiring, path)
     QTest.keyClick(wiring.window_, Qt.Key.Key_5, Qt.KeyboardModifier.ControlModifier)
-    assert wiring.showing.view is View.CURVES
+    assert wiring.display_controller.view is View.CURVES
     return wiring
 
 
@@ -52,7 +52,7 @@ def smooth(qtbot, opened):
 
 def press_smooth(qtbot, wiring) -> None:
     QTest.mouseClick(wiring.window_.curves_panel.smooth, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: not wiring.smoothing.reading.worker.busy, timeout=6 * WAIT_MS)
+    qtbot.waitUntil(lambda: not wiring.smoothing_controller.reading.worker.busy, timeout=6 * WAIT_MS)
 
 
 def curves_of(wiring):
@@ -60,7 +60,7 @@ def curves_of(wiring):
 
 
 def test_without_a_program_there_is_nothing_to_smooth(wiring) -> None:
-    wiring.showing.show_view(View.CURVES)
+    wiring.display_controller.show_view(View.CURVES)
     window = wiring.window_
     assert window.views.empty.isVisible() and "no NC program" in window.views.empty.sentence.text()
     assert (
@@ -70,7 +70,7 @@ def test_without_a_program_there_is_nothing_to_smooth(wiring) -> None:
 
 def test_before_it_is_smoothed_the_program_is_shown_as_it_is(opened) -> None:
     view = curves_of(opened)
-    assert view.path.picture is opened.window_.views.nc.shown.pictures[Side.XY] and view.curves is None
+    assert view.path.picture is opened.window_.views.nc.shown.pictures[ViewSide.XY] and view.curves is None
     assert not opened.window_.views.empty.isVisible() and not view.deviation.isVisible()
     assert opened.window_.curves_panel.smooth.isEnabled()
 
@@ -79,7 +79,7 @@ def test_smoothing_shows_both_paths_the_certificate_and_the_deviation(smooth) ->
     view, panel = curves_of(smooth), smooth.window_.curves_panel
     shown = view.curves
     assert shown is not None and len(shown.changed) == 1 and view.deviation.isVisible()
-    layers = shown.layers[Side.XY]
+    layers = shown.layers[ViewSide.XY]
     assert len(layers.before.only) >= 200 and 0 < len(layers.curves.only) <= 10
     assert len(layers.curves.only) + len(layers.stayed.only) == len(shown.now.shapes)
     piece = shown.done.pieces[shown.changed[0]]
@@ -96,7 +96,7 @@ def test_what_stayed_says_why_under_the_mouse(smooth) -> None:
     assert why and all(
         "stays as it was: it would not take fewer blocks" in words or "too short" in words for words in why
     )
-    arcs = view.curves.layers[Side.XY].curves.only
+    arcs = view.curves.layers[ViewSide.XY].curves.only
     assert all("stays" not in view.path.described(int(row)) for row in arcs)
     motions = view.curves.now.program.motions
     lines = view.curves.now.source.data.decode().split("\n")
@@ -153,7 +153,7 @@ def test_a_drag_over_the_plot_picks_nothing(smooth) -> None:
 
 def test_what_is_saved_is_what_was_proven(smooth, tmp_path) -> None:
     path = tmp_path / "out.ngc"
-    smooth.smoothing.save(path)
+    smooth.smoothing_controller.save(path)
     shown = curves_of(smooth).curves
     assert path.read_bytes() == shown.done.data
     again = read_program(path.read_bytes(), ReadOptions(Dialect.LINUXCNC))
@@ -161,8 +161,8 @@ def test_what_is_saved_is_what_was_proven(smooth, tmp_path) -> None:
 
 
 def test_a_place_that_cannot_be_written_is_told(qtbot, smooth, tmp_path) -> None:
-    with qtbot.waitSignal(smooth.smoothing.failed) as told:
-        smooth.smoothing.save(tmp_path / "nowhere" / "out.ngc")
+    with qtbot.waitSignal(smooth.smoothing_controller.failed) as told:
+        smooth.smoothing_controller.save(tmp_path / "nowhere" / "out.ngc")
     assert "nowhere" in told.args[0]
 
 
@@ -170,16 +170,18 @@ def test_the_new_text_opens_in_the_nc_view_and_can_be_smoothed_on(qtbot, smooth)
     shown = curves_of(smooth).curves
     QTest.mouseClick(smooth.window_.curves_panel.nc, Qt.MouseButton.LeftButton)
     nc = smooth.window_.views.nc
-    qtbot.waitUntil(lambda: smooth.showing.view is View.NC and nc.shown.source.data == shown.done.data, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: smooth.display_controller.view is View.NC and nc.shown.source.data == shown.done.data, timeout=WAIT_MS
+    )
     assert nc.shown.source.name == "ring-smooth.ngc"
-    smooth.showing.show_view(View.CURVES)
+    smooth.display_controller.show_view(View.CURVES)
     assert curves_of(smooth).curves is None, "the curves were of another program"
 
 
 def test_curves_stay_while_other_views_are_looked_at(smooth) -> None:
     shown = curves_of(smooth).curves
-    smooth.showing.show_view(View.NC)
-    smooth.showing.show_view(View.CURVES)
+    smooth.display_controller.show_view(View.NC)
+    smooth.display_controller.show_view(View.CURVES)
     assert curves_of(smooth).curves is shown
 
 
@@ -222,7 +224,7 @@ def test_what_cannot_be_is_said_in_a_sentence_and_what_was_there_stays(qtbot, sm
 
 
 def test_cancelling_leaves_everything_as_it_was(qtbot, opened, tmp_path) -> None:
-    panel, worker = opened.window_.curves_panel, opened.smoothing.reading.worker
+    panel, worker = opened.window_.curves_panel, opened.smoothing_controller.reading.worker
     QTest.mouseClick(panel.smooth, Qt.MouseButton.LeftButton)
     assert worker.busy and panel.smooth.text() == "Cancel"
     QTest.mouseClick(panel.smooth, Qt.MouseButton.LeftButton)
@@ -231,9 +233,9 @@ def test_cancelling_leaves_everything_as_it_was(qtbot, opened, tmp_path) -> None
 
 def test_other_sides_and_the_comb_are_shown(qtbot, smooth) -> None:
     view = curves_of(smooth)
-    QTest.mouseClick(view.sides.buttons[Side.XZ], Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: view.path.picture.side is Side.XZ, timeout=WAIT_MS)
-    view.set_side(Side.XY)
+    QTest.mouseClick(view.sides.buttons[ViewSide.XZ], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: view.path.picture.side is ViewSide.XZ, timeout=WAIT_MS)
+    view.set_side(ViewSide.XY)
     before = view.path.grab().toImage()
     QTest.mouseClick(view.comb, Qt.MouseButton.LeftButton)
     assert view.path.grab().toImage() != before
@@ -260,7 +262,7 @@ def faceted(qtbot, wiring, tmp_path):
     path = tmp_path / "facets.ngc"
     path.write_text(facets())
     open_file(qtbot, wiring, path)
-    wiring.showing.show_view(View.CURVES)
+    wiring.display_controller.show_view(View.CURVES)
     panel = wiring.window_.curves_panel
     panel.tolerance.show_value(0.2)
     click(panel.points.points, True)

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.ui.views.cut.picture import CutMoves, CutPaths, CutPicture
-from app.ui.views.nc.motion_shapes import Look
+from app.ui.views.cut.cut_picture import CutMoves, CutPaths, CutPicture
+from app.ui.views.nc.motion_shapes import MotionLineStyle
 
 SIDE = 100.0
 FLOOR, TOP = -20.0, 0.0
@@ -68,24 +68,24 @@ def program():
         line = xs if k % 2 == 0 else xs[::-1]
         places = [(float(x), float(y), float(min(dish(x, y), -0.8))) for x in line]
         if k == 0:
-            go((*places[0][:2], 5.0), Look.RAPID, 1)
-            go(places[0], Look.PLUNGE, 1)
+            go((*places[0][:2], 5.0), MotionLineStyle.RAPID, 1)
+            go(places[0], MotionLineStyle.PLUNGE, 1)
         for place in places:
-            go(place, Look.CUT, 1)
-    go((*at[:2], 5.0), Look.RAPID, 1)
+            go(place, MotionLineStyle.CUT, 1)
+    go((*at[:2], 5.0), MotionLineStyle.RAPID, 1)
     for radius, depth in ((14.0, -4.0), (10.0, -4.0), (6.0, -4.0), (14.0, -7.0)):
         ring = [(78 + radius * np.cos(a), 32 + radius * np.sin(a), depth) for a in np.linspace(0, 2 * np.pi, 73)]
-        look = Look.CONTOUR if radius == 14 else Look.CUT
-        go((*ring[0][:2], 5.0), Look.RAPID, 2)
-        go(ring[0], Look.PLUNGE, 2)
+        look = MotionLineStyle.CONTOUR if radius == 14 else MotionLineStyle.CUT
+        go((*ring[0][:2], 5.0), MotionLineStyle.RAPID, 2)
+        go(ring[0], MotionLineStyle.PLUNGE, 2)
         for place in ring[1:]:
             go(place, look, 2)
-        go((*at[:2], 5.0), Look.RAPID, 2)
-    go((66.0, 66.0, 5.0), Look.RAPID, 3)
-    go((66.0, 66.0, -3.0), Look.PLUNGE, 3)
+        go((*at[:2], 5.0), MotionLineStyle.RAPID, 2)
+    go((66.0, 66.0, 5.0), MotionLineStyle.RAPID, 3)
+    go((66.0, 66.0, -3.0), MotionLineStyle.PLUNGE, 3)
     for place in ((92.0, 66.0, -3.0), (92.0, 88.0, -3.0), (66.0, 88.0, -5.0), (66.0, 66.0, -3.0)):
-        go(place, Look.CONTOUR, 3)
-    go((66.0, 66.0, 5.0), Look.RAPID, 3)
+        go(place, MotionLineStyle.CONTOUR, 3)
+    go((66.0, 66.0, 5.0), MotionLineStyle.RAPID, 3)
     return rows
 
 
@@ -95,7 +95,7 @@ def made_up(n=1024):
     heights, move = np.full((n, n), TOP, np.float32), np.full((n, n), -1, np.int32)
     rows = program()
     for number, (start, end, look, tool) in enumerate(rows):
-        if look != Look.RAPID:
+        if look != MotionLineStyle.RAPID:
             swept(heights, move, (start, end), tips[tool], number)
     starts, ends = (np.array([row[k] for row in rows], float) for k in (0, 1))
     looks, tools = np.array([row[2] for row in rows], np.uint8), np.array([row[3] for row in rows], np.int32)

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QWidget
 
 from app.model.tool import Tool, ToolKind
 from app.ui.framework.theme import DARK, LIGHT
-from app.ui.views.cut.cut_view import CutView
 from app.ui.views.cut.surface import GlSurface
-from app.ui.views.cut.zooming import Followed, Zooming
+from app.ui.views.cut.view import CutView
+from app.ui.views.cut.zoom_controller import ZoomController, ZoomTarget
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.real_cut import real_shown
 
@@ -45,24 +45,24 @@ def metal_share(window, view):
 
 def look_closer(window, view):
     """Zoom into a real cut until its cells are fine, and out again."""
-    shown, zooming = real_shown(), Zooming(view.model, view.painting, view)
-    zooming.follow(Followed(shown.cut))
+    shown, zooming = real_shown(), ZoomController(view.model, view.render_scheduler, view)
+    zooming.follow(ZoomTarget(shown.cut))
     view.show_cut(shown.picture)
     view.fit()
-    wait(lambda: view.painting.fine and metal_share(window, view) > 0.2)
+    wait(lambda: view.render_scheduler.fine and metal_share(window, view) > 0.2)
     for _ in range(4):
         view.zoom_by(3.0)
-        wait(lambda: view.painting.fine and not zooming.worker.busy)
+        wait(lambda: view.render_scheduler.fine and not zooming.worker.busy)
         assert metal_share(window, view) > 0.7, "metal is missing round the finer part"
     assert view.model.detail.pitch < shown.picture.pitch / 10
     view.fit()
-    wait(lambda: view.painting.fine and view.model.detail is None)
+    wait(lambda: view.render_scheduler.fine and view.model.detail is None)
     zooming.worker.finish()
 
 
 def settled(window, view):
     """What the screen shows once the fine picture has reached it."""
-    wait(lambda: view.painting.fine)
+    wait(lambda: view.render_scheduler.fine)
     until = time.monotonic() + 0.5
     wait(lambda: time.monotonic() > until)
     return pixels(window)
@@ -73,11 +73,11 @@ def play(window, view):
     tool = Tool(1, 6.0, ToolKind.BALL, flute_length=12.0, stick_out=30.0)
     bare = settled(window, view)
     for k in range(20):
-        view.playing.show_tool(tool, (25.0 + k, 50.0, -8.0))
-        wait(lambda: not view.painting.due)
-    wait(lambda: view.painting.fine and (np.abs(pixels(window) - bare).max(axis=2) > 12).sum() > 500)
-    view.playing.show_tool(None, None)
-    wait(lambda: view.painting.fine and np.array_equal(pixels(window), bare))
+        view.playback.show_tool(tool, (25.0 + k, 50.0, -8.0))
+        wait(lambda: not view.render_scheduler.due)
+    wait(lambda: view.render_scheduler.fine and (np.abs(pixels(window) - bare).max(axis=2) > 12).sum() > 500)
+    view.playback.show_tool(None, None)
+    wait(lambda: view.render_scheduler.fine and np.array_equal(pixels(window), bare))
 
 
 def main():
@@ -91,21 +91,21 @@ def main():
     view.set_theme(LIGHT)
     window.show()
     view.show_cut(made_up(200))
-    assert view.painting.surface is None, "a surface before the view is shown"
+    assert view.render_scheduler.surface is None, "a surface before the view is shown"
     stack.setCurrentWidget(view)
-    wait(lambda: view.painting.fine)
-    assert isinstance(view.painting.surface, GlSurface), type(view.painting.surface)
+    wait(lambda: view.render_scheduler.fine)
+    assert isinstance(view.render_scheduler.surface, GlSurface), type(view.render_scheduler.surface)
     assert len(window.findChildren(QOpenGLWidget)) == 1, "more than one surface"
     wait(lambda: 0.3 < metal_share(window, view) < 0.7)
     play(window, view)
     window.resize(1100, 700)
     view.set_theme(DARK)
-    wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)
+    wait(lambda: view.render_scheduler.fine and 0.3 < metal_share(window, view) < 0.7)
     stack.setCurrentWidget(other)
     wait(lambda: not view.isVisible())
     stack.setCurrentWidget(view)
     view.show_cut(made_up(160))
-    wait(lambda: view.painting.fine and 0.3 < metal_share(window, view) < 0.7)
+    wait(lambda: view.render_scheduler.fine and 0.3 < metal_share(window, view) < 0.7)
     look_closer(window, view)
     view.colours.worker.finish()
     print("OK")

@@ -7,24 +7,24 @@ import pytest
 
 from app.core.errors import HitofudeError
 from app.ui.views.cut.camera import Camera
-from app.ui.views.cut.colouring import CutColour, Inks, colouring
-from app.ui.views.cut.frame import Frame
-from app.ui.views.cut.picture import CutPicture
+from app.ui.views.cut.cell_colours import Colormap, CutColourBy, cell_colours
+from app.ui.views.cut.cut_picture import CutPicture
 from app.ui.views.cut.relief import GAIN, LIMIT
-from app.ui.views.cut.scene import CutScene
-from app.ui.views.cut.stage import CutLook
+from app.ui.views.cut.rendering.cut_frame import CutFrame
+from app.ui.views.cut.rendering.cut_scene import CutScene
+from app.ui.views.cut.rendering.render_target import RenderStyle
 
 CANVAS, STOCK, METAL = (0.0, 0.0, 0.25), (100, 100, 100), (200, 200, 200)
 LIGHT = np.array([-0.45, 0.62, 0.64]) / np.linalg.norm([-0.45, 0.62, 0.64])
 AMBIENT, DIRECT = 0.4, 0.5
-LOOK = CutLook(
+LOOK = RenderStyle(
     CANVAS,
     tuple(v / 255 for v in STOCK),
     (1.0, 0.0, 0.0),
     ((0.0, 0.0, 1.0, 1.0), (0.0, 1.0, 0.0, 1.0), (1.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 1.0)),
     strength=(AMBIENT, DIRECT, 0.0),
 )
-INKS = Inks(
+INKS = Colormap(
     METAL,
     ((255, 0, 0), (0, 255, 0), (0, 0, 255)),
     ((255, 255, 255), (0, 0, 0)),
@@ -55,14 +55,14 @@ def flat_picture(heights, **more):
     return CutPicture(heights, 0.0, 0.0, 10.0 / heights.shape[1], -10.0, 0.0, **more)
 
 
-def painted(context, picture, camera, colour=CutColour.METAL, **more):
+def painted(context, picture, camera, colour=CutColourBy.METAL, **more):
     """The picture of a cut as an array, (height, width, 3)."""
     with context:
         made = CutScene(context)
         made.show_picture(picture)
-        made.show_colours(colouring(picture, colour, INKS))
+        made.show_colours(cell_colours(picture, colour, INKS))
         made.show_paths(picture.paths)
-        made.draw(Frame(camera, SIZE, LOOK, **more))
+        made.draw(CutFrame(camera, SIZE, LOOK, **more))
         pixels = made.pixels().copy()
         made.release()
     return pixels

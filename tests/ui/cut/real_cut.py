@@ -12,7 +12,7 @@ from app.model.stock_box import StockBox
 from app.model.tool import Tool, ToolKind
 from app.operations.compute import regions_of
 from app.simulation.field.workpiece import BoxStock
-from app.ui.views.cut.colouring import CutColour
+from app.ui.views.cut.cell_colours import CutColourBy
 from app.ui.views.cut.shown_cut import ProgramFile, shown_cut
 from app.usecases.cut import CutOptions, CutSetup, cut
 from app.verify.parts import FlatPart
@@ -59,7 +59,7 @@ def real_cut(cells=256, part=True, tool=TOOL):
     return cut(setup, CutOptions(cells))
 
 
-def real_shown(cells=256, part=True, colour=CutColour.METAL, tool=TOOL):
+def real_shown(cells=256, part=True, colour=CutColourBy.METAL, tool=TOOL):
     """The program, cut and prepared for the view."""
     return shown_cut(real_cut(cells, part, tool), (ProgramFile("slot.ngc", TEXT.encode()),), colour)
 

@@ -6,11 +6,11 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.ui.framework.labels import Elided
-from app.ui.framework.verdict import Level, Verdict
+from app.ui.framework.verdict import VerdictLevel, VerdictSummary
 from app.ui.framework.view import View
-from app.ui.views.cut.colouring import CutColour
-from app.ui.views.cut.cut_panel import CutPanel
-from app.ui.views.cut.entries import Entry, EntryColour
+from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.cut.findings import CutFinding, FindingColour
+from app.ui.views.cut.panel import CutPanel
 from tests.ui.cut.real_cut import real_shown
 
 WAIT_MS = 20_000
@@ -18,9 +18,9 @@ WAIT_MS = 20_000
 
 @pytest.fixture
 def beside(qtbot, wiring):
-    wiring.showing.show_view(View.CUT)
-    wiring.cutting._show(real_shown())
-    qtbot.waitUntil(lambda: wiring.window_.views.cut.painting.fine, timeout=WAIT_MS)
+    wiring.display_controller.show_view(View.CUT)
+    wiring.cut_controller._show(real_shown())
+    qtbot.waitUntil(lambda: wiring.window_.views.cut.render_scheduler.fine, timeout=WAIT_MS)
     return wiring
 
 
@@ -29,7 +29,7 @@ def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(beside):
     assert window.cut_panel.isVisible() and not window.panel.isVisible()
     assert window.cut_panel.histogram.isVisible()
     assert "mm²" in window.cut_panel.histogram.sums.text()
-    beside.showing.show_view(View.DRAW)
+    beside.display_controller.show_view(View.DRAW)
     assert window.panel.isVisible() and not window.cut_panel.isVisible()
 
 
@@ -38,7 +38,8 @@ def test_what_is_wrong_is_read_whole_and_where_gives_way(qtbot):
     qtbot.addWidget(panel)
     titles = ("Shank in metal, 12.500 deep", "Rapid through metal, 2.000 deep")
     panel.entries = tuple(
-        Entry(title, "A sentence.", EntryColour.ACCIDENT, True, (112.3, 4.5, -1.0), line=1234) for title in titles
+        CutFinding(title, "A sentence.", FindingColour.ACCIDENT, True, (112.3, 4.5, -1.0), line=1234)
+        for title in titles
     )
     panel._fill()
     panel.resize(panel.maximumWidth(), 600)
@@ -51,11 +52,11 @@ def test_what_is_wrong_is_read_whole_and_where_gives_way(qtbot):
 
 def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
     panel, view = beside.window_.cut_panel, beside.window_.views.cut
-    at = next(k for k, entry in enumerate(panel.entries) if entry.colour is EntryColour.GOUGE and entry.line == 13)
+    at = next(k for k, entry in enumerate(panel.entries) if entry.colour is FindingColour.GOUGE and entry.line == 13)
     qtbot.mouseClick(panel.rows[at], Qt.MouseButton.LeftButton)
     assert panel.rows[at].property("chosen") == "true"
     assert panel.text.isVisible() and panel.text.current == 12
-    assert view.colour is CutColour.DEVIATION
+    assert view.colour is CutColourBy.DEVIATION
     place = panel.entries[at].place
     qtbot.waitUntil(lambda: _near_the_middle(view, place), timeout=WAIT_MS)
     assert view.overlay.pin.place == place
@@ -68,7 +69,7 @@ def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
 
 def test_the_heading_tells_what_the_badge_tells(beside):
     panel = beside.window_.cut_panel
-    panel.show_told(Verdict(Level.NONE, "Out of date: compute again"))
+    panel.show_told(VerdictSummary(VerdictLevel.NONE, "Out of date: compute again"))
     assert panel.title.text() == "Out of date: compute again" and panel.title.property("role") == ""
     panel.show_told(None)
     assert panel.title.text().endswith("to look at") and panel.title.property("role") == "error"

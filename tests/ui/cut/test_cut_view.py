@@ -8,15 +8,15 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from app.ui.framework.samples import Sample
+from app.ui.framework.samples import PathLineKind
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.framework.view import views
 from app.ui.views.cut.camera import StandardView
-from app.ui.views.cut.colouring import CutColour
-from app.ui.views.cut.cut_legend import Side
-from app.ui.views.cut.cut_view import CutView
-from app.ui.views.cut.picture import CutPaths
+from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.cut.cut_picture import CutPaths
+from app.ui.views.cut.legend import SectionAxis
 from app.ui.views.cut.surface import ImageSurface, widgets_have_opengl
+from app.ui.views.cut.view import CutView
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 
@@ -37,7 +37,7 @@ def view(qtbot, picture):
     made.set_theme(LIGHT)
     made.show()
     made.show_cut(picture)
-    qtbot.waitUntil(lambda: made.painting.fine, timeout=20_000)
+    qtbot.waitUntil(lambda: made.render_scheduler.fine, timeout=20_000)
     return made
 
 
@@ -77,7 +77,7 @@ def drag(qtbot, view, button, by):
 
 def test_without_opengl_in_widgets_a_picture_is_painted_elsewhere(view):
     assert not widgets_have_opengl()
-    assert isinstance(view.painting.surface, ImageSurface)
+    assert isinstance(view.render_scheduler.surface, ImageSurface)
     shown = pixels(view)
     middle = on_screen(view, (50.0, 90.0, 0.0))
     assert np.ptp(shown[middle.y(), middle.x()]) < 30
@@ -94,12 +94,12 @@ def test_nothing_is_made_before_there_is_a_cut_to_show(qtbot):
     empty = CutView()
     qtbot.addWidget(empty)
     empty.show()
-    assert empty.painting.surface is None
+    assert empty.render_scheduler.surface is None
     assert not empty.legend.isVisible()
 
 
 def test_left_drag_turns_round_the_place_that_is_held(qtbot, view):
-    before, held = view.model.camera, view.hands.probe(QPointF(300, 300))
+    before, held = view.model.camera, view.cut_input.probe(QPointF(300, 300))
     drag(qtbot, view, LEFT, QPoint(60, 20))
     assert view.model.camera.yaw != before.yaw and view.model.camera.pitch > before.pitch
     now = on_screen(view, held.place)
@@ -116,7 +116,7 @@ def test_middle_drag_shifts_and_does_not_turn(qtbot, view, picture):
 
 def test_wheel_zooms_at_the_mouse(qtbot, view):
     at = QPointF(250, 320)
-    held, scale = view.hands.probe(at), view.model.camera.scale
+    held, scale = view.cut_input.probe(at), view.model.camera.scale
     view.wheelEvent(
         QWheelEvent(
             at,
@@ -192,63 +192,63 @@ def test_click_picks_the_cell_and_a_drag_does_not(qtbot, view, picture):
     assert not picked
     at = on_screen(view, (34.0, 50.0, -9.0))
     qtbot.mouseClick(view, LEFT, pos=at)
-    hit = view.hands.probe(QPointF(at))
+    hit = view.cut_input.probe(QPointF(at))
     assert picked == [(*hit.place, int(picture.move[hit.row, hit.column]))]
 
 
 def test_legend_explains_the_colours_and_chooses_them(qtbot, view, picture):
     box = view.legend.colour.box
-    assert [box.itemText(k) for k in range(box.count())] == [colour.value for colour in CutColour]
+    assert [box.itemText(k) for k in range(box.count())] == [colour.value for colour in CutColourBy]
     plain = pixels(view)
     box.activated.emit(box.findText("Tool"))
-    assert view.colour is CutColour.TOOL
+    assert view.colour is CutColourBy.TOOL
     qtbot.waitUntil(lambda: view.legend.title.text() == "Tool", timeout=5000)
     assert view.legend.key.accessibleDescription() == "T1, T2, T3"
     assert np.any(pixels(view) != plain)
-    qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
+    qtbot.waitUntil(lambda: view.render_scheduler.fine, timeout=20_000)
 
 
 def test_paths_can_be_hidden(qtbot, view):
     shown = pixels(view)
-    view.legend.rows[Sample.POCKET].setChecked(False)
-    qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
+    view.legend.rows[PathLineKind.POCKET].setChecked(False)
+    qtbot.waitUntil(lambda: view.render_scheduler.fine, timeout=20_000)
     hidden = pixels(view)
     green = (np.array(shown)[..., 1] - np.array(shown)[..., 0] > 60).sum(), (hidden[..., 1] - hidden[..., 0] > 60).sum()
     assert green[0] > 500 > green[1]
 
 
 def test_paths_that_would_hide_the_metal_are_left_out_until_somebody_wants_them(view, picture):
-    assert view.legend.rows[Sample.POCKET].isChecked()
+    assert view.legend.rows[PathLineKind.POCKET].isChecked()
     paths = picture.paths
     many = CutPaths(*(np.concatenate([column] * 40) for column in (paths.start, paths.end, paths.look)))
     view.show_cut(None)
     view.show_cut(replace(picture, paths=many))
-    assert not view.legend.rows[Sample.POCKET].isChecked() and view.legend.rows[Sample.RAPID].isChecked()
-    view.legend.rows[Sample.POCKET].setChecked(True)
+    assert not view.legend.rows[PathLineKind.POCKET].isChecked() and view.legend.rows[PathLineKind.RAPID].isChecked()
+    view.legend.rows[PathLineKind.POCKET].setChecked(True)
     view.show_cut(replace(picture, paths=many))
-    assert view.legend.rows[Sample.POCKET].isChecked()
+    assert view.legend.rows[PathLineKind.POCKET].isChecked()
 
 
 def test_a_cut_that_came_while_the_view_was_hidden_is_painted_finely_too(qtbot, view):
     view.hide()
     view.show_cut(made_up(120))
-    qtbot.waitUntil(lambda: view.painting.resting, timeout=5000)
+    qtbot.waitUntil(lambda: view.render_scheduler.resting, timeout=5000)
     view.show()
-    qtbot.waitUntil(lambda: view.painting.fine, timeout=20_000)
+    qtbot.waitUntil(lambda: view.render_scheduler.fine, timeout=20_000)
 
 
 def test_a_section_opens_the_stock_and_the_probe_meets_its_face(qtbot, view):
-    qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
+    qtbot.mouseClick(view.legend.side.buttons[SectionAxis.Y], LEFT)
     assert view.legend.slider.isVisible()
     assert view.model.section.offset == -50.0
-    hit = view.hands.probe(QPointF(on_screen(view, (80.0, 50.0, -15.0))))
+    hit = view.cut_input.probe(QPointF(on_screen(view, (80.0, 50.0, -15.0))))
     assert hit.place == pytest.approx((80.0, 50.0, -15.0), abs=0.3)
-    qtbot.mouseClick(view.legend.side.buttons[Side.X], LEFT)
+    qtbot.mouseClick(view.legend.side.buttons[SectionAxis.X], LEFT)
     assert view.model.camera.axes[2, 0] < 0 and view.model.section.normal == (-1.0, 0.0)
-    qtbot.mouseClick(view.legend.side.buttons[Side.Y], LEFT)
+    qtbot.mouseClick(view.legend.side.buttons[SectionAxis.Y], LEFT)
     view.legend.slider.setValue(250)
     assert view.model.section.offset == -25.0
-    qtbot.mouseClick(view.legend.side.buttons[Side.WHOLE], LEFT)
+    qtbot.mouseClick(view.legend.side.buttons[SectionAxis.WHOLE], LEFT)
     assert view.model.section is None
 
 
@@ -272,20 +272,24 @@ def fails(scene):
 
 def test_a_surface_that_fails_is_replaced_and_that_is_said_once(qtbot, view):
     said = []
-    view.surfacing.said.connect(said.append)
-    old, before = view.painting.surface, pixels(view)
+    view.surface_host.said.connect(said.append)
+    old, before = view.render_scheduler.surface, pixels(view)
     old._scene.draw = fails
-    view.painting.moved()
+    view.render_scheduler.moved()
     qtbot.waitUntil(
-        lambda: view.painting.surface is not old and view.painting.surface is not None and view.painting.fine,
+        lambda: (
+            view.render_scheduler.surface is not old
+            and view.render_scheduler.surface is not None
+            and view.render_scheduler.fine
+        ),
         timeout=20_000,
     )
     assert len(said) == 1
     assert "GL_CONTEXT_LOST" in said[0]
     assert np.mean(np.abs(pixels(view) - before) > 3) < 0.001
-    view.painting.surface._scene.draw_in_steps = view.painting.surface._scene.draw = fails
-    view.painting.moved()
-    qtbot.waitUntil(lambda: bool(view.surfacing.failure), timeout=20_000)
+    view.render_scheduler.surface._scene.draw_in_steps = view.render_scheduler.surface._scene.draw = fails
+    view.render_scheduler.moved()
+    qtbot.waitUntil(lambda: bool(view.surface_host.failure), timeout=20_000)
     assert len(said) == 1
     assert view.sentence.text() == "The cut cannot be shown. The graphics system fails (GL_CONTEXT_LOST)."
     assert not view.legend.isVisible()

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from app.ui.views.cut.camera import Camera, StandardView
-from app.ui.views.cut.colouring import CutColour, colouring, values_of
-from app.ui.views.cut.frame import Frame
-from app.ui.views.cut.picking import Section
-from app.ui.views.cut.picture import CutPicture
-from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.cell_colours import CutColourBy, cell_colours, values_of
+from app.ui.views.cut.cell_picking import SectionPlane
+from app.ui.views.cut.cut_picture import CutPicture
+from app.ui.views.cut.rendering.cut_frame import CutFrame
+from app.ui.views.cut.rendering.cut_scene import CutScene
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 
@@ -30,20 +30,20 @@ def wave(cells, corner=(0.0, 0.0), side=10.0):
     )
 
 
-def painted(context, picture, camera, detail=None, colour=CutColour.DEPTH, **more):
+def painted(context, picture, camera, detail=None, colour=CutColourBy.DEPTH, **more):
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        scene.show_colours(colouring(picture, colour, INKS))
+        scene.show_colours(cell_colours(picture, colour, INKS))
         scene.show_detail(detail, values_of(detail, colour, picture.span) if detail is not None else None)
-        scene.draw(Frame(camera, SIZE, LOOK, **more))
+        scene.draw(CutFrame(camera, SIZE, LOOK, **more))
         pixels = scene.pixels().astype(int)
         scene.release()
     return pixels
 
 
 @pytest.mark.parametrize(("yaw", "pitch"), [(0.0, np.pi / 2), (0.7, 0.6), (-2.2, 0.9)])
-@pytest.mark.parametrize("section", [None, Section((1.0, 0.0), 5.2)])
+@pytest.mark.parametrize("section", [None, SectionPlane((1.0, 0.0), 5.2)])
 def test_the_same_metal_looks_the_same_with_and_without_it(context, yaw, pitch, section):
     whole, detail = wave(400), wave(400, (3.0, 4.0), 3.5)
     camera = Camera(yaw=yaw, pitch=pitch).fitted(whole.low, whole.high, SIZE)
@@ -70,7 +70,7 @@ def test_sides_of_the_stock_within_the_part_are_its_own(context):
     whole = flat_picture(np.full((64, 64), -1.0))
     deep = replace(whole, heights=np.full((64, 64), -8.0, np.float32), x0=4.0, y0=0.0, pitch=2.0 / 64, values={})
     camera = seen(whole, StandardView.FRONT)
-    got = painted(context, whole, camera, deep, CutColour.METAL)
+    got = painted(context, whole, camera, deep, CutColourBy.METAL)
     at = camera.project(np.array([[5.0, 0.0, -4.0], [2.0, 0.0, -4.0], [5.0, 0.0, -9.0]]), SIZE)[:, :2].astype(int)
     above, side, foot = (got[row, column].tolist() for column, row in at)
     assert foot == side != above

@@ -7,9 +7,9 @@ import pytest
 
 from app.simulation.gpu.wedges_picture import WedgesPicture
 from app.ui.views.cut.camera import Camera
-from app.ui.views.cut.colouring import CutColour, colouring
-from app.ui.views.cut.frame import Frame
-from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
+from app.ui.views.cut.rendering.cut_frame import CutFrame
+from app.ui.views.cut.rendering.cut_scene import CutScene
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture
 
@@ -41,11 +41,11 @@ def painted(context, *shown, camera=CAMERA, **more):
     with context:
         scene = CutScene(context)
         scene.show_picture(METAL)
-        scene.show_colours(colouring(METAL, CutColour.METAL, INKS))
+        scene.show_colours(cell_colours(METAL, CutColourBy.METAL, INKS))
         made = []
         for wedges in shown:
             scene.show_wedges(wedges)
-            scene.draw(Frame(camera, SIZE, LOOK, **more))
+            scene.draw(CutFrame(camera, SIZE, LOOK, **more))
             made.append(scene.pixels().astype(int))
         scene.release()
     return made

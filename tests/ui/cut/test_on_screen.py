@@ -27,12 +27,12 @@ def test_without_any_opengl_the_view_says_what_to_do():
     code = """
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
-from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.view import CutView
 from tests.ui.cut.made_up import made_up
 view = CutView()
 view.show()
 view.show_cut(made_up(50))
-assert view.painting.surface is None and not view.legend.isVisible() and not view.overlay.isVisible()
+assert view.render_scheduler.surface is None and not view.legend.isVisible() and not view.overlay.isVisible()
 print(view.sentence.text())
 """
     environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "__EGL_VENDOR_LIBRARY_FILENAMES": "/nowhere.json"}

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 
 from app.ui.framework.theme import DARK
-from app.ui.views.cut.cut_view import CutView
+from app.ui.views.cut.view import CutView
 from tests.ui.cut.made_up import made_up
 from tests.ui.cut.pictures import without_a_screen
 

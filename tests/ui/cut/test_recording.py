@@ -20,11 +20,19 @@ from app.core.settings import Settings
 from app.model.tool import Tool
 from app.ui.shell.start import places
 from app.ui.views.cut.camera import Camera
-from app.ui.views.cut.colouring import CutColour, colouring
-from app.ui.views.cut.frame import Frame
-from app.ui.views.cut.patch import patch_of
-from app.ui.views.cut.recording import Reel, Shot, Whole, record, rendered, write_gif, write_pictures
-from app.ui.views.cut.scene import CutScene
+from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
+from app.ui.views.cut.cell_patch import patch_of
+from app.ui.views.cut.recording import (
+    CutSnapshot,
+    FrameChange,
+    RecordingLength,
+    record,
+    rendered,
+    write_gif,
+    write_pictures,
+)
+from app.ui.views.cut.rendering.cut_frame import CutFrame
+from app.ui.views.cut.rendering.cut_scene import CutScene
 from app.ui.views.cut.tool_outline import DrawnTool, outline_of
 from tests.conftest import ROOT
 from tests.ui.cut.pictures import INKS, LOOK, flat_picture, without_a_screen
@@ -35,7 +43,7 @@ COUNT = 5
 
 def frame():
     picture = flat_picture(np.zeros((64, 64)))
-    return Frame(Camera().fitted(picture.low, picture.high, SIZE), SIZE, LOOK)
+    return CutFrame(Camera().fitted(picture.low, picture.high, SIZE), SIZE, LOOK)
 
 
 def shots():
@@ -46,9 +54,9 @@ def shots():
     for k in range(COUNT):
         place = (slice(28, 36), slice(10 * k, 10 * k + 10))
         heights[place], values[place] = -3.0, 0
-        whole = Whole(picture, colouring(picture, CutColour.METAL, INKS)) if k == 0 else None
+        whole = CutSnapshot(picture, cell_colours(picture, CutColourBy.METAL, INKS)) if k == 0 else None
         camera = Camera(target=(5.0, 5.0, 0.0), pitch=1.5, scale=8.0) if k == COUNT - 1 else None
-        yield Shot(
+        yield FrameChange(
             whole,
             (patch_of(heights, values, picture.pitch, place),),
             tool,
@@ -67,10 +75,10 @@ def directly():
             heights[patch.rows, patch.columns] = patch.heights
             picture = flat_picture(heights)
             scene.show_picture(picture)
-            scene.show_colours(colouring(picture, CutColour.METAL, INKS))
+            scene.show_colours(cell_colours(picture, CutColourBy.METAL, INKS))
             scene.show_tool(shot.tool)
             scene.place_tool(shot.tip)
-            scene.draw(Frame(shot.camera or frame().camera, SIZE, LOOK))
+            scene.draw(CutFrame(shot.camera or frame().camera, SIZE, LOOK))
             made.append((heights, scene.pixels().copy()))
             scene.release()
     return [pixels for _, pixels in made]
@@ -107,7 +115,13 @@ def test_it_paints_on_another_thread_and_leaves_no_context_current_there_or_here
 
 def test_single_pictures_are_numbered_files(tmp_path: Path, expected):
     told = []
-    record(shots(), frame(), tmp_path / "play", Reel(COUNT), Progress(lambda share, text: told.append((share, text))))
+    record(
+        shots(),
+        frame(),
+        tmp_path / "play",
+        RecordingLength(COUNT),
+        Progress(lambda share, text: told.append((share, text))),
+    )
     files = sorted((tmp_path / "play").iterdir())
     assert [file.name for file in files] == [f"frame_{k:04d}.png" for k in range(1, COUNT + 1)]
     for file, pixels in zip(files, expected, strict=True):
@@ -118,7 +132,7 @@ def test_single_pictures_are_numbered_files(tmp_path: Path, expected):
 
 
 def test_a_name_that_ends_in_gif_is_a_moving_picture(tmp_path: Path, expected):
-    record(shots(), frame(), tmp_path / "play.GIF", Reel(COUNT, 20.0))
+    record(shots(), frame(), tmp_path / "play.GIF", RecordingLength(COUNT, 20.0))
     done, found = cv2.imreadanimation(str(tmp_path / "play.GIF"))
     assert done and list(found.durations) == [50] * COUNT and len(found.frames) == COUNT
     for got, pixels in zip(found.frames, expected, strict=True):
@@ -128,15 +142,15 @@ def test_a_name_that_ends_in_gif_is_a_moving_picture(tmp_path: Path, expected):
 def test_a_folder_with_something_in_it_is_refused_and_an_empty_one_taken(tmp_path: Path):
     folder = tmp_path / "play"
     folder.mkdir()
-    write_pictures(iter([np.zeros((4, 4, 3), np.uint8)]), folder, Reel(1))
+    write_pictures(iter([np.zeros((4, 4, 3), np.uint8)]), folder, RecordingLength(1))
     with pytest.raises(InputError, match="play is not empty; name a new folder"):
-        write_pictures(iter([np.zeros((4, 4, 3), np.uint8)]), folder, Reel(1))
+        write_pictures(iter([np.zeros((4, 4, 3), np.uint8)]), folder, RecordingLength(1))
     assert len(list(folder.iterdir())) == 1
     (tmp_path / "file").write_text("x")
     with pytest.raises(InputError, match="file is not empty"):
-        write_pictures(iter([]), tmp_path / "file", Reel(1))
+        write_pictures(iter([]), tmp_path / "file", RecordingLength(1))
     with pytest.raises(InputError, match=r"Cannot write .*nowhere"):
-        write_pictures(iter([]), tmp_path / "nowhere" / "play", Reel(1))
+        write_pictures(iter([]), tmp_path / "nowhere" / "play", RecordingLength(1))
 
 
 @pytest.mark.parametrize("name", ["play", "play.gif"])
@@ -158,26 +172,26 @@ def test_what_ends_before_its_end_leaves_nothing_behind(tmp_path: Path, name, fa
     stop = threading.Event()
     write = write_gif if name.endswith("gif") else write_pictures
     with pytest.raises(fault):
-        write(frames(), tmp_path / name, Reel(9), Progress(cancelled=stop))
+        write(frames(), tmp_path / name, RecordingLength(9), Progress(cancelled=stop))
     assert not list(tmp_path.iterdir()) and released == [True]
 
 
 def test_a_gif_that_would_be_too_fast_is_refused(tmp_path: Path):
     with pytest.raises(InputError, match="cannot show 60 pictures a second; use more than 0 and not more than 50"):
-        write_gif(iter([]), tmp_path / "play.gif", Reel(1, 60.0))
+        write_gif(iter([]), tmp_path / "play.gif", RecordingLength(1, 60.0))
 
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
 import numpy as np
-from app.ui.views.cut.recording import Reel, write_pictures
+from app.ui.views.cut.recording import RecordingLength, write_pictures
 
 def frames():
     yield np.zeros((4, 4, 3), np.uint8)
     os.kill(os.getpid(), signal.SIGKILL)
 
-write_pictures(frames(), Path(sys.argv[1]), Reel(9))
+write_pictures(frames(), Path(sys.argv[1]), RecordingLength(9))
 """
 
 
@@ -190,7 +204,7 @@ def test_what_a_killed_recording_has_left_is_swept_by_the_next_one_and_at_start(
         return left
 
     left = killed()
-    record(shots(), frame(), tmp_path / "other", Reel(COUNT))
+    record(shots(), frame(), tmp_path / "other", RecordingLength(COUNT))
     assert not left.exists() and [each.name for each in tmp_path.iterdir()] == ["other"]
     shutil.rmtree(tmp_path / "other")
     left = killed()

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from app.ui.views.cut.camera import Camera, StandardView
-from app.ui.views.cut.colouring import CutColour
-from app.ui.views.cut.frame import Frame, section_ends
-from app.ui.views.cut.path_ribbons import rows_of, thinned
-from app.ui.views.cut.picking import Section
-from app.ui.views.cut.picture import CutMoves, CutPaths
-from app.ui.views.cut.scene import CutScene
-from app.ui.views.nc.motion_shapes import Look
+from app.ui.views.cut.cell_colours import CutColourBy
+from app.ui.views.cut.cell_picking import SectionPlane
+from app.ui.views.cut.cut_picture import CutMoves, CutPaths
+from app.ui.views.cut.rendering.cut_frame import CutFrame, section_ends
+from app.ui.views.cut.rendering.cut_scene import CutScene
+from app.ui.views.cut.rendering.path_ribbons import rows_of, thinned
+from app.ui.views.nc.motion_shapes import MotionLineStyle
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import (
     AMBIENT,
@@ -144,7 +144,7 @@ def test_colours_of_a_palette_reach_the_screen_cell_by_cell(context):
     moves = CutMoves(np.arange(3, dtype=np.int32), np.array([7, 3, 9], np.int32), np.zeros(3, np.int32))
     picture = flat_picture(np.full((N, N), -1.0), move=move.astype(np.int32), moves=moves)
     camera = seen(picture, StandardView.TOP)
-    image = painted(context, picture, camera, CutColour.TOOL)
+    image = painted(context, picture, camera, CutColourBy.TOOL)
     light = float(brightness(camera, np.zeros(1), np.zeros(1))[0])
     for quarter, colour in enumerate((STOCK, (0, 255, 0), (255, 0, 0), (0, 0, 255))):
         px, py, _ = camera.project(np.array([[1.25 + 2.5 * quarter, 5.0, -1.0]]), SIZE)[0]
@@ -155,7 +155,7 @@ def test_a_section_takes_away_what_lies_beyond_it_and_shows_a_hatched_face(conte
     picture = flat_picture(np.full((N, N), -2.0))
     camera = seen(picture, StandardView.FRONT)
     whole, open_ = (
-        painted(context, picture, camera, section=section) for section in (None, Section((0.0, -1.0), -5.0))
+        painted(context, picture, camera, section=section) for section in (None, SectionPlane((0.0, -1.0), -5.0))
     )
     silhouette = [~np.all(image == GROUND, axis=2) for image in (whole, open_)]
     assert np.array_equal(*silhouette)
@@ -166,14 +166,15 @@ def test_a_section_takes_away_what_lies_beyond_it_and_shows_a_hatched_face(conte
     from_right = seen(picture, StandardView.RIGHT)
     both = (
         painted(context, picture, from_right),
-        painted(context, picture, from_right, section=Section((0.0, -1.0), -5.0)),
+        painted(context, picture, from_right, section=SectionPlane((0.0, -1.0), -5.0)),
     )
     widths = [np.any(~np.all(image == GROUND, axis=2), axis=0).sum() for image in both]
     assert widths[1] == pytest.approx(widths[0] / 2, abs=1.5)
 
 
 @pytest.mark.parametrize(
-    ("look", "period", "drawn"), [(Look.CONTOUR, 9.0, 5.5), (Look.RAPID, 5.0, 2.0), (Look.CUT, 0.0, 0.0)]
+    ("look", "period", "drawn"),
+    [(MotionLineStyle.CONTOUR, 9.0, 5.5), (MotionLineStyle.RAPID, 5.0, 2.0), (MotionLineStyle.CUT, 0.0, 0.0)],
 )
 def test_contours_are_dashed_rapids_dotted_and_pockets_solid(context, look, period, drawn):
     paths = CutPaths(np.array([[0.5, 5.0, 1.0]]), np.array([[9.5, 5.0, 1.0]]), np.array([look], np.uint8))
@@ -194,7 +195,9 @@ def test_contours_are_dashed_rapids_dotted_and_pockets_solid(context, look, peri
 
 def test_paths_under_metal_are_hidden_and_those_on_it_are_not(context):
     def visible(z):
-        paths = CutPaths(np.array([[1.0, 5.0, z]]), np.array([[9.0, 5.0, z]]), np.array([Look.CUT], np.uint8))
+        paths = CutPaths(
+            np.array([[1.0, 5.0, z]]), np.array([[9.0, 5.0, z]]), np.array([MotionLineStyle.CUT], np.uint8)
+        )
         picture = flat_picture(np.full((N, N), -1.0), paths=paths)
         camera = seen(picture, StandardView.TOP)
         return bool(np.any(painted(context, picture, camera) != painted(context, picture, camera, shown=frozenset())))
@@ -207,11 +210,11 @@ def test_painting_piece_by_piece_gives_the_same_and_shows_nothing_half_done(cont
     x, _ = cells(512)
     picture = flat_picture(-1.0 + 0.5 * np.sin(x))
     camera = Camera().fitted(picture.low, picture.high, (800, 600))
-    whole = Frame(camera, (800, 600), LOOK)
+    whole = CutFrame(camera, (800, 600), LOOK)
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        scene.draw(Frame(camera, (800, 600), LOOK, budget=256))
+        scene.draw(CutFrame(camera, (800, 600), LOOK, budget=256))
         coarse = scene.pixels().copy()
         steps = scene.draw_in_steps(whole)
         next(steps)
@@ -231,7 +234,7 @@ def test_only_cells_in_sight_are_painted_and_none_of_them_is_missing(context):
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        first, last = Frame(camera, SIZE, LOOK).seen_cells(picture, picture.highest)
+        first, last = CutFrame(camera, SIZE, LOOK).seen_cells(picture, picture.highest)
         scene.release()
     assert (last[0] - first[0]) * (last[1] - first[1]) < 0.6 * 256**2
     image = painted(context, picture, camera)
@@ -240,14 +243,14 @@ def test_only_cells_in_sight_are_painted_and_none_of_them_is_missing(context):
 
 def test_where_a_section_enters_and_leaves_the_stock():
     low, high = np.array([0.0, 0.0, -1.0]), np.array([10.0, 4.0, 0.0])
-    assert section_ends(Section((0.0, -1.0), -1.0), low, high) == ((0.0, 1.0), (10.0, 1.0))
-    assert section_ends(Section((1.0, 0.0), 12.0), low, high) is None
-    ends = section_ends(Section((math.sqrt(0.5), math.sqrt(0.5)), math.sqrt(0.5) * 4), low, high)
+    assert section_ends(SectionPlane((0.0, -1.0), -1.0), low, high) == ((0.0, 1.0), (10.0, 1.0))
+    assert section_ends(SectionPlane((1.0, 0.0), 12.0), low, high) is None
+    ends = section_ends(SectionPlane((math.sqrt(0.5), math.sqrt(0.5)), math.sqrt(0.5) * 4), low, high)
     assert np.allclose(sorted(ends), [(0.0, 4.0), (4.0, 0.0)])
 
 
 def test_a_long_path_is_thinned_within_its_unbroken_parts_alone():
-    looks = np.array([Look.CUT] * 5 + [Look.CONTOUR] * 3 + [Look.CUT] * 2, np.uint8)
+    looks = np.array([MotionLineStyle.CUT] * 5 + [MotionLineStyle.CONTOUR] * 3 + [MotionLineStyle.CUT] * 2, np.uint8)
     places = np.arange(11.0)[:, None] * np.array([1.0, 0.0, 0.0])
     start, end = places[:-1].copy(), places[1:].copy()
     start[9] += 0.5

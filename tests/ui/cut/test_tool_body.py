@@ -8,11 +8,11 @@ import pytest
 
 from app.model.tool import Tool, ToolKind
 from app.ui.views.cut.camera import Camera, StandardView
-from app.ui.views.cut.colouring import CutColour, colouring
-from app.ui.views.cut.frame import Frame
-from app.ui.views.cut.picking import Section
-from app.ui.views.cut.scene import CutScene
-from app.ui.views.cut.tool_outline import DrawnTool, Part, outline_of
+from app.ui.views.cut.cell_colours import CutColourBy, cell_colours
+from app.ui.views.cut.cell_picking import SectionPlane
+from app.ui.views.cut.rendering.cut_frame import CutFrame
+from app.ui.views.cut.rendering.cut_scene import CutScene
+from app.ui.views.cut.tool_outline import DrawnTool, ToolPart, outline_of
 from tests.ui.cut import pictures
 from tests.ui.cut.pictures import INKS, LOOK, SIZE, flat_picture, seen
 
@@ -38,12 +38,12 @@ def painted(context, picture, camera, tool=None, tips=((0.0, 0.0, 0.0),), **more
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        scene.show_colours(colouring(picture, CutColour.METAL, INKS))
+        scene.show_colours(cell_colours(picture, CutColourBy.METAL, INKS))
         scene.show_tool(DrawnTool(outline_of(tool), tool.flutes) if tool is not None else None)
         made = []
         for tip in tips:
             scene.place_tool(tip)
-            scene.draw(Frame(camera, SIZE, LOOK, **more))
+            scene.draw(CutFrame(camera, SIZE, LOOK, **more))
             made.append(scene.pixels().astype(int))
         scene.release()
     return made
@@ -97,7 +97,7 @@ def test_the_metal_under_it_can_be_judged_and_cutting_part_shank_and_holder_are_
     assert np.corrcoef(with_it[under].mean(axis=1), without[under].mean(axis=1))[0, 1] > 0.9
     front = seen(flat_picture(np.full((32, 32), -9.9)), StandardView.FRONT)
     (image,) = painted(context, flat_picture(np.full((32, 32), -9.9)), front, tool, [(5.0, 5.0, -7.0)])
-    heights = {Part.CUTTING: 1.5, Part.SHANK: 4.5, Part.HOLDER: 9.0}
+    heights = {ToolPart.CUTTING: 1.5, ToolPart.SHANK: 4.5, ToolPart.HOLDER: 9.0}
     places = front.project(np.array([[5.0, 5.0, -7.0 + height] for height in heights.values()]), SIZE)
     cutting, shank, holder = (image[round(y), round(x) - 3] for x, y, _ in places)
     assert cutting[1] > 1.5 * cutting[0], "the first tool's colour is green"
@@ -129,7 +129,7 @@ def test_it_is_seen_however_far_it_stands_off_and_a_section_leaves_it_whole(cont
     picture, tool = flat_picture(np.full((32, 32), -1.0)), TOOLS[1]
     camera = Camera(target=(5.0, 5.0, 200.0), scale=14.0)
     (bare,) = painted(context, picture, camera)
-    for section in (None, Section((1.0, 0.0), 2.0)):
+    for section in (None, SectionPlane((1.0, 0.0), 2.0)):
         (high,) = painted(context, picture, camera, tool, [(5.0, 5.0, 198.0)], section=section)
         assert differs(high, bare).sum() > 1500
 
@@ -151,12 +151,12 @@ def test_no_tool_leaves_the_picture_as_it_was(context):
     with context:
         scene = CutScene(context)
         scene.show_picture(picture)
-        scene.show_colours(colouring(picture, CutColour.METAL, INKS))
+        scene.show_colours(cell_colours(picture, CutColourBy.METAL, INKS))
         kept = []
         for tool in (None, DrawnTool(outline_of(TOOLS[0])), None):
             scene.show_tool(tool)
             scene.place_tool((5.0, 5.0, -1.0))
-            scene.draw(Frame(camera, SIZE, LOOK))
+            scene.draw(CutFrame(camera, SIZE, LOOK))
             kept.append(scene.pixels().copy())
         scene.release()
     assert np.array_equal(kept[0], kept[2]) and not np.array_equal(kept[0], kept[1])

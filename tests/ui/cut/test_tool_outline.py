@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from app.model.tool import Tool, ToolKind
 from app.model.tool_kind import tool_kinds
 from app.simulation.cutter import cutter_of
-from app.ui.views.cut.tool_outline import Part, outline_of
+from app.ui.views.cut.tool_outline import ToolPart, outline_of
 from tests.examples import examples
 
 HOLDER = ((0.0, 10.0), (20.0, 10.0), (20.0, 16.0), (32.0, 16.0))
@@ -36,7 +36,7 @@ def parts(outline):
 @pytest.mark.parametrize("kind", tool_kinds())
 def test_the_end_is_the_cutter_that_the_engine_cuts_with(kind):
     tool = made(kind, flute_length=30.0)
-    points, cutter = parts(outline_of(tool))[Part.CUTTING], cutter_of(tool)
+    points, cutter = parts(outline_of(tool))[ToolPart.CUTTING], cutter_of(tool)
     below = points[(points[:, 1] < tool.radius - 1e-6) | (points[:, 0] == 0.0)]
     assert np.allclose(cutter.heights(below[:, 1])[below[:, 1] > 0], below[below[:, 1] > 0, 0], atol=1e-9)
     between = np.linspace(0.0, tool.radius - 1e-6, 400)
@@ -53,35 +53,37 @@ def test_flutes_shank_and_holder_are_where_the_tool_says():
         made(ToolKind.BALL, flute_length=14.0, overall_length=60.0, stick_out=28.0, shank_diameter=8.0, holder=HOLDER)
     )
     found = parts(outline)
-    assert list(found) == [Part.CUTTING, Part.SHANK, Part.HOLDER]
-    assert found[Part.CUTTING][-1].tolist() == [14.0, 3.0]
-    assert found[Part.SHANK].tolist() == [[14.0, 3.0], [14.0, 4.0], [28.0, 4.0]]
-    assert found[Part.HOLDER].tolist() == [[28.0, 4.0], *[[28.0 + h, r] for h, r in HOLDER], [60.0, 0.0]]
+    assert list(found) == [ToolPart.CUTTING, ToolPart.SHANK, ToolPart.HOLDER]
+    assert found[ToolPart.CUTTING][-1].tolist() == [14.0, 3.0]
+    assert found[ToolPart.SHANK].tolist() == [[14.0, 3.0], [14.0, 4.0], [28.0, 4.0]]
+    assert found[ToolPart.HOLDER].tolist() == [[28.0, 4.0], *[[28.0 + h, r] for h, r in HOLDER], [60.0, 0.0]]
     assert (outline.height, outline.widest) == (60.0, 16.0)
 
 
 def test_what_is_not_told_is_made_up():
     bare = parts(outline_of(made()))
-    assert bare[Part.CUTTING][-1].tolist() == [18.0, 3.0] and bare[Part.SHANK].tolist() == [
+    assert bare[ToolPart.CUTTING][-1].tolist() == [18.0, 3.0] and bare[ToolPart.SHANK].tolist() == [
         [18.0, 3.0],
         [36.0, 3.0],
         [36.0, 0.0],
     ]
     short = parts(outline_of(made(stick_out=20.0)))
-    assert short[Part.CUTTING][-1, 0] == pytest.approx(12.0) and short[Part.SHANK][-1].tolist() == [20.0, 0.0]
+    assert short[ToolPart.CUTTING][-1, 0] == pytest.approx(12.0) and short[ToolPart.SHANK][-1].tolist() == [20.0, 0.0]
     assert outline_of(made(overall_length=50.0, stick_out=20.0)).height == 50.0
     held = parts(outline_of(made(holder=HOLDER)))
-    assert held[Part.HOLDER][0].tolist() == [24.0, 3.0]
+    assert held[ToolPart.HOLDER][0].tolist() == [24.0, 3.0]
 
 
 def test_a_cones_flutes_end_with_it_and_known_ones_end_on_it():
     cone = 2.8 / math.tan(0.6)
     found = parts(outline_of(made(ToolKind.V)))
-    assert found[Part.CUTTING][-1] == pytest.approx((cone, 3.0))
+    assert found[ToolPart.CUTTING][-1] == pytest.approx((cone, 3.0))
     cut_short = parts(outline_of(made(ToolKind.V, flute_length=2.0, shank_diameter=4.0)))
     border = (2.0, 0.2 + 2.0 * math.tan(0.6))
-    assert cut_short[Part.CUTTING][-1] == pytest.approx(border) and cut_short[Part.SHANK][0] == pytest.approx(border)
-    assert cut_short[Part.SHANK][1] == pytest.approx((cone, 3.0)) and cut_short[Part.SHANK][2] == pytest.approx(
+    assert cut_short[ToolPart.CUTTING][-1] == pytest.approx(border) and cut_short[ToolPart.SHANK][0] == pytest.approx(
+        border
+    )
+    assert cut_short[ToolPart.SHANK][1] == pytest.approx((cone, 3.0)) and cut_short[ToolPart.SHANK][2] == pytest.approx(
         (cone, 2.0)
     )
 
@@ -111,5 +113,5 @@ def test_every_tool_is_one_closed_outline(kind, flutes, overall, stick_out, shan
     assert np.all(np.diff(together[:, 0]) >= -1e-9) and np.all(together[:, 1] >= 0.0)
     assert all(len(part) > 1 and np.all(np.any(np.diff(part, axis=0) != 0, axis=1)) for part in points)
     assert [stretch.part for stretch in outline.stretches] == sorted(stretch.part for stretch in outline.stretches)
-    assert outline.stretches[0].part is Part.CUTTING
-    assert (outline.stretches[-1].part is Part.HOLDER) == bool(holder)
+    assert outline.stretches[0].part is ToolPart.CUTTING
+    assert (outline.stretches[-1].part is ToolPart.HOLDER) == bool(holder)

@@ -22,7 +22,7 @@ def text(qtbot, wiring):
 
 def settle(qtbot, text) -> None:
     """Wait until what was typed has been tried."""
-    qtbot.waitUntil(lambda: not text.trying.busy, timeout=10_000)
+    qtbot.waitUntil(lambda: not text.trial_runner.busy, timeout=10_000)
 
 
 def type_lines(qtbot, text, *lines: str) -> None:
@@ -70,13 +70,13 @@ def test_what_is_wrong_is_underlined_in_place_and_a_click_goes_there(qtbot, wiri
 
 def test_the_next_key_leaves_a_long_text_and_the_last_one_is_shown(qtbot, wiring, text) -> None:
     text.text = "repeat 100000 as k; circle k,0 1; end"
-    qtbot.waitUntil(lambda: text.trying.worker.busy, timeout=10_000)
+    qtbot.waitUntil(lambda: text.trial_runner.worker.busy, timeout=10_000)
     text.text = "circle 0,0 1"
-    assert not text.trying.worker.busy
+    assert not text.trial_runner.worker.busy
     settle(qtbot, text)
     assert len(shown(wiring).added) == 1
     qtbot.wait(50)
-    assert not text.trying._alive
+    assert not text.trial_runner._alive
 
 
 def test_run_adds_and_is_undone_as_one_step(qtbot, wiring, text) -> None:

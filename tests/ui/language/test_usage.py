@@ -6,15 +6,15 @@ from app.drafting.expressions.functions import FUNCTIONS
 from app.drafting.language.language import ALIASES, COMMANDS
 from app.ui.framework.theme import DARK, LIGHT, mixed
 from app.ui.views.language.completion import offers, word_before
-from app.ui.views.language.highlight import Ink, inks, pieces
-from app.ui.views.language.usage import Kind, usage_of
+from app.ui.views.language.highlight import SyntaxKind, pieces, syntax_colours
+from app.ui.views.language.usage import WordKind, usage_of
 from tests.ui.test_theme import contrast
 
 
 @pytest.mark.parametrize("word", [*COMMANDS, *ALIASES])
 def test_every_command_tells_how_it_is_written(word: str) -> None:
     usage = usage_of(word.upper())
-    assert usage is not None and usage.kind is Kind.COMMAND
+    assert usage is not None and usage.kind is WordKind.COMMAND
     assert all(form.startswith(usage.word) and does.count("|") == 0 for form, does in usage.forms)
 
 
@@ -41,21 +41,21 @@ def test_what_a_line_is_made_of() -> None:
     line = 'circle mid(a, b) 1in+2 as hole # "x"'
     found = {line[start : start + length]: ink for start, length, ink in pieces(line)}
     assert found == {
-        "circle": Ink.COMMAND,
-        "mid": Ink.FUNCTION,
-        "1in": Ink.NUMBER,
-        "2": Ink.NUMBER,
-        "as": Ink.BLOCK,
-        '# "x"': Ink.REMARK,
+        "circle": SyntaxKind.COMMAND,
+        "mid": SyntaxKind.FUNCTION,
+        "1in": SyntaxKind.NUMBER,
+        "2": SyntaxKind.NUMBER,
+        "as": SyntaxKind.BLOCK,
+        '# "x"': SyntaxKind.REMARK,
     }
     assert [ink for _, _, ink in pieces('rotate 0,0 3 copy; layer "a#b"')] == [
-        Ink.COMMAND,
-        Ink.NUMBER,
-        Ink.NUMBER,
-        Ink.NUMBER,
-        Ink.OPTION,
-        Ink.COMMAND,
-        Ink.TEXT,
+        SyntaxKind.COMMAND,
+        SyntaxKind.NUMBER,
+        SyntaxKind.NUMBER,
+        SyntaxKind.NUMBER,
+        SyntaxKind.OPTION,
+        SyntaxKind.COMMAND,
+        SyntaxKind.TEXT,
     ]
     assert pieces("bolt place size") == [] and pieces("1in2")[0][1] == 1
 
@@ -63,7 +63,7 @@ def test_what_a_line_is_made_of() -> None:
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_every_ink_can_be_read(theme) -> None:
     grounds = (theme.raised, mixed(theme.raised, theme.hover, 0.6))
-    assert all(contrast(colour, ground) >= 4.5 for colour in inks(theme).values() for ground in grounds)
+    assert all(contrast(colour, ground) >= 4.5 for colour in syntax_colours(theme).values() for ground in grounds)
 
 
 def test_offers_fit_the_place() -> None:

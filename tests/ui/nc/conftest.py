@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.ui.framework.computation import State
+from app.ui.framework.computation import ComputationState
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
 
 
@@ -18,6 +18,7 @@ def computed(qtbot, wiring):
     """The sample part, computed, and its program read."""
     wiring.files.open_sample()
     qtbot.waitUntil(
-        lambda: wiring.computation.state is State.CURRENT and nc_of(wiring).shown is not None, timeout=WAIT_MS
+        lambda: wiring.computation.state is ComputationState.CURRENT and nc_of(wiring).shown is not None,
+        timeout=WAIT_MS,
     )
     return wiring

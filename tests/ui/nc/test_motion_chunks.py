@@ -15,10 +15,10 @@ from app.gcode.interpreter.options import ReadOptions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion_path import anchored
 from app.ui.framework.theme import LIGHT
-from app.ui.views.canvas.view import View
+from app.ui.views.canvas.view_transform import ViewTransform
 from app.ui.views.nc.motion_hover import describe_motion, nearest_motion
-from app.ui.views.nc.motion_picture import MotionPicture, PathColour, PathPaint
-from app.ui.views.nc.motion_shapes import Side, shape_motions
+from app.ui.views.nc.motion_shapes import ViewSide, shape_motions
+from app.ui.views.nc.painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint
 from app.ui.views.nc.state_words import state_items
 
 START = "G21 G90\nT1 M6\nG0 X0 Y5 Z5\nG1 Z0 F100\n"
@@ -31,12 +31,14 @@ def shapes_of(text, dialect=Dialect.LINUXCNC):
     return shape_motions(program, contour_motions(text.encode(), program))
 
 
-def row_of_pixels(shapes, colour=PathColour.TOOL, y=5.0):
+def row_of_pixels(shapes, colour=MotionColourBy.TOOL, y=5.0):
     """Which pixels of the row at y of a picture 10 px to a mm are painted, x from 0.5 to 39.5 mm."""
     image = QImage(400, 100, QImage.Format.Format_RGB32)
     image.fill(0xFFFFFF)
     painter = QPainter(image)
-    MotionPicture(shapes, Side.XY).paint(painter, View(10.0, 0.0, 100.0), (0, 0, 40, 10), PathPaint(LIGHT, colour))
+    MotionLayer(shapes, ViewSide.XY).paint(
+        painter, ViewTransform(10.0, 0.0, 100.0), (0, 0, 40, 10), MotionPaint(LIGHT, colour)
+    )
     painter.end()
     line = round(100 - 10 * y)
     return np.array([any(image.pixel(x, line + d) & 0xFFFFFF != 0xFFFFFF for d in (-1, 0)) for x in range(5, 395)])
@@ -48,7 +50,7 @@ def runs(on):
     return np.diff(edges)
 
 
-@pytest.mark.parametrize("colour", list(PathColour))
+@pytest.mark.parametrize("colour", list(MotionColourBy))
 @pytest.mark.parametrize("step", [40.0, 0.5, 0.13])
 def test_a_contour_is_dashed_evenly_whatever_its_blocks(colour, step):
     ends = np.minimum(np.arange(1, round(40 / step) + 1) * step, 40)
@@ -79,10 +81,10 @@ HOMING = "G21 G90\nG0 X1 Y1 Z5\nG1 Z0 F100\nX9 Z1\n{home}\nG0 X9 Y9\nG1 Z1\nX0 Y
 @pytest.mark.parametrize(
     ("home", "dialect", "sides"),
     [
-        ("G53 G0 Z0", Dialect.LINUXCNC, (Side.XZ, Side.YZ)),
-        ("G28 X4 Y4 Z7", Dialect.LINUXCNC, tuple(Side)),
-        ("G91 G28 Z0.\nG90", Dialect.FANUC, (Side.XZ, Side.YZ)),
-        ("G30 X3 Y3 Z7", Dialect.LINUXCNC, tuple(Side)),
+        ("G53 G0 Z0", Dialect.LINUXCNC, (ViewSide.XZ, ViewSide.YZ)),
+        ("G28 X4 Y4 Z7", Dialect.LINUXCNC, tuple(ViewSide)),
+        ("G91 G28 Z0.\nG90", Dialect.FANUC, (ViewSide.XZ, ViewSide.YZ)),
+        ("G30 X3 Y3 Z7", Dialect.LINUXCNC, tuple(ViewSide)),
     ],
 )
 def test_ways_to_the_machines_home_and_back_are_not_painted(home, dialect, sides):
@@ -90,8 +92,8 @@ def test_ways_to_the_machines_home_and_back_are_not_painted(home, dialect, sides
     shapes = shapes_of(text, dialect)
     away = shapes.program.homeward[-1]
     assert shapes.length[away] == 0
-    for side in Side:
-        seen = MotionPicture(shapes, side).shapes.seen(side).tolist()
+    for side in ViewSide:
+        seen = MotionLayer(shapes, side).shapes.seen(side).tolist()
         assert (away not in seen) == (side in sides)
         assert set(range(away)) <= {*seen, *shapes.program.homeward}
         assert len(shapes) - 1 in seen
@@ -100,8 +102,8 @@ def test_ways_to_the_machines_home_and_back_are_not_painted(home, dialect, sides
 
 def test_the_box_of_the_picture_has_only_places_of_the_part():
     shapes = shapes_of("G21 G90\nG0 X10 Y10 Z5\nG1 Z0 F100\nX20\nG28 X11 Y11 Z5\nG0 X20 Y20\nG1 X10\nM2\n")
-    assert MotionPicture(shapes, Side.XY).box == pytest.approx((10, 10, 20, 20))
-    assert nearest_motion(shapes, Side.XY, (5, 5), 0.5) is None
+    assert MotionLayer(shapes, ViewSide.XY).box == pytest.approx((10, 10, 20, 20))
+    assert nearest_motion(shapes, ViewSide.XY, (5, 5), 0.5) is None
 
 
 def test_the_strip_says_that_it_goes_home():
@@ -115,8 +117,8 @@ def test_the_strip_says_that_it_goes_home():
 
 def test_only_some_motions_are_painted():
     shapes = shapes_of(f"{START}G1 X20\nX40\nM2\n")
-    painted = MotionPicture(shapes, Side.XY, np.array([3]))
+    painted = MotionLayer(shapes, ViewSide.XY, np.array([3]))
     assert painted.box == pytest.approx((20, 5, 40, 5))
     assert painted.some
-    assert not MotionPicture(shapes, Side.XY, np.array([], np.int64)).some
-    assert QRectF(*painted._chunks[PathColour.TOOL].boxes[0].tolist()).left() == 20
+    assert not MotionLayer(shapes, ViewSide.XY, np.array([], np.int64)).some
+    assert QRectF(*painted._chunks[MotionColourBy.TOOL].boxes[0].tolist()).left() == 20

@@ -8,10 +8,10 @@ import pytest
 from app.gcode.interpreter.program import ModalState, NcProgram
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind, Nurbs, Plane
-from app.ui.views.canvas.curve_path import ELEMENT
+from app.ui.views.canvas.painting.curve_path import ELEMENT
 from app.ui.views.nc.motion_hover import describe_motion, nearest_motion, outline
-from app.ui.views.nc.motion_picture import MotionPicture
-from app.ui.views.nc.motion_shapes import Look, Side, shape_motions
+from app.ui.views.nc.motion_shapes import MotionLineStyle, ViewSide, shape_motions
+from app.ui.views.nc.painting.motion_layer import MotionLayer
 from tests.ui.nc.hand_made import motions_of, program_of
 
 CCW, CW, LINE, RAPID = MotionKind.ARC_CCW, MotionKind.ARC_CW, MotionKind.LINE, MotionKind.RAPID
@@ -68,14 +68,20 @@ def test_looks_tell_rapids_plunges_and_cuts():
             ]
         )
     )
-    assert shapes.look.tolist() == [Look.RAPID, Look.PLUNGE, Look.CUT, Look.CUT, Look.CUT]
+    assert shapes.look.tolist() == [
+        MotionLineStyle.RAPID,
+        MotionLineStyle.PLUNGE,
+        MotionLineStyle.CUT,
+        MotionLineStyle.CUT,
+        MotionLineStyle.CUT,
+    ]
 
 
 def test_elements_begin_anew_after_a_gap_and_after_a_jump():
     motions = motions_of([(LINE, (1, 0, 0), 1), (LINE, (2, 0, 0), 2), (LINE, (3, 0, 0), 3)])
     motions.start.setflags(write=True)
     motions.start[2] = (2, 7, 0)
-    elements, at = shape_motions(NcProgram(motions)).elements(np.arange(3), Side.XY)
+    elements, at = shape_motions(NcProgram(motions)).elements(np.arange(3), ViewSide.XY)
     assert elements["kind"].tolist() == [0, 1, 1, 0, 1]
     assert elements.dtype == ELEMENT
     assert at.tolist() == [0, 2, 3, 5]
@@ -95,7 +101,7 @@ def test_lines_of_loops_find_all_their_motions():
 
 @pytest.mark.parametrize(
     ("side", "at", "found"),
-    [(Side.XY, (5, 0.2), 0), (Side.XZ, (10.1, 2), 1), (Side.YZ, (3, 5.1), 2), (Side.XY, (5, 3), None)],
+    [(ViewSide.XY, (5, 0.2), 0), (ViewSide.XZ, (10.1, 2), 1), (ViewSide.YZ, (3, 5.1), 2), (ViewSide.XY, (5, 3), None)],
 )
 def test_nearest_motion_as_seen_from_a_side(side, at, found):
     shapes = shape_motions(program_of([(LINE, (10, 0, 0), 1), (LINE, (10, 0, 5), 2), (LINE, (10, 6, 5), 3)]))
@@ -104,13 +110,13 @@ def test_nearest_motion_as_seen_from_a_side(side, at, found):
 
 def test_of_motions_on_one_another_the_nearest_to_the_eye_is_picked():
     shapes = shape_motions(program_of([(LINE, (10, 0, 0), 1), (LINE, (10, 0, -5), 2), (LINE, (0, 0, -5), 3)]))
-    assert nearest_motion(shapes, Side.XY, (5, 0), 0.5) == 0
+    assert nearest_motion(shapes, ViewSide.XY, (5, 0), 0.5) == 0
 
 
 def test_arc_is_found_on_its_curve_only():
     shapes = shape_motions(NcProgram(motions_of([(CCW, (-5, 0, 0), 1, {"centre": (0, 0, 0)})], (5, 0, 0))))
-    assert nearest_motion(shapes, Side.XY, (3.536, 3.536), 0.01) == 0
-    assert nearest_motion(shapes, Side.XY, (3.536, -3.536), 0.5) is None
+    assert nearest_motion(shapes, ViewSide.XY, (3.536, 3.536), 0.01) == 0
+    assert nearest_motion(shapes, ViewSide.XY, (3.536, -3.536), 0.5) is None
 
 
 def test_a_motion_is_told_in_words():
@@ -122,10 +128,10 @@ def test_a_motion_is_told_in_words():
 
 def test_picture_of_a_read_program_reaches_as_far_as_its_arcs():
     program = read_program(b"G21 G90 G17\nG0 X0 Y0 Z0\nG2 X0 Y0 I10 J0 F100\nM2\n")
-    box = MotionPicture(shape_motions(program), Side.XY).box
+    box = MotionLayer(shape_motions(program), ViewSide.XY).box
     assert box == pytest.approx((0, -10, 20, 10), abs=0.3)
 
 
 def test_a_program_without_motions_has_a_picture():
-    picture = MotionPicture(shape_motions(read_program(b"(nothing)\n")), Side.YZ)
+    picture = MotionLayer(shape_motions(read_program(b"(nothing)\n")), ViewSide.YZ)
     assert picture.box is None

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from app.ui.framework.view import View
-from app.ui.views.nc.motion_shapes import Side
+from app.ui.views.nc.motion_shapes import ViewSide
 from tests.ui.measure_window import Gaps
 from tests.ui.nc.hand_made import long_program
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
@@ -63,9 +63,9 @@ def test_programs_that_differ_in_their_feed_look_like_one(qtbot, wiring, small, 
 
 def test_a_side_chosen_while_two_programs_are_shown_has_what_differs_too(qtbot, wiring, small, tmp_path):
     nc = compare_with(qtbot, wiring, SMALL.replace("G1 X40", "G1 X40 Z-2"), tmp_path / "other.ngc")
-    nc.set_side(Side.XZ)
-    qtbot.waitUntil(lambda: nc.path.picture is not None and nc.path.picture.side is Side.XZ, timeout=WAIT_MS)
-    assert nc.path.other.side is Side.XZ
+    nc.set_side(ViewSide.XZ)
+    qtbot.waitUntil(lambda: nc.path.picture is not None and nc.path.picture.side is ViewSide.XZ, timeout=WAIT_MS)
+    assert nc.path.other.side is ViewSide.XZ
     assert nc.path.other.some
 
 
@@ -74,9 +74,9 @@ def test_a_side_chosen_while_a_program_is_read_is_shown(qtbot, wiring, tmp_path)
     path.write_bytes(long_program(30_000)[0])
     wiring.files.open_file(path)
     qtbot.waitUntil(lambda: wiring.nc.reading.worker.busy, timeout=WAIT_MS)
-    nc_of(wiring).set_side(Side.YZ)
+    nc_of(wiring).set_side(ViewSide.YZ)
     qtbot.waitUntil(lambda: nc_of(wiring).path.picture is not None, timeout=WAIT_MS)
-    assert nc_of(wiring).path.picture.side is Side.YZ
+    assert nc_of(wiring).path.picture.side is ViewSide.YZ
 
 
 def test_a_long_path_that_is_painted_in_portions_is_whole_in_the_end(qtbot, wiring, tmp_path):
@@ -109,7 +109,7 @@ def test_the_nc_view_has_no_tools_that_draw_but_a_fit_of_its_own(qtbot, wiring, 
     qtbot.mouseClick(small.path_head.fit, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: small.path.area.contains(small.path.view.to_screen((20.0, 10.0))), timeout=2000)
     for view in (View.DRAW, View.PATHS):
-        wiring.showing.show_view(view)
+        wiring.display_controller.show_view(view)
         assert window.tool_strip.isVisible()
 
 
@@ -132,7 +132,7 @@ def test_a_tool_that_draws_is_taken_to_the_drawing(qtbot, wiring, small):
     prompt = window.command_line.edit.placeholderText()
     assert "Ctrl+F" in prompt
     window.actions_["tool_line"].trigger()
-    assert wiring.showing.view is View.DRAW
+    assert wiring.display_controller.view is View.DRAW
     assert window.tool_strip.buttons["tool_line"].isChecked()
     assert window.command_line.edit.placeholderText() == window.canvas.prompt != prompt
 

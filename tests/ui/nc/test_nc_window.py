@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QApplication
 
 from app.core.settings import load_settings
 from app.gcode.interpreter.dialect import Dialect
-from app.ui.framework.computation import State
+from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
-from app.ui.views.nc.motion_picture import PathColour
-from app.ui.views.nc.motion_shapes import Side
+from app.ui.views.nc.motion_shapes import ViewSide
+from app.ui.views.nc.painting.motion_layer import MotionColourBy
 from tests.ui.nc.hand_made import long_program
 from tests.ui.nc.opened import SMALL, WAIT_MS, nc_of, open_file
 
@@ -83,11 +83,11 @@ def test_a_range_of_lines_lights_all_its_motions(small):
     assert small.path.lit.tolist() == [1, 2, 3, 4]
 
 
-@pytest.mark.parametrize("side", [Side.XZ, Side.YZ])
+@pytest.mark.parametrize("side", [ViewSide.XZ, ViewSide.YZ])
 def test_sides_show_heights(qtbot, wiring, small, side):
     wiring.window_.actions_[f"nc_{side.name.lower()}"].trigger()
     qtbot.waitUntil(lambda: small.path.picture is not None and small.path.picture.side is side, timeout=WAIT_MS)
-    at = on_screen(small, (0.0 if side is Side.XZ else 20.0, 2.0))
+    at = on_screen(small, (0.0 if side is ViewSide.XZ else 20.0, 2.0))
     qtbot.mouseMove(small.path, at)
     qtbot.mouseClick(small.path, Qt.MouseButton.LeftButton, pos=at)
     assert small.pane.text.current in (3, 4, 8)
@@ -97,7 +97,7 @@ def test_sides_show_heights(qtbot, wiring, small, side):
 
 def test_colour_by_motion_changes_text_and_path(qtbot, small):
     before = small.grab().toImage()
-    qtbot.mouseClick(small.path_head.colour.buttons[PathColour.MOTION], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(small.path_head.colour.buttons[MotionColourBy.MOTION], Qt.MouseButton.LeftButton)
     after = small.grab().toImage()
     assert before != after
 
@@ -151,7 +151,7 @@ def test_text_with_an_error_is_shown_up_to_there(qtbot, wiring, data):
 def test_foreign_program_leaves_the_job_alone_and_goes_back(qtbot, computed, data):
     job, made = computed.document.job, computed.computation.made
     nc = open_file(qtbot, computed, data / "nc" / "test_pycam.ngc")
-    assert computed.showing.view is View.NC
+    assert computed.display_controller.view is View.NC
     assert (computed.document.job, computed.computation.made) == (job, made)
     assert nc.pane.banner.isVisible()
     assert nc.pane.head.name.text() == "test_pycam.ngc"
@@ -173,12 +173,12 @@ def test_the_path_of_the_jobs_program_is_that_of_its_text(computed):
 @pytest.mark.exhaustive
 def test_changed_job_says_that_the_program_is_old(qtbot, computed):
     computed.document.run("circle 150,50 10")
-    computed.showing.show_view(View.NC)
+    computed.display_controller.show_view(View.NC)
     banner = nc_of(computed).pane.banner
     assert banner.isVisible()
     assert "changed" in banner.sentence.text()
     qtbot.mouseClick(banner.button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: computed.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     assert not banner.isVisible()
 
 
@@ -227,7 +227,7 @@ def test_file_that_cannot_be_read_says_so_and_leaves_the_view(qtbot, wiring, sma
 
 
 def test_empty_view_offers_to_open_a_program(qtbot, wiring):
-    wiring.showing.show_view(View.NC)
+    wiring.display_controller.show_view(View.NC)
     assert wiring.window_.views.empty.isVisible()
     assert wiring.window_.views.empty.button.text() == "Open an NC program"
 
@@ -290,8 +290,10 @@ def test_a_post_with_a_file_for_each_tool_offers_its_files(qtbot, computed):
     computed.document.change_job("Change post", replace(computed.document.job, post="grbl"))
     computed.compute()
     nc = nc_of(computed)
-    qtbot.waitUntil(lambda: computed.computation.state is State.CURRENT and nc.shown is not None, timeout=WAIT_MS)
-    computed.showing.show_view(View.NC)
+    qtbot.waitUntil(
+        lambda: computed.computation.state is ComputationState.CURRENT and nc.shown is not None, timeout=WAIT_MS
+    )
+    computed.display_controller.show_view(View.NC)
     files = nc.pane.head.files
     assert files.isVisible()
     assert files.count() == 2
@@ -325,9 +327,9 @@ def test_cancelled_reading_leaves_what_was_shown(qtbot, wiring, small, tmp_path)
 
 def test_opening_a_program_does_not_disturb_the_computation(qtbot, wiring, samples, data):
     wiring.files.open_sample()
-    qtbot.waitUntil(lambda: wiring.computation.state is State.RUNNING, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.RUNNING, timeout=WAIT_MS)
     wiring.files.open_file(data / "nc" / "tux.ngc")
-    qtbot.waitUntil(lambda: wiring.computation.state is State.CURRENT, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.computation.state is ComputationState.CURRENT, timeout=WAIT_MS)
     qtbot.waitUntil(lambda: nc_of(wiring).shown is not None, timeout=WAIT_MS)
     assert nc_of(wiring).shown.source.name == "tux.ngc"
 

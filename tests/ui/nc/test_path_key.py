@@ -7,9 +7,9 @@ from app.gcode.interpreter.notes_operation import contour_motions
 from app.gcode.interpreter.reader import read_program
 from app.model.motion import MotionKind
 from app.ui.framework.theme import DARK, LIGHT
-from app.ui.views.nc.motion_picture import MotionPicture, PathColour, PathPaint
-from app.ui.views.nc.motion_shapes import Side, shape_motions
-from app.ui.views.nc.path_key import Corner, KeyMark, beside_key, cuts_within, key_place, key_size
+from app.ui.views.nc.motion_shapes import ViewSide, shape_motions
+from app.ui.views.nc.painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint
+from app.ui.views.nc.painting.path_key import KeyCorner, KeyMark, beside_key, cuts_within, key_place, key_size
 from app.ui.views.nc.path_view import PathView
 from tests.ui.nc.hand_made import program_of
 
@@ -22,9 +22,9 @@ TWO = (
 )
 
 
-def picture_of(data, side=Side.XY):
+def picture_of(data, side=ViewSide.XY):
     program = read_program(data)
-    return MotionPicture(shape_motions(program, contour_motions(data, program)), side)
+    return MotionLayer(shape_motions(program, contour_motions(data, program)), side)
 
 
 def rectangle(view):
@@ -41,7 +41,7 @@ def view(qtbot):
 
 @pytest.mark.parametrize("data", [FRAME, TRIANGLE, TWO])
 @pytest.mark.parametrize("size", [(220, 160), (260, 400), (460, 460), (900, 300)])
-@pytest.mark.parametrize("side", list(Side))
+@pytest.mark.parametrize("side", list(ViewSide))
 def test_no_cut_is_under_the_key_after_a_fit(view, data, size, side):
     view.resize(*size)
     picture = picture_of(data, side)
@@ -56,7 +56,7 @@ def test_the_key_goes_to_the_corner_that_is_free(view):
     view.resize(300, 300)
     view.show_pictures(picture_of(TRIANGLE))
     view.fit_now()
-    assert view.corner is Corner.TOP_LEFT
+    assert view.corner is KeyCorner.TOP_LEFT
 
 
 def test_a_key_without_lines_takes_no_room():
@@ -76,7 +76,7 @@ def test_a_key_without_lines_takes_no_room():
 )
 def test_a_slanting_line_comes_only_into_boxes_on_its_way(box, within):
     shapes = shape_motions(program_of([(RAPID, (0, 20, 5), 1), (RAPID, (0, 0, 0), 2), (LINE, (10, 10, 0), 3)]))
-    assert cuts_within(shapes, Side.XY, box) is within
+    assert cuts_within(shapes, ViewSide.XY, box) is within
 
 
 @pytest.mark.parametrize(
@@ -85,17 +85,17 @@ def test_a_slanting_line_comes_only_into_boxes_on_its_way(box, within):
 )
 def test_a_circle_is_where_its_line_is(box, within):
     shapes = shape_motions(program_of([(RAPID, (5, 0, 0), 1), (CCW, (5, 0, 0), 2, {"centre": (0, 0, 0)})]))
-    assert cuts_within(shapes, Side.XY, box) is within
+    assert cuts_within(shapes, ViewSide.XY, box) is within
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_the_key_tells_contours_by_their_dashes(theme):
-    rows = picture_of(TWO).key(PathPaint(theme))
+    rows = picture_of(TWO).key(MotionPaint(theme))
     assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [
         ("T1 flat 6 mm", False),
         ("T1 flat 6 mm, contour", True),
     ]
-    rows = picture_of(TWO).key(PathPaint(theme, PathColour.MOTION))
+    rows = picture_of(TWO).key(MotionPaint(theme, MotionColourBy.MOTION))
     assert [(row.words, row.mark is KeyMark.DASHES) for row in rows] == [
         ("G1 line", False),
         ("G2 clockwise", False),

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from app.gcode.interpreter.text import ProgramBuffer
 from app.ui.views.nc.program_text import program_text
-from app.ui.views.nc.syntax import Part, spans
+from app.ui.views.nc.syntax import SyntaxPart, spans
 
 
 @given(st.text(alphabet="G1 Xx\n\r(é刃\u2028;", max_size=60))
@@ -53,18 +53,18 @@ def parts(line):
 
 def test_words_have_their_part():
     assert parts("N10 G1 X-1.5 F200 (feed) ; end") == [
-        ("N10", Part.LINE_NUMBER),
-        ("G1", Part.COMMAND),
-        (" X-1.5 ", Part.PLAIN),
-        ("F200", Part.SETTING),
-        ("(feed)", Part.COMMENT),
-        ("; end", Part.COMMENT),
+        ("N10", SyntaxPart.LINE_NUMBER),
+        ("G1", SyntaxPart.COMMAND),
+        (" X-1.5 ", SyntaxPart.PLAIN),
+        ("F200", SyntaxPart.SETTING),
+        ("(feed)", SyntaxPart.COMMENT),
+        ("; end", SyntaxPart.COMMENT),
     ]
 
 
 @pytest.mark.parametrize("line", ["o<bore> sub", "#<_depth> = [1 + #5]", "WHILE [#1 LT 5] DO1", "IF [#2 EQ 0] GOTO 10"])
 def test_flow_and_parameters_are_marked(line):
-    assert parts(line)[0][1] is Part.FLOW
+    assert parts(line)[0][1] is SyntaxPart.FLOW
 
 
 @given(st.text(alphabet="gGmM012.#<>[]()o; nfst-\t", max_size=40))
@@ -74,4 +74,4 @@ def test_parts_cover_the_line(line):
 
 
 def test_percent_begins_a_comment_only_at_the_start():
-    assert parts("%")[0][1] is Part.COMMENT
+    assert parts("%")[0][1] is SyntaxPart.COMMENT

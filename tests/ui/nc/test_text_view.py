@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QApplication, QToolTip
 
 from app.gcode.interpreter.program import ProgramProblem, Severity
 from app.ui.framework.theme import DARK, LIGHT
-from app.ui.views.nc.line_looks import line_looks
+from app.ui.views.nc.line_marks import line_marks
+from app.ui.views.nc.painting.text_painter import LINE_PX, MARKS_PX
 from app.ui.views.nc.program_text import program_text
-from app.ui.views.nc.text_paint import LINE_PX, MARKS_PX
 from app.ui.views.nc.text_view import NcTextView
 
 LINES = b"".join(b"G1 X%d Y2 F300\n" % k for k in range(500))
@@ -126,7 +126,7 @@ def test_words_have_colours_and_follow_the_theme(view):
 
 
 def problem_view(view, column=4, word="X7"):
-    view.show_looks(line_looks(500, None, [ProgramProblem(8, column, word, "X is too far; use less.", Severity.ERROR)]))
+    view.show_looks(line_marks(500, None, [ProgramProblem(8, column, word, "X is too far; use less.", Severity.ERROR)]))
     return view
 
 

@@ -9,7 +9,7 @@ from app.core.resources import resource
 from app.formats.readers import read_drawing
 from app.model.operation import ContourOperation, PocketOperation, RestOperation
 from app.ui.panels.side_panel import SidePanel
-from app.ui.shell.advising import Advising
+from app.ui.shell.advice_controller import AdviceController
 from tests.ui.conftest import WAIT_MS
 
 
@@ -27,7 +27,7 @@ def panel(qtbot, workspace):
 
 @pytest.fixture
 def sheet(qtbot, panel, workspace):
-    advising = Advising(panel, workspace)
+    advising = AdviceController(panel, workspace)
     qtbot.mouseClick(panel.tools.advice_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: bool(panel.advice._made) and not advising.worker.busy, timeout=3 * WAIT_MS)
     return panel.advice
@@ -54,7 +54,7 @@ def test_a_tool_of_the_list_becomes_that_of_pockets_or_of_contours(qtbot, panel,
 
 
 def test_places_are_shown_and_the_sheet_closes(qtbot, panel, workspace, sheet):
-    with qtbot.waitSignal(sheet.place_wanted) as caught:
+    with qtbot.waitSignal(sheet.place_requested) as caught:
         qtbot.mouseClick(sheet._places[0], Qt.MouseButton.LeftButton)
     assert "Narrowest passage" in sheet._places[0].text()
     x, y = caught.args

@@ -15,7 +15,7 @@ from app.ui.framework.figures import TIMES
 from app.ui.framework.theme import DARK, LIGHT
 from app.ui.panels.drawing_page import DrawingPage
 from app.ui.panels.side_panel import WIDTH
-from app.ui.panels.swatch import HUES, Palette
+from app.ui.panels.swatch import HUES, ColourPalette
 
 SCROLL_BAR_PX = 8
 
@@ -228,9 +228,9 @@ def test_eye_lock_and_colour_are_lines(qtbot, page, document):
     assert row.eye.accessibleName() == "Hide layer holes"
 
 
-def palette_of(qtbot, row) -> Palette:
+def palette_of(qtbot, row) -> ColourPalette:
     qtbot.mouseClick(row.swatch, Qt.MouseButton.LeftButton)
-    return next(w for w in QApplication.topLevelWidgets() if isinstance(w, Palette) and w.isVisible())
+    return next(w for w in QApplication.topLevelWidgets() if isinstance(w, ColourPalette) and w.isVisible())
 
 
 def test_a_colour_is_chosen_from_the_palette_or_typed(qtbot, page, document):

@@ -12,8 +12,8 @@ from app.formats.plot.page import PageContent, Pen, PlotPage, TracedPolyline
 from app.formats.plot.surface_plot import DASHES
 from app.geometry.transform import Similarity
 from app.model.scene import LineType
-from app.ui.views.plot.painting import sheets
-from app.ui.views.plot.writing import png_bytes
+from app.ui.views.plot.sheet_files import png_bytes
+from app.ui.views.plot.sheet_painter import sheets
 
 X = np.linspace(5.0, 95.0, 451)
 FINE = np.column_stack([X, np.full_like(X, 10.0)])

@@ -13,7 +13,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QApplication
 
 from app.drafting.language.write import draw_text
-from app.ui.framework.computation import State
+from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
 from app.ui.shell.start import build
 from tests.ui.real_mouse.hand import Hand
@@ -70,8 +70,8 @@ def whole_job(hand: Hand, folder: Path) -> None:
     draw(hand)
     hand.press("F5")
     computation = hand.wiring.computation
-    hand.wait_until(lambda: computation.state in (State.CURRENT, State.FAILED), "the paths")
-    assert hand.ask(lambda: computation.state) is State.CURRENT, hand.ask(lambda: computation.error)
+    hand.wait_until(lambda: computation.state in (ComputationState.CURRENT, ComputationState.FAILED), "the paths")
+    assert hand.ask(lambda: computation.state) is ComputationState.CURRENT, hand.ask(lambda: computation.error)
     for view in (View.CUT, View.NC, View.PATHS):
         hand.click_button(view.value)
     hand.ask(lambda: hand.window.grab().save(str(folder / "paths.png")))

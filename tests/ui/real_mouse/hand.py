@@ -13,7 +13,7 @@ from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
 from app.model.curves import Point
-from app.ui.shell.wiring import Wiring
+from app.ui.shell.window_controller import WindowController
 
 T = TypeVar("T")
 PATIENCE_S = 120.0
@@ -29,7 +29,7 @@ class Hand(QObject):
 
     _asked = Signal(object)
 
-    def __init__(self, wiring: Wiring) -> None:
+    def __init__(self, wiring: WindowController) -> None:
         super().__init__()
         self.wiring, self.window = wiring, wiring.window_
         self.clicks, self.typed = 0, 0

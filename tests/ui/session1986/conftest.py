@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
-from app.ui.views.session1986.opening import SessionOpening
-from app.ui.views.session1986.questions import Ask
+from app.ui.views.session1986.controller import SessionController
+from app.ui.views.session1986.questions import SessionQuestion
 from tests.ui.conftest import WAIT_MS
 
 
@@ -15,7 +15,7 @@ class Operator:
     """Types on the terminal's keyboard and looks at its screen."""
 
     def __init__(self, qtbot, opening, document) -> None:
-        self.bot, self.opening, self.document = qtbot, opening, document
+        self.bot, self.open_controller, self.document = qtbot, opening, document
         self.session, self.tube = opening.session, opening.tube
 
     @property
@@ -29,21 +29,21 @@ class Operator:
         self.bot.keyClicks(self.tube, text)
         self.key(Qt.Key.Key_Return)
 
-    def until(self, ask: Ask) -> None:
+    def until(self, ask: SessionQuestion) -> None:
         self.bot.waitUntil(lambda: self.session.ask is ask, timeout=WAIT_MS)
 
-    def see_all(self, ask: Ask) -> None:
+    def see_all(self, ask: SessionQuestion) -> None:
         """Have what is shown go to its end, until this is asked."""
-        self.until(Ask.PLAY)
+        self.until(SessionQuestion.PLAY)
         while self.session.ask is not ask:
             self.key(Qt.Key.Key_Return)
 
     def to_pocket(self, shape: str = "2") -> None:
         """Answer up to the pocket tool's offset."""
         self.answer(shape)
-        self.until(Ask.CONTOUR)
+        self.until(SessionQuestion.CONTOUR)
         self.answer("1.5")
-        self.see_all(Ask.POCKET)
+        self.see_all(SessionQuestion.POCKET)
 
     def said(self) -> str:
         return " ".join(self.screen.talk)
@@ -58,7 +58,7 @@ def operator(qtbot, workspace):
     with qtbot.waitActive(over):
         over.show()
         over.activateWindow()
-    opening = SessionOpening(over, workspace)
+    opening = SessionController(over, workspace)
     opening.open()
     made = Operator(qtbot, opening, workspace.document)
     yield made

@@ -9,8 +9,8 @@ from app.model.job import Job
 from app.model.operation import ContourOperation, CutParameters, PocketOperation
 from app.model.part import Part
 from app.model.tool import Tool, ToolKind
-from app.ui.views.session1986.answers import Offsets, amount, job_of, offered
-from app.ui.views.session1986.draft import Draft
+from app.ui.views.session1986.answers import EnteredOffsets, amount, job_of, offered
+from app.ui.views.session1986.draft import ShapeDraft
 from app.ui.views.session1986.screen import BOTTOM, TOP
 
 
@@ -20,8 +20,8 @@ def test_the_job_s_own_tools_are_offered() -> None:
         (Tool(7, 8.0), Tool(9, 2.0)),
         (ContourOperation(CutParameters(9)), PocketOperation(CutParameters(7), 6.0)),
     )
-    assert offered(job) == Offsets(1.0, 4.0, 2.0)
-    assert offered(replace(job, operations=())) == Offsets(1.5, 3.0, 3.0)
+    assert offered(job) == EnteredOffsets(1.0, 4.0, 2.0)
+    assert offered(replace(job, operations=())) == EnteredOffsets(1.5, 3.0, 3.0)
 
 
 def test_amounts_know_units_and_their_range() -> None:
@@ -44,11 +44,11 @@ def test_the_limits_that_are_told_are_allowed(low: float, high: float) -> None:
 def test_an_unchanged_answer_keeps_the_tool_as_it_is() -> None:
     ball = Tool(1, 6.0, ToolKind.BALL, "my ball", feed_rate=321)
     job = Job(Part(), (ball, Tool(2, 3.0), Tool(5, 1.0)))
-    made = job_of(job, Offsets(1.25, 3.0, 3.0))
+    made = job_of(job, EnteredOffsets(1.25, 3.0, 3.0))
     assert made.tool(1) is ball and made.tool(5) == Tool(5, 1.0)
     assert (made.tool(2).diameter, made.tool(2).kind) == (2.5, ToolKind.FLAT)
     assert made.operations[0] == PocketOperation(CutParameters(1), None)
-    assert offered(made) == Offsets(1.25, 3.0, 3.0)
+    assert offered(made) == EnteredOffsets(1.25, 3.0, 3.0)
 
 
 def test_everything_but_tools_and_operations_stays() -> None:
@@ -59,7 +59,7 @@ def test_everything_but_tools_and_operations_stays() -> None:
         safe_z=9.0,
         exact_path=True,
     )
-    made = job_of(job, Offsets(1.5, 4.0, 5.0))
+    made = job_of(job, EnteredOffsets(1.5, 4.0, 5.0))
     assert replace(made, tools=job.tools, operations=job.operations) == job
     assert [type(each) for each in made.operations] == [PocketOperation, ContourOperation]
     pocket = made.operations[0]
@@ -68,13 +68,13 @@ def test_everything_but_tools_and_operations_stays() -> None:
 
 def test_one_tool_for_both_becomes_two() -> None:
     job = Job(Part(), (Tool(4, 5.0),), (PocketOperation(CutParameters(4)), ContourOperation(CutParameters(4))))
-    made = job_of(job, Offsets(1.0, 2.5, 2.5))
+    made = job_of(job, EnteredOffsets(1.0, 2.5, 2.5))
     assert [made.tool(each.cut.tool).radius for each in made.operations] == [2.5, 1.0]
     assert len({tool.number for tool in made.tools}) == 2
 
 
 def test_a_draft_is_drawn_in_words_and_grows_with_what_is_drawn() -> None:
-    draft = Draft()
+    draft = ShapeDraft()
     assert draft.point((300, 200)) == "50,10.5"
     assert draft.run("LINE 10,10 60,10 60,40 CLOSE").startswith("Line, 3 sides")
     picture = draft.picture()

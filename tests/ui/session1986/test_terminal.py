@@ -15,7 +15,7 @@ from app.ui.views.session1986.screen import (
     PAGE_LINES,
     TALK_LINES,
     TOP,
-    Screen,
+    TerminalScreen,
     card,
 )
 from app.ui.views.session1986.stills import DASH, GAP, still_of
@@ -45,7 +45,7 @@ def test_what_the_terminal_lacks_is_said_in_what_it_has() -> None:
 
 
 def test_the_dialogue_never_runs_into_the_picture() -> None:
-    screen = Screen(prompt="A QUESTION?", typed="9" * 120)
+    screen = TerminalScreen(prompt="A QUESTION?", typed="9" * 120)
     for k in range(40):
         screen.say(f"line {k} " + "and more of it " * 5)
     screen.picture[:] = True
@@ -61,12 +61,12 @@ def test_the_dialogue_never_runs_into_the_picture() -> None:
 
 
 def test_the_head_is_dark_on_light() -> None:
-    head = Screen(head=("130 FILLED", "1986")).bits()[:HEAD_PX]
+    head = TerminalScreen(head=("130 FILLED", "1986")).bits()[:HEAD_PX]
     assert 0.7 < head.mean() < 1
 
 
 def test_a_page_scrolls_back_to_its_first_line_and_no_further() -> None:
-    screen = Screen(page=[f"N{k}" for k in range(200)], prompt="?")
+    screen = TerminalScreen(page=[f"N{k}" for k in range(200)], prompt="?")
     end = screen.bits()
     screen.scroll(1000)
     first = line_bits("N0")
@@ -79,7 +79,7 @@ def test_a_page_scrolls_back_to_its_first_line_and_no_further() -> None:
 
 
 def test_the_cross_hair_turns_points_over() -> None:
-    screen = Screen(hair=(50, 60))
+    screen = TerminalScreen(hair=(50, 60))
     screen.picture[50, 10] = True
     bits = screen.bits()
     assert bits[50, 11] and not bits[50, 10] and bits[100, 60] and not bits[50, 60]

@@ -12,7 +12,7 @@ def staged(qtbot, wiring):
     wiring.run("line 0,0 30,0 0,24 0,0")
     wiring.run("circle 9,8 3")
     wiring.run("line 40,0 52,0 52,12 40,12 40,0")
-    wiring.showing.show_view(View.STAGES)
+    wiring.display_controller.show_view(View.STAGES)
     show_stages(qtbot, wiring)
     return wiring
 
@@ -20,5 +20,6 @@ def staged(qtbot, wiring):
 def show_stages(qtbot, wiring):
     """Wait until the stages are there."""
     qtbot.waitUntil(
-        lambda: not wiring.staging.worker.busy and wiring.window_.views.stages.film is not None, timeout=WAIT_MS
+        lambda: not wiring.stages_controller.worker.busy and wiring.window_.views.stages.film is not None,
+        timeout=WAIT_MS,
     )

@@ -27,11 +27,11 @@ from app.raster.codes import PixelCode
 from app.raster.levels import SAFE_PX
 from app.ui.framework import style
 from app.ui.framework.theme import LIGHT
-from app.ui.views.stages.inks import inks, table
-from app.ui.views.stages.pixel_paint import Pixels
-from app.ui.views.stages.reel import Wish, reel_of
-from app.ui.views.stages.rose import Rose
-from app.ui.views.stages.stages_view import StagesView
+from app.ui.views.stages.code_colours import code_colours, table
+from app.ui.views.stages.direction_rose import DirectionRose
+from app.ui.views.stages.film_set import FilmRequest, film_set_of
+from app.ui.views.stages.painting.pixel_painter import PixelPaint
+from app.ui.views.stages.view import StagesView
 from app.usecases.bitmap_options import BitmapSize
 from app.usecases.make import job_from_drawing
 from app.usecases.options import MakeOptions
@@ -64,7 +64,7 @@ def by_day() -> None:
 def view_of(job: Job, points: int, side: int = _SIDE) -> StagesView:
     """Return a view that shows the stages of a job, its sides about so many px long."""
     by_day()
-    reel = reel_of(Wish(job, BitmapSize(points)))
+    reel = film_set_of(FilmRequest(job, BitmapSize(points)))
     view = StagesView()
     view.set_theme(LIGHT)
     view.resize(side + view.rail.width(), side)
@@ -94,11 +94,11 @@ def offset_contour() -> QImage:
     """Return the line that the pixels of figure 5b are made for, on paper: as far from the drawing as they keep."""
     view = view_of(small_job(), _SMALL, _LARGE)
     assert view.film is not None and view.pixels.pixels is not None
-    reel = reel_of(Wish(small_job(), BitmapSize(_SMALL)))
+    reel = film_set_of(FilmRequest(small_job(), BitmapSize(_SMALL)))
     wall = min(paths.wall for paths in reel.made.paths) + SAFE_PX * reel.part.frame.pitch
     rows = offset_levels(pack(reel.part.regions), (wall,))[0].rings[0].rows
     paper = np.full(view.film.shape, PixelCode.EMPTY, np.uint8)
-    view.pixels.show_pixels(Pixels(view.pixels.pixels.frame, paper, table(inks(LIGHT))))
+    view.pixels.show_pixels(PixelPaint(view.pixels.pixels.frame, paper, table(code_colours(LIGHT))))
     view.pixels.show_rows(rows)
     return picture(view)
 
@@ -106,7 +106,7 @@ def offset_contour() -> QImage:
 def rose() -> QImage:
     """Return the directions of the chain code."""
     by_day()
-    widget = Rose()
+    widget = DirectionRose()
     image = QImage(widget.size(), QImage.Format.Format_RGB888)
     image.fill(QColor(LIGHT.paper))
     widget.render(image)

@@ -7,7 +7,7 @@ from app.drafting.document import Document
 from app.exhibits.stages import Variant, stages
 from app.raster.codes import PixelCode
 from app.ui.views.stages.film import Projector, chain_at
-from app.ui.views.stages.reel import Wish, reel_of
+from app.ui.views.stages.film_set import FilmRequest, film_set_of
 from app.usecases.bitmap_job import drawn_job
 from app.usecases.bitmap_options import BitmapSize
 from app.usecases.bitmap_way import compute_on_bitmap
@@ -31,7 +31,7 @@ def planes(job):
 
 @pytest.fixture(scope="module")
 def reel(job):
-    return reel_of(Wish(job, SIZE))
+    return film_set_of(FilmRequest(job, SIZE))
 
 
 def test_every_stage_comes_back_in_any_order(reel, planes):
@@ -70,10 +70,10 @@ def test_steps_and_parts_are_found(reel):
 
 
 def test_another_fill_uses_the_paths_again(job, reel):
-    published = reel_of(Wish(job, SIZE, published=True), reel)
+    published = film_set_of(FilmRequest(job, SIZE, published=True), reel)
     assert published.made is reel.made and published.film is not reel.film
     assert [still.wrong is not None for still in published.film.stills].count(True) == 2
-    assert reel_of(Wish(job, SIZE), published).film is reel.film
+    assert film_set_of(FilmRequest(job, SIZE), published).film is reel.film
 
 
 def test_chains_are_found_by_their_pixels(reel):

@@ -12,15 +12,15 @@ from PySide6.QtWidgets import QApplication
 
 from app.raster.codes import PixelCode
 from app.raster.picture_options import InkMeaning
-from app.ui.framework.computation import State
+from app.ui.framework.computation import ComputationState
 from app.ui.framework.figures import TIMES
 from app.ui.framework.theme import LIGHT
 from app.ui.framework.view import View
-from app.ui.framework.worker import Answer
-from app.ui.views.stages.import_panel import By, See
-from app.ui.views.stages.inks import inks
-from app.ui.views.stages.pixel_paint import pixel_at
-from app.ui.views.stages.preview import Measure
+from app.ui.framework.worker import JobOutcome
+from app.ui.views.stages.code_colours import code_colours
+from app.ui.views.stages.import_panel import PictureAspect, SizeGivenBy
+from app.ui.views.stages.painting.pixel_painter import pixel_at
+from app.ui.views.stages.picture_preview import PixelSize
 from tests.raster.test_doubts import plate
 from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
@@ -33,14 +33,16 @@ LEFT = Qt.MouseButton.LeftButton
 @pytest.fixture
 def opened(qtbot, wiring, tmp_path):
     wiring.files.open_file(scan(tmp_path / "scan.png"))
-    qtbot.waitUntil(lambda: wiring.picturing.preview is not None, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: wiring.import_controller.preview is not None, timeout=WAIT_MS)
     return wiring
 
 
 def read(qtbot, wiring):
     """Wait until the picture was read as the panel says."""
-    qtbot.waitUntil(lambda: wiring.picturing.preview.reading is wiring.window_.import_panel.reading, timeout=WAIT_MS)
-    return wiring.picturing.preview
+    qtbot.waitUntil(
+        lambda: wiring.import_controller.preview.reading is wiring.window_.import_panel.reading, timeout=WAIT_MS
+    )
+    return wiring.import_controller.preview
 
 
 def on_screen(wiring, col, row):
@@ -52,23 +54,23 @@ def on_screen(wiring, col, row):
 
 def test_a_picture_is_shown_as_it_is_read(opened):
     window, panel = opened.window_, opened.window_.import_panel
-    assert opened.showing.view is View.STAGES and panel.isVisible() and not window.stages_panel.isVisible()
+    assert opened.display_controller.view is View.STAGES and panel.isVisible() and not window.stages_panel.isVisible()
     view = window.views.stages
     assert not view.rail.isVisible() and not view.player.isVisible() and not window.views.empty.isVisible()
-    image, colours = view.pixels.grab().toImage(), inks(LIGHT)
+    image, colours = view.pixels.grab().toImage(), code_colours(LIGHT)
     for (col, row), code in (
         ((300.5, 80.5), PixelCode.INSIDE),
         ((240.5, 150.5), PixelCode.EMPTY),
         ((20.5, 150.5), PixelCode.CONTOUR),
     ):
         assert image.pixelColor(on_screen(opened, col, row)).name() == colours[code].name(), (col, row)
-    assert panel.about.text().startswith(f"360 {TIMES} 240 px") and "300 dpi is a guess" in panel.told.text()
+    assert panel.about.text().startswith(f"360 {TIMES} 240 px") and "300 dpi is a guess" in panel.summary.text()
 
 
 def test_doubtful_places_are_listed_marked_and_gone_to(qtbot, opened):
     window, panel = opened.window_, opened.window_.import_panel
-    places = opened.picturing.preview.places
-    assert len(places) == panel.list.count() >= 4 and panel.doubts.text() == f"{len(places)} doubtful places"
+    places = opened.import_controller.preview.places
+    assert len(places) == panel.list.count() >= 4 and panel.ambiguities.text() == f"{len(places)} doubtful places"
     assert (
         panel.list.item(0).text().startswith("Lines meet at column 12")
         and "more than two areas" in panel.list.item(0).toolTip()
@@ -79,7 +81,7 @@ def test_doubtful_places_are_listed_marked_and_gone_to(qtbot, opened):
     qtbot.mouseClick(panel.list.viewport(), LEFT, pos=panel.list.visualItemRect(panel.list.item(1)).center())
     qtbot.waitUntil(lambda: pixels.view.scale > 3 * before, timeout=WAIT_MS)
     assert [mark.strong for mark in pixels.marks] == [k == 1 for k in range(len(places))]
-    assert pixels.marks[1].at == pytest.approx(opened.picturing.preview.at(places[1]))
+    assert pixels.marks[1].at == pytest.approx(opened.import_controller.preview.at(places[1]))
 
 
 def test_ink_can_be_told_otherwise(qtbot, opened):
@@ -109,14 +111,14 @@ def test_ink_can_be_told_otherwise(qtbot, opened):
 def test_size_comes_from_the_resolution_or_from_two_points(qtbot, opened):
     panel, pixels = opened.window_.import_panel, opened.window_.views.stages.pixels
     type_value(qtbot, panel.dpi, "254")
-    assert read(qtbot, opened).reading.frame.pitch == pytest.approx(0.1) and not panel.told.text()
-    qtbot.mouseClick(panel.measure.buttons[By.POINTS], LEFT)
+    assert read(qtbot, opened).reading.frame.pitch == pytest.approx(0.1) and not panel.summary.text()
+    qtbot.mouseClick(panel.measure.buttons[SizeGivenBy.POINTS], LEFT)
     read(qtbot, opened)
-    assert "first point" in panel.told.text() and panel.apart.isVisible() and not panel.dpi.isVisible()
+    assert "first point" in panel.summary.text() and panel.apart.isVisible() and not panel.dpi.isVisible()
     for col, row in ((20, 60), (220, 60)):
         qtbot.mouseClick(pixels, LEFT, pos=on_screen(opened, col, row))
         read(qtbot, opened)
-    assert "how far apart" in panel.told.text()
+    assert "how far apart" in panel.summary.text()
     places = [mark.at for mark in pixels.marks if mark.strong]
     assert [x for place in places for x in place] == pytest.approx([2.0, 18.0, 22.0, 18.0], abs=0.1)
     assert [x for point in panel.reading.measure.points for x in point] == pytest.approx([20, 60, 220, 60], abs=1)
@@ -126,7 +128,7 @@ def test_size_comes_from_the_resolution_or_from_two_points(qtbot, opened):
 
 
 def test_the_photograph_itself_can_be_seen(qtbot, opened):
-    qtbot.mouseClick(opened.window_.import_panel.see.buttons[See.PICTURE], LEFT)
+    qtbot.mouseClick(opened.window_.import_panel.see.buttons[PictureAspect.PICTURE], LEFT)
     image = opened.window_.views.stages.pixels.grab().toImage()
     grey = image.pixelColor(on_screen(opened, 300.5, 80.5))
     assert (grey.red(), grey.green(), grey.blue()) == (PAPER, PAPER, PAPER)
@@ -148,7 +150,7 @@ def test_a_used_picture_is_the_part_on_its_own_pixels(qtbot, opened):
         and not window.stages_panel.points.isVisible()
     )
     opened.compute()
-    qtbot.waitUntil(lambda: opened.computation.state is State.CURRENT, timeout=60_000)
+    qtbot.waitUntil(lambda: opened.computation.state is ComputationState.CURRENT, timeout=60_000)
     made = opened.computation.made
     assert made.program.pitch_mm == pytest.approx(0.4)
     assert not any(finding.kind.name == "GOUGE" for finding in made.findings)
@@ -174,7 +176,7 @@ def test_what_gives_no_part_is_said_in_the_panel(qtbot, opened):
     qtbot.waitUntil(panel.wrong.isVisible, timeout=WAIT_MS)
     assert "nothing in the picture" in panel.wrong.text() and opened.document.part.entities == ()
     panel.leave.click()
-    assert not panel.isVisible() and opened.picturing.preview is None
+    assert not panel.isVisible() and opened.import_controller.preview is None
     assert opened.window_.views.empty.isVisible()
 
 
@@ -187,19 +189,20 @@ def test_a_dropped_picture_is_taken_and_a_damaged_one_refused(qtbot, wiring, tmp
     QApplication.sendEvent(window, enter)
     assert enter.isAccepted()
     QApplication.sendEvent(window, QDropEvent(QPointF(50, 50), copy, mime, LEFT, none))
-    qtbot.waitUntil(lambda: wiring.picturing.preview is not None, timeout=WAIT_MS)
-    wiring.picturing.leave()
+    qtbot.waitUntil(lambda: wiring.import_controller.preview is not None, timeout=WAIT_MS)
+    wiring.import_controller.leave()
     (tmp_path / "cut.png").write_bytes(scan(tmp_path / "whole.png").read_bytes()[:60])
     wiring.files.open_file(tmp_path / "cut.png")
     qtbot.waitUntil(lambda: window.notice.isVisible() and "cut.png" in window.notice.text.text(), timeout=WAIT_MS)
-    assert wiring.picturing.preview is None
+    assert wiring.import_controller.preview is None
 
 
 def import_of(qtbot, wiring, path):
     """Read a picture and wait for its preview."""
     wiring.files.open_file(path)
     qtbot.waitUntil(
-        lambda: wiring.picturing.preview is not None and wiring.picturing.preview.reading.path == path, timeout=WAIT_MS
+        lambda: wiring.import_controller.preview is not None and wiring.import_controller.preview.reading.path == path,
+        timeout=WAIT_MS,
     )
 
 
@@ -221,13 +224,13 @@ def test_a_resolution_that_cannot_be_meant_is_a_guess(qtbot, wiring, tmp_path):
     data = path.read_bytes()
     path.write_bytes(data[:38] + struct.pack("<ii", -10000, -10000) + data[46:])
     import_of(qtbot, wiring, path)
-    assert "300 dpi is a guess" in wiring.window_.import_panel.told.text()
+    assert "300 dpi is a guess" in wiring.window_.import_panel.summary.text()
 
 
 def test_what_cannot_be_shown_is_said_in_the_panel(opened):
-    picturing, panel = opened.picturing, opened.window_.import_panel
-    wrong = replace(picturing.preview, reading=replace(picturing.preview.reading, measure=Measure(-254.0)))
-    picturing.worker.done.emit(Answer(0, opened.document.revision, wrong))
+    picturing, panel = opened.import_controller, opened.window_.import_panel
+    wrong = replace(picturing.preview, reading=replace(picturing.preview.reading, measure=PixelSize(-254.0)))
+    picturing.worker.done.emit(JobOutcome(0, opened.document.revision, wrong))
     assert panel.wrong.isVisible() and "pitch is -0.1 mm" in panel.wrong.text()
 
 
@@ -255,5 +258,5 @@ def test_a_picture_that_is_drawn_in_says_so_once(qtbot, opened):
 def test_another_drawing_takes_the_place_of_the_picture(qtbot, opened, samples):
     opened.files.open_file(samples / "fig2.dxf")
     qtbot.waitUntil(lambda: bool(opened.document.part.entities), timeout=WAIT_MS)
-    assert opened.picturing.preview is None and not opened.window_.import_panel.isVisible()
+    assert opened.import_controller.preview is None and not opened.window_.import_panel.isVisible()
     assert opened.computation.pixels_of(opened.document.part) is None

@@ -13,10 +13,10 @@ from app.raster.codes import PixelCode
 from app.raster.steps import STEPS
 from app.ui.framework.theme import LIGHT
 from app.ui.framework.view import View
-from app.ui.views.stages.inks import step_inks
-from app.ui.views.stages.pixel_paint import LETTER_PX, RASTER_PX
-from app.ui.views.stages.stages_panel import Rules
-from app.ui.views.stages.words import note
+from app.ui.views.stages.code_colours import step_colours
+from app.ui.views.stages.painting.pixel_painter import LETTER_PX, RASTER_PX
+from app.ui.views.stages.panel import FillRules
+from app.ui.views.stages.step_notes import note
 from tests.ui.conftest import WAIT_MS
 from tests.ui.stages.conftest import show_stages
 
@@ -41,7 +41,7 @@ def type_value(qtbot, field, text):
 
 
 def test_an_empty_drawing_says_what_is_missing(wiring):
-    wiring.showing.show_view(View.STAGES)
+    wiring.display_controller.show_view(View.STAGES)
     assert wiring.window_.views.empty.isVisible() and "Nothing is drawn" in wiring.window_.views.empty.sentence.text()
     assert not wiring.window_.stages_panel.isVisible()
 
@@ -56,7 +56,7 @@ def test_the_tab_between_draw_and_paths_shows_the_first_step(qtbot, staged):
     qtbot.keyClick(window, Qt.Key.Key_1, Qt.KeyboardModifier.ControlModifier)
     assert window.panel.isVisible() and not window.stages_panel.isVisible()
     qtbot.keyClick(window, Qt.Key.Key_2, Qt.KeyboardModifier.ControlModifier)
-    assert staged.showing.view is View.STAGES
+    assert staged.display_controller.view is View.STAGES
 
 
 def test_keys_step_and_the_rail_ticks_what_was_reached(qtbot, staged):
@@ -95,7 +95,7 @@ def test_space_plays_to_the_end_and_pauses(qtbot, staged):
     qtbot.waitUntil(lambda: not view.player.playing, timeout=WAIT_MS)
     assert view.at == len(view.film) - 1
     qtbot.keyClick(view.pixels, Qt.Key.Key_Space)
-    staged.showing.show_view(View.DRAW)
+    staged.display_controller.show_view(View.DRAW)
     assert not view.player.playing
 
 
@@ -106,7 +106,7 @@ def test_pixels_have_their_codes_colours_and_say_what_they_are(qtbot, staged):
     row, col = np.argwhere(view.plane == PixelCode.R)[0].tolist()
     view.pixels.zoom_by(4.0, QPointF(screen(view, row, col)))
     image = view.pixels.grab().toImage()
-    inks = step_inks(LIGHT, 206)
+    inks = step_colours(LIGHT, 206)
     for code in (PixelCode.R, PixelCode.TRACED, PixelCode.EMPTY):
         window = np.argwhere(view.plane == code)
         places = [screen(view, *place) for place in window.tolist()]
@@ -188,12 +188,12 @@ def test_a_chain_is_lit_from_the_list_and_from_the_picture(qtbot, staged):
 
 def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
     wiring.run(STAR)
-    wiring.showing.show_view(View.STAGES)
+    wiring.display_controller.show_view(View.STAGES)
     show_stages(qtbot, wiring)
     panel, view = wiring.window_.stages_panel, wiring.window_.views.stages
     assert "Always right" in panel.wrong.text()
-    qtbot.mouseClick(panel.rules.buttons[Rules.PUBLISHED], LEFT)
-    qtbot.waitUntil(lambda: wiring.staging.reel.wish.published, timeout=WAIT_MS)
+    qtbot.mouseClick(panel.rules.buttons[FillRules.PUBLISHED], LEFT)
+    qtbot.waitUntil(lambda: wiring.stages_controller.reel.request.published, timeout=WAIT_MS)
     view.show_stage(view.film.seek_step(208, -1))
     count = int(np.count_nonzero(view.still.wrong))
     assert (
@@ -206,8 +206,8 @@ def test_published_rules_are_marked_where_they_err_and_counted(qtbot, wiring):
     assert view.pixels.grab().toImage().pixelColor(screen(view, row, col)).name() == LIGHT.gouge.name()
     qtbot.mouseMove(view.pixels, screen(view, row, col))
     assert wiring.window_.status.message.text().endswith("!, wrong as published")
-    qtbot.mouseClick(panel.rules.buttons[Rules.SETTLED], LEFT)
-    qtbot.waitUntil(lambda: not wiring.staging.reel.wish.published, timeout=WAIT_MS)
+    qtbot.mouseClick(panel.rules.buttons[FillRules.SETTLED], LEFT)
+    qtbot.waitUntil(lambda: not wiring.stages_controller.reel.request.published, timeout=WAIT_MS)
     assert view.still.number == 208 and view.still.wrong is None
 
 
@@ -262,7 +262,8 @@ def test_resolution_and_pitch_and_what_they_cost(qtbot, staged):
     assert float(panel.pitch.edit.text()) == pytest.approx(52 / 196, abs=1e-4)
     type_value(qtbot, panel.pitch, "0.4")
     qtbot.waitUntil(
-        lambda: staged.staging.reel is not None and staged.staging.reel.part.frame.pitch == 0.4, timeout=WAIT_MS
+        lambda: staged.stages_controller.reel is not None and staged.stages_controller.reel.part.frame.pitch == 0.4,
+        timeout=WAIT_MS,
     )
     assert panel.points.value == view.film.shape[0] == 134
     type_value(qtbot, panel.points, "50")
@@ -285,23 +286,23 @@ def test_stages_follow_the_drawing_and_are_never_of_another_one(qtbot, staged):
     before = view.film
     staged.run("circle 46,30 5")
     qtbot.waitUntil(lambda: view.film is not before and view.film is not None, timeout=WAIT_MS)
-    assert len(staged.staging.reel.part.regions) == 3
+    assert len(staged.stages_controller.reel.part.regions) == 3
     shown = view.film
-    staged.showing.show_view(View.DRAW)
+    staged.display_controller.show_view(View.DRAW)
     staged.run("circle 60,30 5")
     QApplication.processEvents()
-    assert not staged.staging.worker.busy and view.film is shown
-    staged.showing.show_view(View.STAGES)
-    qtbot.waitUntil(lambda: len(staged.staging.reel.part.regions) == 4, timeout=WAIT_MS)
+    assert not staged.stages_controller.worker.busy and view.film is shown
+    staged.display_controller.show_view(View.STAGES)
+    qtbot.waitUntil(lambda: len(staged.stages_controller.reel.part.regions) == 4, timeout=WAIT_MS)
     staged.files.new()
     assert view.film is None
 
 
 def test_cancelling_leaves_no_stages_of_an_earlier_job(qtbot, staged):
     type_value(qtbot, staged.window_.stages_panel.points, "2000")
-    assert staged.staging.worker.busy and staged.window_.actions_["cancel"].isEnabled()
+    assert staged.stages_controller.worker.busy and staged.window_.actions_["cancel"].isEnabled()
     staged.window_.actions_["cancel"].trigger()
-    assert not staged.staging.worker.busy and staged.window_.views.stages.film is None
+    assert not staged.stages_controller.worker.busy and staged.window_.views.stages.film is None
     assert staged.window_.views.empty.button.text() == "Compute the stages"
     assert not staged.window_.status.bar.isVisible()
 
@@ -334,9 +335,9 @@ def test_what_gets_no_path_is_said(qtbot, staged):
     panel = staged.window_.stages_panel
     assert not panel.finding.isVisible()
     for index in (0, 2):
-        before = staged.staging.reel
+        before = staged.stages_controller.reel
         staged.window_.panel.operations.switched.emit(index, False)
-        qtbot.waitUntil(lambda reel=before: staged.staging.reel is not reel, timeout=WAIT_MS)
+        qtbot.waitUntil(lambda reel=before: staged.stages_controller.reel is not reel, timeout=WAIT_MS)
     assert (
         staged.window_.views.stages.rail.numbers == (110,)
         and "No operation" in panel.finding.text()

@@ -11,11 +11,11 @@ from PySide6.QtTest import QTest
 from app.core.resources import resource
 from app.formats.scene.toml import read_scene
 from app.model.finding import Finding, FindingKind
-from app.ui.framework.verdict import Level
+from app.ui.framework.verdict import VerdictLevel
 from app.ui.framework.view import View
-from app.ui.views.surfaces.ask_fields import VectorField
+from app.ui.views.surfaces.field_widgets import VectorField
+from app.ui.views.surfaces.scene_computation import SceneState
 from app.ui.views.surfaces.scene_document import SceneDocument
-from app.ui.views.surfaces.scene_work import SceneState
 
 WAIT_MS = 60_000
 SPHERES = resource("samples", "spheres.toml")
@@ -58,7 +58,7 @@ def said(wiring):
 @pytest.mark.exhaustive
 def test_a_number_in_the_panel_changes_the_text_the_picture_and_the_verdict(qtbot, opened):
     window, panel = opened.window_, opened.window_.scene_side.panel
-    assert window.status.badge.property("verdict") == Level.BAD.value  # passes 4 mm apart leave metal
+    assert window.status.badge.property("verdict") == VerdictLevel.BAD.value  # passes 4 mm apart leave metal
     planes, verdict = len(window.views.surfaces.shown.planes), opened.scenes.work.verdict
     panel.choose(("passes", 0))
     type_into(panel.form.fields["Pitch"], "8")
@@ -77,7 +77,7 @@ def test_what_is_but_said_of_a_program_is_no_move_that_is_not_proven(qtbot, wiri
     assert work.findings and not any(finding.counts for finding in work.findings), (
         "it slots the full block, and that is a remark"
     )
-    assert wiring.window_.status.badge.property("verdict") == Level.OK.value
+    assert wiring.window_.status.badge.property("verdict") == VerdictLevel.OK.value
 
 
 @pytest.mark.parametrize(("counts", "unproven", "said"), [(True, 0, "1 finding"), (False, 2, "2 moves not proven")])
@@ -86,7 +86,7 @@ def test_what_counts_is_told_by_its_kind(qtbot, opened, counts, unproven, said):
     finding = Finding(FindingKind.ENGAGEMENT, "It takes too much.", counts=counts)
     written = replace(work.proven.written, loads=(finding,), left=None, unproven=np.zeros((unproven, 3)))
     work.proven = replace(work.proven, written=written)
-    assert (work.verdict.level, work.verdict.text) == (Level.BAD, said)
+    assert (work.verdict.level, work.verdict.text) == (VerdictLevel.BAD, said)
 
 
 @pytest.mark.exhaustive
@@ -116,7 +116,7 @@ def test_undo_and_redo_go_through_panel_and_text(qtbot, opened):
     assert not window.actions_["undo"].isEnabled()
     window.actions_["redo"].trigger()
     assert said(opened).surfaces[1].name == "left ball"
-    opened.showing.show_view(View.DRAW)
+    opened.display_controller.show_view(View.DRAW)
     assert not window.actions_["undo"].isEnabled()  # nothing was drawn
 
 
@@ -158,7 +158,7 @@ def test_a_file_that_is_wrong_is_opened_all_the_same_so_that_it_can_be_mended(qt
 def test_surfaces_are_added_moved_switched_and_removed(qtbot, opened):
     panel = opened.window_.scene_side.panel
     count = len(said(opened).surfaces)
-    panel.surface_wanted.emit("torus")
+    panel.surface_requested.emit("torus")
     again(qtbot, opened)
     assert said(opened).surfaces[-1].shape.kind == "torus"
     assert panel.subject == ("surface", count)
@@ -208,13 +208,13 @@ def test_a_tool_keeps_its_passes_under_another_number(qtbot, opened):
 def test_curves_of_the_drawing_become_a_surface(qtbot, opened):
     window = opened.window_
     with qtbot.waitSignal(opened.scenes.failed) as told:
-        window.scene_side.panel.curves_wanted.emit("loft")
+        window.scene_side.panel.curves_requested.emit("loft")
     assert "select them in the Draw view" in told.args[0]
     opened.run("line 0,20 30,25")
     opened.run("spline 0,0 10,8 20,2 30,6")
     opened.run("select all")
     qtbot.waitUntil(lambda: len(opened.document.selection) == 2)
-    window.scene_side.panel.curves_wanted.emit("ruled")
+    window.scene_side.panel.curves_requested.emit("ruled")
     again(qtbot, opened)
     assert said(opened).surfaces[-1].shape.kind == "ruled"
 
@@ -265,7 +265,9 @@ def test_f5_takes_the_file_as_it_is_now_unless_it_was_changed_here(qtbot, opened
 def test_the_program_is_shown_in_the_nc_view(qtbot, opened):
     window = opened.window_
     window.actions_["scene_nc"].trigger()
-    qtbot.waitUntil(lambda: opened.showing.view is View.NC and window.views.nc.shown is not None, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: opened.display_controller.view is View.NC and window.views.nc.shown is not None, timeout=WAIT_MS
+    )
     assert window.views.nc.shown.source.name == "mine.ngc"
     assert "Scene" in window.views.nc.pane.text.text.line(0)
 
@@ -274,9 +276,9 @@ def test_the_program_is_shown_in_the_nc_view(qtbot, opened):
 def test_the_cut_is_shown_beside_the_surfaces(qtbot, opened):
     window = opened.window_
     window.actions_["scene_cut"].trigger()
-    qtbot.waitUntil(lambda: opened.cutting.cut is not None, timeout=WAIT_MS)
-    assert opened.showing.view is View.CUT
-    assert opened.cutting.cut.histogram is not None
+    qtbot.waitUntil(lambda: opened.cut_controller.cut is not None, timeout=WAIT_MS)
+    assert opened.display_controller.view is View.CUT
+    assert opened.cut_controller.cut.histogram is not None
     assert not [entry for entry in window.cut_panel.entries if entry.counts and "gouge" in entry.title.lower()]
 
 

@@ -7,10 +7,10 @@ from PySide6.QtTest import QTest
 
 from app.core.resources import resource
 from app.ui.framework.view import View
-from app.ui.views.surfaces.scene_raster import ColourBy, Layer
-from app.ui.views.surfaces.scene_work import SceneState
+from app.ui.views.surfaces.scene_computation import SceneState
+from app.ui.views.surfaces.scene_raster import SceneColourBy, SceneLayer
 from app.ui.views.surfaces.shown_scene import is_scene
-from app.ui.views.surfaces.surfaces_view import Look
+from app.ui.views.surfaces.view import ViewDirection
 from app.usecases.scene_lines import LineRole
 
 WAIT_MS = 60_000
@@ -43,7 +43,7 @@ def test_scenes_are_told_from_jobs_by_what_they_hold(tmp_path):
 def test_a_scene_that_is_opened_comes_to_the_front(opened):
     window = opened.window_
     shown = window.views.surfaces.shown
-    assert opened.showing.view is View.SURFACES
+    assert opened.display_controller.view is View.SURFACES
     assert window.views.currentWidget() is window.views.surfaces
     assert not window.views.empty.isVisible()
     assert not window.side.isVisible()
@@ -71,7 +71,7 @@ def test_every_move_is_in_one_strand(opened):
 
 def test_without_a_scene_the_view_says_what_to_do_and_opens_figure_1(qtbot, wiring):
     QTest.keyClick(wiring.window_, Qt.Key.Key_6, Qt.KeyboardModifier.ControlModifier)
-    assert wiring.showing.view is View.SURFACES
+    assert wiring.display_controller.view is View.SURFACES
     assert "No scene is open" in wiring.window_.views.empty.sentence.text()
     assert not wiring.window_.scene_side.isVisible()
     wiring.window_.views.empty.button.click()
@@ -91,7 +91,7 @@ def test_while_a_scene_is_computed_the_view_says_so_and_can_leave_it(wiring):
 
 def test_the_section_is_what_lies_on_the_plane(opened):
     view = opened.window_.views.surfaces
-    view.set_look(Look.SECTION)
+    view.set_look(ViewDirection.SECTION)
     view.plane.setValue(4)
     family, plane = view.shown.planes[4]
     picture = view.shown.section(family, plane)
@@ -109,7 +109,7 @@ def test_the_section_is_what_lies_on_the_plane(opened):
 
 def test_in_a_section_the_tool_stands_on_its_path(opened):
     view = opened.window_.views.surfaces
-    view.set_look(Look.SECTION)
+    view.set_look(ViewDirection.SECTION)
     picture = view.shown.section(*view.shown.planes[view.plane.value()])
     along, low = picture.lows[len(picture.lows) // 3]
     ball = picture.tool[picture.tool[:, 1] <= 3.0]
@@ -124,7 +124,7 @@ def test_in_a_section_the_tool_stands_on_its_path(opened):
 
 def test_dragging_turns_the_scene_and_shifts_the_plan(qtbot, opened):
     view = opened.window_.views.surfaces
-    for look, turns in ((Look.SPACE, True), (Look.PLAN, False)):
+    for look, turns in ((ViewDirection.SPACE, True), (ViewDirection.PLAN, False)):
         view.set_look(look)
         before = view.canvas.camera
         QTest.mousePress(view.canvas, Qt.MouseButton.LeftButton, pos=QPoint(200, 200))
@@ -143,7 +143,7 @@ def test_keys_turn_zoom_and_fit(opened):
     QTest.keyClick(canvas, Qt.Key.Key_Plus)
     assert canvas.camera.scale > fitted.scale
     QTest.keyClick(canvas, Qt.Key.Key_F)
-    canvas.look(Look.SPACE.value)
+    canvas.look(ViewDirection.SPACE.value)
     assert canvas.camera.scale == pytest.approx(fitted.scale)
 
 
@@ -157,7 +157,7 @@ def test_zoom_keeps_the_middle(opened):
 
 def test_each_surface_is_seen_in_its_colour(opened):
     view = opened.window_.views.surfaces
-    view.set_look(Look.PLAN)
+    view.set_look(ViewDirection.PLAN)
     image = view.canvas.grab().toImage()
     seen = {image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)}
     used = {view.shown.colours[each.surface].lower() for each in view.shown.space.strands if each.role is LineRole.PATH}
@@ -168,12 +168,12 @@ def test_each_surface_is_seen_in_its_colour(opened):
 def test_layers_and_colours_are_switched(opened):
     view = opened.window_.views.surfaces
     whole = view.canvas.grab().toImage()
-    view.switches[Layer.SURFACES].setChecked(False)
-    assert view.canvas.layers is Layer.ALL & ~Layer.SURFACES
+    view.switches[SceneLayer.SURFACES].setChecked(False)
+    assert view.canvas.layers is SceneLayer.ALL & ~SceneLayer.SURFACES
     bare = view.canvas.grab().toImage()
     assert (view.canvas.drawn.owners < 0).all()
     assert bare != whole
-    for by in (ColourBy.TOOL, ColourBy.LINE):
+    for by in (SceneColourBy.TOOL, SceneColourBy.LINE):
         view.colours.setCurrentIndex(view.colours.findData(by))
         view.colours.activated.emit(view.colours.currentIndex())
         assert view.canvas.colour_by is by
@@ -183,7 +183,7 @@ def test_layers_and_colours_are_switched(opened):
 def test_the_mouse_names_what_it_is_over_and_a_click_chooses_it(opened):
     window = opened.window_
     view, panel = window.views.surfaces, window.scene_side.panel
-    view.set_look(Look.PLAN)
+    view.set_look(ViewDirection.PLAN)
     view.canvas.grab()
     QTest.mouseMove(view.canvas, place_of(view.canvas, (50.0, 38.5, 0.0)))
     name, _, place = window.status.message.text().partition(" at ")
@@ -202,7 +202,7 @@ def test_the_mouse_names_what_it_is_over_and_a_click_chooses_it(opened):
 def test_a_row_of_the_table_goes_to_its_plane(opened):
     window = opened.window_
     view, page = window.views.surfaces, window.scene_side.points
-    view.set_look(Look.SECTION)
+    view.set_look(ViewDirection.SECTION)
     for number in (0, 7, 33):
         page.choose(number)
         assert view.plane.value() == page.model.points[number].plane

@@ -19,23 +19,31 @@ from ....model.notes import Note
 from ....model.part import Entity
 from ....raster.frame import BitmapFrame
 from ...framework.theme import Theme
-from . import overlay
-from .around_picture import AroundPicture
-from .curve_path import MANY, curve_path
 from .describe import describe_entity, describe_note
-from .grid import cells_shown, paint_display, paint_origin, paint_paper, paint_raster, paint_ruler_marks, paint_rulers
-from .gripping import GRIP_PX, CarryTool, PullTool
-from .hands import PICK_PX, Hands
-from .modes import CanvasMode, CanvasTool, ColourBy, PathLayers
-from .notes_picture import paint_note
+from .grips import GRIP_PX, GripDragTool, SelectionDragTool
+from .interactive_viewport import PICK_PX, InteractiveViewport
+from .modes import CanvasMode, CanvasTool, PathColourBy, PathLayers
+from .painting import overlay
+from .painting.annotation_layer import paint_note
+from .painting.curve_path import MANY, curve_path
+from .painting.grid import (
+    cells_shown,
+    paint_display,
+    paint_origin,
+    paint_paper,
+    paint_raster,
+    paint_ruler_marks,
+    paint_rulers,
+)
+from .painting.program_layer import PathDisplay, ProgramLayer, shown_purposes
+from .painting.snap_marks import paint_snap
+from .painting.surroundings_layer import SurroundingsLayer
+from .painting.underlay_layer import UnderlayLayer
 from .program_hover import describe, nearest_move
-from .program_picture import PathLook, ProgramPicture, shown_purposes
-from .snap_marks import paint_snap
-from .underlay import UnderlayPicture
 from .value_picture import SheetPlace, ValueSheet, paint_values
-from .view import View
+from .view_transform import ViewTransform
 
-__all__ = ["BitmapFrame", "Canvas", "CanvasMode", "CanvasTool", "ColourBy", "PathLayers"]
+__all__ = ["BitmapFrame", "Canvas", "CanvasMode", "CanvasTool", "PathColourBy", "PathLayers"]
 
 _BLEED_PX = 8.0
 """How far lines and marks reach beyond the shape they belong to."""
@@ -53,8 +61,8 @@ _LARGE = 0.35
 """A part that takes up this share of the frame's span is shown together with the frame."""
 
 
-class Canvas(Hands):
-    """Shows a document and draws in it; signals are those of `Hands`.
+class Canvas(InteractiveViewport):
+    """Shows a document and draws in it; signals are those of `InteractiveViewport`.
 
     Attributes:
         frame: the display of 400 x 400 cells, or another.
@@ -66,14 +74,14 @@ class Canvas(Hands):
         """Show a document; it is followed from now on."""
         super().__init__(document, parent)
         self.frame = BitmapFrame()
-        self._underlay: UnderlayPicture | None = None
-        self._look, self._mode = PathLook(theme), CanvasMode.DRAW
-        self._program: ProgramPicture | None = None
-        self.around = AroundPicture()
+        self._underlay: UnderlayLayer | None = None
+        self._look, self._mode = PathDisplay(theme), CanvasMode.DRAW
+        self._program: ProgramLayer | None = None
+        self.around = SurroundingsLayer()
         self._trial, self._trial_picture, self._preview_picture = (
             DrawingDifference(),
-            overlay.TrialPicture(),
-            overlay.TrialPicture(),
+            overlay.TrialLayer(),
+            overlay.TrialLayer(),
         )
         self._findings: tuple[Finding, ...] = ()
         self._lit: int | Entity | Note | None = None
@@ -95,7 +103,7 @@ class Canvas(Hands):
         return self._look.layers
 
     @property
-    def colour_by(self) -> ColourBy:
+    def colour_by(self) -> PathColourBy:
         """What the colour of a path tells."""
         return self._look.colour_by
 
@@ -115,12 +123,12 @@ class Canvas(Hands):
         self.look_at(None)
         self.repaint_scene()
 
-    def set_program(self, program: Program | ProgramPicture | None) -> None:
+    def set_program(self, program: Program | ProgramLayer | None) -> None:
         """Show these tool paths in PATHS; None shows none. A picture that another thread has prepared costs nothing
         here.
         """
         self.look_at(None)
-        self._program = ProgramPicture(program) if isinstance(program, Program) else program
+        self._program = ProgramLayer(program) if isinstance(program, Program) else program
         self.repaint_scene()
 
     def show_trial(self, trial: DrawingDifference) -> None:
@@ -143,7 +151,7 @@ class Canvas(Hands):
         """Choose what PATHS shows."""
         self._set_look(replace(self._look, layers=layers))
 
-    def set_colour_by(self, colour_by: ColourBy) -> None:
+    def set_colour_by(self, colour_by: PathColourBy) -> None:
         """Colour the paths by tool or by region."""
         self._set_look(replace(self._look, colour_by=colour_by))
 
@@ -157,7 +165,7 @@ class Canvas(Hands):
         self.frame = frame
         self.repaint_scene()
 
-    def set_underlay(self, picture: UnderlayPicture | None) -> None:
+    def set_underlay(self, picture: UnderlayLayer | None) -> None:
         """Lay a picture under the drawing, or none."""
         self._underlay = picture
         self.repaint_scene()
@@ -196,7 +204,7 @@ class Canvas(Hands):
         return self.picture.count(box) + (program.count(box, self._look.layers) if program is not None else 0)
 
     @property
-    def _shown_program(self) -> ProgramPicture | None:
+    def _shown_program(self) -> ProgramLayer | None:
         return self._program if self._mode is CanvasMode.PATHS else None
 
     def scene_steps(self, painter: QPainter, area: QRectF) -> Iterator[None]:
@@ -227,7 +235,7 @@ class Canvas(Hands):
         )
         return box if box is not None and self._elements(box) > MANY else None
 
-    def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
+    def far_steps(self, painter: QPainter, view: ViewTransform) -> Iterator[None]:
         """Paint paths and part with the finest pens."""
         look, program, box = self._look, self._shown_program, self.far_box
         if program is not None and box is not None:
@@ -316,8 +324,8 @@ class Canvas(Hands):
 
     def _paint_marks(self, painter: QPainter) -> None:
         """Paint the places that are being marked by hand."""
-        if self.marking is not None:
-            overlay.paint_points(painter, self.view, list(self.marking.places()), self._look.theme)
+        if self.marker_mode is not None:
+            overlay.paint_points(painter, self.view, list(self.marker_mode.places()), self._look.theme)
 
     def set_unit(self, unit: float) -> None:
         """Count in another unit, of so many mm; typed lengths, too."""
@@ -331,10 +339,10 @@ class Canvas(Hands):
             return
         at = self.entry.at
         if self.aim is not None:
-            overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.aiming.acquired), self.area, theme)
+            overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.snap_state.acquired), self.area, theme)
         end = typed.answer(tool, at)
         end = end if isinstance(end, tuple) else at
-        if isinstance(tool, CarryTool):
+        if isinstance(tool, SelectionDragTool):
             for _ in self.picture.selected_steps(painter, self._carried_view(tool, end), theme.accent, self.area):
                 pass
         preview = self.runner.preview(at)
@@ -358,7 +366,7 @@ class Canvas(Hands):
         )
         paint_values(painter, ValueSheet.of(self.entry, words), place, self._look.theme)
 
-    def _carried_view(self, tool: CarryTool, to: Point) -> View:
+    def _carried_view(self, tool: SelectionDragTool, to: Point) -> ViewTransform:
         """Return the view that shows the selection where it is carried to."""
         dx, dy = tool.shift(to)
         return self.view.panned(dx * self.view.scale, -dy * self.view.scale)
@@ -366,7 +374,7 @@ class Canvas(Hands):
     @property
     def _grip_under(self) -> Point | None:
         """The grip under the mouse, or in hand."""
-        if isinstance(self.runner.tool, PullTool):
+        if isinstance(self.runner.tool, GripDragTool):
             return self.runner.tool.base
         if self.mouse is None or self.runner.tool is not None or self.banding:
             return None
@@ -401,7 +409,7 @@ class Canvas(Hands):
         self.fit_to(whole)
         self._fresh = False
 
-    def _set_look(self, look: PathLook) -> None:
+    def _set_look(self, look: PathDisplay) -> None:
         self._look = look
         self.look_at(None)
         self.repaint_scene()

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from ....drafting.curves.shapes import arc_through
 from ....drafting.expressions.words import point_text
 from ....model.curves import Curve, Line, Point
-from .drawing_tool import DrawingTool, Preview, arc_label
+from .drawing_tool import DrawingTool, ToolPreview, arc_label
 
 
 @dataclass
@@ -53,9 +53,9 @@ class LineTool(DrawingTool):
         """Return `line a b`."""
         return f"line {point_text(points[0])} {point_text(points[1])}"
 
-    def show(self, cursor: Point) -> Preview:
+    def show(self, cursor: Point) -> ToolPreview:
         """Return the next line."""
-        return Preview((Line(self.points[-1], cursor),))
+        return ToolPreview((Line(self.points[-1], cursor),))
 
 
 @dataclass
@@ -121,13 +121,13 @@ class PolylineTool(DrawingTool):
         """Return `polyline a b …`."""
         return " ".join(["polyline", *map(point_text, points)])
 
-    def show(self, cursor: Point) -> Preview:
+    def show(self, cursor: Point) -> ToolPreview:
         """Return everything so far and the next segment."""
         done = self._done()
         if self.via is not None:
             arc = arc_through(self.points[-1], self.via, cursor)
-            return Preview((*done, arc), label=arc_label(arc, self.unit))
-        return Preview((*done, Line(self.points[-1], cursor)))
+            return ToolPreview((*done, arc), label=arc_label(arc, self.unit))
+        return ToolPreview((*done, Line(self.points[-1], cursor)))
 
     def _done(self) -> list[Curve]:
         done: list[Curve] = []

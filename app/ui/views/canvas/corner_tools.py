@@ -8,36 +8,36 @@ from typing import ClassVar
 
 from ....drafting.expressions.words import number_text
 from ....model.curves import Point
-from .asking import Answer, Ask, AskingTool, answer_text
-from .drawing_tool import Pick, Want
+from .drawing_tool import InputKind, Pick
+from .prompt_tool import Answer, Prompt, PromptTool, answer_text
 
 
 @dataclass
-class TrimTool(AskingTool):
+class TrimTool(PromptTool):
     """The piece under the mouse goes, up to what crosses."""
 
     name = "Trim"
-    asks = (Ask("click the piece that goes; Enter ends", Want.CURVE),)
+    asks = (Prompt("click the piece that goes; Enter ends", InputKind.CURVE),)
     form = "trim {0}"
 
 
 @dataclass
-class ExtendTool(AskingTool):
+class ExtendTool(PromptTool):
     """The end near the mouse goes on to what lies ahead."""
 
     name = "Extend"
-    asks = (Ask("click near the end that goes on; Enter ends", Want.CURVE),)
+    asks = (Prompt("click near the end that goes on; Enter ends", InputKind.CURVE),)
     form = "extend {0}"
 
 
 @dataclass
-class BreakTool(AskingTool):
+class BreakTool(PromptTool):
     """In two at a point, or without what lies between two."""
 
     name = "Break"
     asks = (
-        Ask("click a curve where it breaks", Want.CURVE),
-        Ask("a second point, or Enter to break at one", optional=True),
+        Prompt("click a curve where it breaks", InputKind.CURVE),
+        Prompt("a second point, or Enter to break at one", optional=True),
     )
 
     @property
@@ -55,13 +55,13 @@ class BreakTool(AskingTool):
 
 
 @dataclass
-class FilletTool(AskingTool):
+class FilletTool(PromptTool):
     """An arc that touches two curves, on the sides where they are clicked."""
 
     name = "Fillet"
     asks = (
-        Ask("first curve, or the radius", Want.CURVE, sets="radius"),
-        Ask("second curve, or the radius", Want.CURVE, sets="radius"),
+        Prompt("first curve, or the radius", InputKind.CURVE, sets="radius"),
+        Prompt("second curve, or the radius", InputKind.CURVE, sets="radius"),
     )
     numbers: ClassVar[Mapping[str, float]] = {"radius": 5.0}
     form = "fillet {radius} {0} {1}"
@@ -93,8 +93,8 @@ class ChamferTool(FilletTool):
 
     name = "Chamfer"
     asks = (
-        Ask("first line, or the size", Want.CURVE, sets="size"),
-        Ask("second line, or the size", Want.CURVE, sets="size"),
+        Prompt("first line, or the size", InputKind.CURVE, sets="size"),
+        Prompt("second line, or the size", InputKind.CURVE, sets="size"),
     )
     numbers: ClassVar[Mapping[str, float]] = {"size": 2.0, "second": 0.0}
     box_names: ClassVar[Mapping[str, str]] = {"second": "Second size"}

@@ -9,7 +9,7 @@ from ....geometry.dimension_lines import figure
 from ....model.curves import Arc, Circle, Line, Point
 from ....model.notes import Dimension, Guide, Mark, Note
 from ....model.part import Entity
-from ...framework.shown_unit import shown_name, shown_size
+from ...framework.display_unit import display_unit_name, display_unit_size
 
 
 def describe_entity(entity: Entity) -> str:
@@ -38,14 +38,14 @@ def describe_note(note: Note) -> str:
 
 
 def _place(at: Point) -> str:
-    size = shown_size()
+    size = display_unit_size()
     return f"{at[0]:.3f}, {at[1]:.3f}" if size == 1.0 else f"{at[0] / size:.4f}, {at[1] / size:.4f} in"
 
 
 def _length(length: float) -> str:
-    return f"{length:.3f} mm" if shown_size() == 1.0 else f"{length / shown_size():.4f} in"
+    return f"{length:.3f} mm" if display_unit_size() == 1.0 else f"{length / display_unit_size():.4f} in"
 
 
 def _measure(dimension: Dimension) -> str:
-    text = figure(dimension, shown_size())
-    return text if text.endswith("°") else f"{text} {shown_name('mm')}"
+    text = figure(dimension, display_unit_size())
+    return text if text.endswith("°") else f"{text} {display_unit_name('mm')}"

@@ -16,7 +16,7 @@ from ....model.curves import Arc, Curve, Line, Point
 from .value_boxes import PLACE, SPAN, NamedValue, PointBoxes, ValueBox
 
 
-class Want(Enum):
+class InputKind(Enum):
     """What a tool asks for: a point, a curve, a point or else a curve, curves to be selected, words to be typed."""
 
     POINT = auto()
@@ -36,7 +36,7 @@ class Pick:
 
 
 @dataclass(frozen=True, slots=True)
-class Desk:
+class ToolContext:
     """What a tool works at.
 
     Attributes:
@@ -49,7 +49,7 @@ class Desk:
 
 
 @dataclass(frozen=True, slots=True)
-class Preview:
+class ToolPreview:
     """What a running tool shows.
 
     Attributes:
@@ -102,14 +102,14 @@ class DrawingTool:
         return False
 
     @property
-    def wants(self) -> Want:
+    def wants(self) -> InputKind:
         """What is asked for now."""
-        return Want.POINT
+        return InputKind.POINT
 
     @property
     def exact(self) -> bool:
         """Whether the mouse aims at points of the drawing now; a curve is picked where the mouse is."""
-        return self.wants is not Want.CURVE
+        return self.wants is not InputKind.CURVE
 
     @property
     def options(self) -> tuple[str, ...]:
@@ -135,7 +135,7 @@ class DrawingTool:
         """True where Enter carries on with the shape rather than ends the tool."""
         return self.busy
 
-    def begin(self, desk: Desk) -> str | None:
+    def begin(self, desk: ToolContext) -> str | None:
         """Take up work; return a line when nothing has to be asked."""
         return None
 
@@ -211,16 +211,16 @@ class DrawingTool:
         """Return the line of the drawing language for a whole set of points."""
         raise NotImplementedError
 
-    def preview(self, cursor: Point) -> Preview:
+    def preview(self, cursor: Point) -> ToolPreview:
         """Return what the shape would be with a point at the mouse."""
         if not self.points:
-            return Preview()
+            return ToolPreview()
         try:
             return self.show(cursor)
         except InputError:
-            return Preview(helpers=tuple(Line(p, cursor) for p in self.points[-1:]))
+            return ToolPreview(helpers=tuple(Line(p, cursor) for p in self.points[-1:]))
 
-    def show(self, cursor: Point) -> Preview:
+    def show(self, cursor: Point) -> ToolPreview:
         """Return the preview once there is a point.
 
         Raises:

@@ -10,8 +10,8 @@ from typing import ClassVar
 from ....core.tolerances import WELD
 from ....drafting.curves.intersections import nearest_point
 from ....model.curves import Point
-from .asking import CHOOSE, Answer, Ask, AskingTool, answer_text, direction_from, point_of
-from .drawing_tool import Pick, Preview
+from .drawing_tool import Pick, ToolPreview
+from .prompt_tool import CHOOSE, Answer, Prompt, PromptTool, answer_text, direction_from, point_of
 from .value_boxes import ANGLE, FACTOR, STEP, PointBoxes, ValueBox
 
 
@@ -22,11 +22,11 @@ def _shift_text(answers: Sequence[Answer]) -> str:
 
 
 @dataclass
-class MoveTool(AskingTool):
+class MoveTool(PromptTool):
     """From a base point to another."""
 
     name = "Move"
-    asks = (CHOOSE, Ask("base point"), Ask("where it goes, or @dx,dy"))
+    asks = (CHOOSE, Prompt("base point"), Prompt("where it goes, or @dx,dy"))
     once = True
 
     def line_of(self, answers: Sequence[Answer]) -> str:
@@ -35,11 +35,11 @@ class MoveTool(AskingTool):
 
 
 @dataclass
-class CopyTool(AskingTool):
+class CopyTool(PromptTool):
     """From a base point to another, and to as many more as wanted."""
 
     name = "Copy"
-    asks = (CHOOSE, Ask("base point"), Ask("where the copy goes; Enter ends"))
+    asks = (CHOOSE, Prompt("base point"), Prompt("where the copy goes; Enter ends"))
     numbers: ClassVar[Mapping[str, float]] = {"times": 1}
     no_lengths = frozenset({"times"})
     box_names: ClassVar[Mapping[str, str]] = {"times": "Copies"}
@@ -52,26 +52,30 @@ class CopyTool(AskingTool):
 
 
 @dataclass
-class RotateTool(AskingTool):
+class RotateTool(PromptTool):
     """About a centre."""
 
     name = "Rotate"
-    asks = (CHOOSE, Ask("centre"), Ask("angle, or a point in its direction", measure=direction_from(1), boxes=ANGLE))
+    asks = (
+        CHOOSE,
+        Prompt("centre"),
+        Prompt("angle, or a point in its direction", measure=direction_from(1), boxes=ANGLE),
+    )
     toggles = ("copy",)
     form = "rotate {1} {2} {copy}"
     once = True
 
 
 @dataclass
-class ScaleTool(AskingTool):
+class ScaleTool(PromptTool):
     """About a centre, by a factor or from one size to another."""
 
     name = "Scale"
     asks = (
         CHOOSE,
-        Ask("centre"),
-        Ask("factor, or a point of the old size", boxes=FACTOR),
-        Ask("a point of the new size, or the factor", boxes=FACTOR),
+        Prompt("centre"),
+        Prompt("factor, or a point of the old size", boxes=FACTOR),
+        Prompt("a point of the new size, or the factor", boxes=FACTOR),
     )
     toggles = ("copy",)
     form = "scale {1} {2} {copy}"
@@ -108,25 +112,25 @@ class ScaleTool(AskingTool):
 
 
 @dataclass
-class MirrorTool(AskingTool):
+class MirrorTool(PromptTool):
     """About the line through two points."""
 
     name = "Mirror"
-    asks = (CHOOSE, Ask("a point of the mirror line"), Ask("another point of it"))
+    asks = (CHOOSE, Prompt("a point of the mirror line"), Prompt("another point of it"))
     toggles = ("copy",)
     form = "mirror {1} {2} {copy}"
     once = True
 
 
 @dataclass
-class ArrayTool(AskingTool):
+class ArrayTool(PromptTool):
     """Columns and rows, by the way from one place to the next across and up."""
 
     name = "Array"
     asks = (
         CHOOSE,
-        Ask("base point, or how many columns", sets="columns"),
-        Ask("that point in the next column and row, or @dx,dy", boxes=STEP),
+        Prompt("base point, or how many columns", sets="columns"),
+        Prompt("that point in the next column and row, or @dx,dy", boxes=STEP),
     )
     numbers: ClassVar[Mapping[str, float]] = {"columns": 3, "rows": 2}
     no_lengths = frozenset({"columns", "rows"})
@@ -138,11 +142,11 @@ class ArrayTool(AskingTool):
 
 
 @dataclass
-class ArrayPolarTool(AskingTool):
+class ArrayPolarTool(PromptTool):
     """Round a centre."""
 
     name = "Polar array"
-    asks = (CHOOSE, Ask("centre, or how many places; Up and Down change it", sets="places"))
+    asks = (CHOOSE, Prompt("centre, or how many places; Up and Down change it", sets="places"))
     numbers: ClassVar[Mapping[str, float]] = {"places": 6, "over": 360.0}
     no_lengths = frozenset({"places", "over"})
     box_names: ClassVar[Mapping[str, str]] = {"places": "How many", "over": "Over angle"}
@@ -157,11 +161,11 @@ class ArrayPolarTool(AskingTool):
 
 
 @dataclass
-class OffsetTool(AskingTool):
+class OffsetTool(PromptTool):
     """Parallels of what is selected, through a point or on its side at a distance."""
 
     name = "Offset"
-    asks = (CHOOSE, Ask("a point that it goes through, or the distance", sets="distance"))
+    asks = (CHOOSE, Prompt("a point that it goes through, or the distance", sets="distance"))
     numbers: ClassVar[Mapping[str, float]] = {"distance": 0.0}
 
     @property
@@ -186,9 +190,9 @@ class OffsetTool(AskingTool):
         """Return the distance that is set, else the one to the mouse."""
         return self.value(word) or self._away(cursor)
 
-    def helpers(self, cursor: Point) -> Preview:
+    def helpers(self, cursor: Point) -> ToolPreview:
         """Return nothing."""
-        return Preview()
+        return ToolPreview()
 
     def _away(self, point: Point) -> float:
         """Return how far the selected curve nearest to a point lies from it, mm."""
@@ -200,7 +204,7 @@ class OffsetTool(AskingTool):
 
 
 @dataclass
-class JoinTool(AskingTool):
+class JoinTool(PromptTool):
     """Pieces that are one curve become one; small gaps close."""
 
     name = "Join"
@@ -210,7 +214,7 @@ class JoinTool(AskingTool):
 
 
 @dataclass
-class ExplodeTool(AskingTool):
+class ExplodeTool(PromptTool):
     """Ellipses and splines become lines and arcs."""
 
     name = "Explode"
@@ -220,7 +224,7 @@ class ExplodeTool(AskingTool):
 
 
 @dataclass
-class ReverseTool(AskingTool):
+class ReverseTool(PromptTool):
     """Curves run the other way."""
 
     name = "Reverse"

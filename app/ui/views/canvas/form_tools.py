@@ -12,8 +12,8 @@ from typing import ClassVar
 from ....core.tolerances import WELD
 from ....drafting.curves.shapes import rectangle
 from ....model.curves import Curve, Point
-from .asking import Answer, Ask, AskingTool, answer_text, distance_aside, distance_from, point_of
-from .drawing_tool import Desk, Pick, Preview, Want
+from .drawing_tool import InputKind, Pick, ToolContext, ToolPreview
+from .prompt_tool import Answer, Prompt, PromptTool, answer_text, distance_aside, distance_from, point_of
 from .value_boxes import ANGLE, SIZE, SPAN, NamedValue, PointBoxes, ValueBox, direction
 
 
@@ -27,16 +27,16 @@ def _radius_through(answers: Sequence[Answer], point: Point) -> float:
 
 
 @dataclass
-class ArcRadiusTool(AskingTool):
+class ArcRadiusTool(PromptTool):
     """Start, end, radius; the arc bulges towards the mouse."""
 
     side: bool = True
     large: bool = False
     name = "Arc"
     asks = (
-        Ask("start point"),
-        Ask("end point"),
-        Ask("radius, or a point on the arc", measure=_radius_through, boxes=NamedValue("Radius")),
+        Prompt("start point"),
+        Prompt("end point"),
+        Prompt("radius, or a point on the arc", measure=_radius_through, boxes=NamedValue("Radius")),
     )
 
     def follow(self, cursor: Point) -> None:
@@ -57,11 +57,11 @@ class ArcRadiusTool(AskingTool):
 
 
 @dataclass
-class ArcOnTool(AskingTool):
+class ArcOnTool(PromptTool):
     """Onward from the curve drawn last, without a corner; one arc after the other."""
 
     name = "Arc onward"
-    asks = (Ask("end point; it goes on from the curve drawn last"),)
+    asks = (Prompt("end point; it goes on from the curve drawn last"),)
     form = "arc on {0}"
 
     @property
@@ -71,32 +71,32 @@ class ArcOnTool(AskingTool):
 
 
 @dataclass
-class CircleTwoTool(AskingTool):
+class CircleTwoTool(PromptTool):
     """The ends of a diameter."""
 
     name = "Circle"
-    asks = (Ask("one end of a diameter"), Ask("the other end", boxes=SPAN.named("Diameter")))
+    asks = (Prompt("one end of a diameter"), Prompt("the other end", boxes=SPAN.named("Diameter")))
     form = "circle diameter {0} {1}"
 
 
 @dataclass
-class CircleThreeTool(AskingTool):
+class CircleThreeTool(PromptTool):
     """Three points of it."""
 
     name = "Circle"
-    asks = (Ask("a point on the circle"), Ask("a second point"), Ask("a third point"))
+    asks = (Prompt("a point on the circle"), Prompt("a second point"), Prompt("a third point"))
     form = "circle through {0} {1} {2}"
 
 
 @dataclass
-class RoundRectangleTool(AskingTool):
+class RoundRectangleTool(PromptTool):
     """Opposite corners, then the radius of the round ones."""
 
     name = "Rounded rectangle"
     asks = (
-        Ask("first corner"),
-        Ask("opposite corner, or @width,height", boxes=SIZE),
-        Ask(
+        Prompt("first corner"),
+        Prompt("opposite corner, or @width,height", boxes=SIZE),
+        Prompt(
             "radius of the corners, or a point as far from the corner",
             measure=distance_from(1),
             boxes=NamedValue("Radius"),
@@ -115,19 +115,19 @@ class RoundRectangleTool(AskingTool):
             return ()
         return rectangle(self.points[0], corner)
 
-    def helpers(self, cursor: Point) -> Preview:
+    def helpers(self, cursor: Point) -> ToolPreview:
         """Return nothing before the radius."""
-        return super().helpers(cursor) if len(self.answers) > 1 else Preview()
+        return super().helpers(cursor) if len(self.answers) > 1 else ToolPreview()
 
 
 @dataclass
-class PolygonTool(AskingTool):
+class PolygonTool(PromptTool):
     """Centre, then a corner or the middle of a side; a number before them is how many corners."""
 
     name = "Polygon"
     asks = (
-        Ask("centre, or how many corners", sets="corners"),
-        Ask("a corner; Up and Down change how many", boxes=SPAN.named("Radius")),
+        Prompt("centre, or how many corners", sets="corners"),
+        Prompt("a corner; Up and Down change how many", boxes=SPAN.named("Radius")),
     )
     numbers: ClassVar[Mapping[str, float]] = {"corners": 6}
     no_lengths = frozenset({"corners"})
@@ -136,14 +136,14 @@ class PolygonTool(AskingTool):
 
 
 @dataclass
-class SlotTool(AskingTool):
+class SlotTool(PromptTool):
     """The centres of both ends, then the width."""
 
     name = "Slot"
     asks = (
-        Ask("centre of one end"),
-        Ask("centre of the other end"),
-        Ask(
+        Prompt("centre of one end"),
+        Prompt("centre of the other end"),
+        Prompt(
             "width, or a point on its side",
             measure=lambda answers, point: 2 * distance_aside(answers, point),
             boxes=NamedValue("Width"),
@@ -153,24 +153,24 @@ class SlotTool(AskingTool):
 
 
 @dataclass
-class EllipseTool(AskingTool):
+class EllipseTool(PromptTool):
     """Centre, end of a half axis, then the other half axis."""
 
     name = "Ellipse"
     asks = (
-        Ask("centre"),
-        Ask("end of a half axis", boxes=SPAN.named("Half axis")),
-        Ask("the other half axis, or a point as far", measure=distance_aside, boxes=NamedValue("Half axis")),
+        Prompt("centre"),
+        Prompt("end of a half axis", boxes=SPAN.named("Half axis")),
+        Prompt("the other half axis, or a point as far", measure=distance_aside, boxes=NamedValue("Half axis")),
     )
     form = "ellipse {0} {1} {2}"
 
 
 @dataclass
-class SplineTool(AskingTool):
+class SplineTool(PromptTool):
     """Points that it goes through, until Enter or close."""
 
     name = "Spline"
-    asks = (Ask("first point"), Ask("next point; Enter ends, close closes"))
+    asks = (Prompt("first point"), Prompt("next point; Enter ends, close closes"))
     toggles = ()
 
     @property
@@ -210,20 +210,20 @@ class SplineTool(AskingTool):
 
 
 @dataclass
-class PointTool(AskingTool):
+class PointTool(PromptTool):
     """Points to snap to."""
 
     name = "Point"
-    asks = (Ask("where it is"),)
+    asks = (Prompt("where it is"),)
     form = "point {0}"
 
 
 @dataclass
-class GuideTool(AskingTool):
+class GuideTool(PromptTool):
     """Construction lines: a point, then another or the angle; or only across or only up."""
 
     name = "Construction line"
-    asks = (Ask("a point of it"), Ask("another point, or the angle", boxes=ANGLE))
+    asks = (Prompt("a point of it"), Prompt("another point, or the angle", boxes=ANGLE))
 
     @property
     def boxes(self) -> PointBoxes | ValueBox | None:
@@ -270,22 +270,28 @@ class GuideTool(AskingTool):
 
 
 @dataclass
-class DimensionTool(AskingTool):
+class DimensionTool(PromptTool):
     """Two points and where the figure stands; or a curve and where its figure stands; or three points of an angle."""
 
     name = "Dimension"
     toggles = ("across", "up", "angle")
-    asks = (Ask("first point, or a curve", Want.EITHER), Ask("second point"), Ask("where the figure stands"))
+    asks = (
+        Prompt("first point, or a curve", InputKind.EITHER),
+        Prompt("second point"),
+        Prompt("where the figure stands"),
+    )
 
     @property
-    def ask(self) -> Ask:
+    def ask(self) -> Prompt:
         """The question now; a curve needs no second point, an angle a third one."""
         if self.answers and isinstance(self.answers[0], Pick):
             return self.asks[-1]
         if "angle" in self.on and len(self.answers) < 3:
-            return (Ask("corner of the angle"), Ask("a point of the first side"), Ask("a point of the second side"))[
-                len(self.answers)
-            ]
+            return (
+                Prompt("corner of the angle"),
+                Prompt("a point of the first side"),
+                Prompt("a point of the second side"),
+            )[len(self.answers)]
         return super().ask
 
     @property
@@ -324,23 +330,26 @@ class DimensionTool(AskingTool):
 
 
 @dataclass
-class TextTool(AskingTool):
+class TextTool(PromptTool):
     """Where it stands, then its words, typed in the command line."""
 
     name = "Text"
-    asks = (Ask("lower left of the words, or their height", sets="height"), Ask("type the words", Want.WORDS))
+    asks = (
+        Prompt("lower left of the words, or their height", sets="height"),
+        Prompt("type the words", InputKind.WORDS),
+    )
     numbers: ClassVar[Mapping[str, float]] = {"height": 10.0}
     form = "text {0} {height} {1}"
 
 
 @dataclass
-class MeasureTool(AskingTool):
+class MeasureTool(PromptTool):
     """The way between two points; with a selection its lengths and areas."""
 
     name = "Measure"
-    asks = (Ask("from, or a curve", Want.EITHER), Ask("to"))
+    asks = (Prompt("from, or a curve", InputKind.EITHER), Prompt("to"))
 
-    def begin(self, desk: Desk) -> str | None:
+    def begin(self, desk: ToolContext) -> str | None:
         """Measure what is selected at once."""
         self.desk = desk
         return "measure" if desk.document.selection else None

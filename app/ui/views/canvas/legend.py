@@ -11,17 +11,17 @@ from ....model.operation import Operation
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import muted
-from ...framework.samples import LineSample, Sample, sample_of
+from ...framework.samples import LineSample, PathLineKind, sample_of
 from ...framework.section import hairline, heading
 from ...framework.theme import LIGHT, Theme
-from .engaged import STEPS, colours
-from .modes import ColourBy
+from .modes import PathColourBy
+from .painting.engagement_colours import STEPS, colours
 
 
 class LegendRow(QToolButton):
     """One kind of line; a click shows or hides it."""
 
-    def __init__(self, sample: Sample) -> None:
+    def __init__(self, sample: PathLineKind) -> None:
         super().__init__()
         self.setCheckable(True)
         self.setChecked(True)
@@ -52,7 +52,7 @@ class LegendRow(QToolButton):
         self.label.setFont(font)
 
 
-class EngagedScale(QWidget):
+class EngagementScale(QWidget):
     """The colours of engagement, and the shares of the diameter between them."""
 
     def __init__(self) -> None:
@@ -89,11 +89,11 @@ class Legend(QFrame):
     """A quiet sheet in the canvas' upper right corner.
 
     Signals:
-        layer_switched(sample, on). colour_chosen(ColourBy).
+        layer_switched(sample, on). colour_chosen(PathColourBy).
     """
 
-    layer_switched = Signal(Sample, bool)
-    colour_chosen = Signal(ColourBy)
+    layer_switched = Signal(PathLineKind, bool)
+    colour_chosen = Signal(PathColourBy)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -109,8 +109,8 @@ class Legend(QFrame):
         column = QVBoxLayout(self.body)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        self.rows: dict[Sample, LegendRow] = {}
-        for sample in (sample for sample in Sample if sample is not Sample.WEDGES):
+        self.rows: dict[PathLineKind, LegendRow] = {}
+        for sample in (sample for sample in PathLineKind if sample is not PathLineKind.WEDGES):
             row = LegendRow(sample)
             row.toggled.connect(lambda on, s=sample: self.layer_switched.emit(s, on))
             self.rows[sample] = row
@@ -120,13 +120,13 @@ class Legend(QFrame):
         column.addSpacing(8)
         column.addWidget(muted("Colour by"))
         self.colour = ChoiceField(
-            "", [(ColourBy.TOOL, "Tool"), (ColourBy.REGION, "Region"), (ColourBy.ENGAGEMENT, "Load")]
+            "", [(PathColourBy.TOOL, "Tool"), (PathColourBy.REGION, "Region"), (PathColourBy.ENGAGEMENT, "Load")]
         )
-        self.colour.buttons[ColourBy.ENGAGEMENT].setToolTip("How much of the diameter is engaged along the path")
-        self.colour.show_value(ColourBy.TOOL)
+        self.colour.buttons[PathColourBy.ENGAGEMENT].setToolTip("How much of the diameter is engaged along the path")
+        self.colour.show_value(PathColourBy.TOOL)
         self.colour.chosen.connect(self._choose_colour)
         column.addWidget(self.colour)
-        self.scale = EngagedScale()
+        self.scale = EngagementScale()
         self.scale.hide()
         column.addWidget(self.scale)
 
@@ -161,10 +161,10 @@ class Legend(QFrame):
         self.fold.show_icon("down" if folded else "up", "Unfold the legend" if folded else "Fold the legend")
         self.adjustSize()
 
-    def _choose_colour(self, by: ColourBy) -> None:
+    def _choose_colour(self, by: PathColourBy) -> None:
         for row in self.rows.values():
-            row.line.set_any_colour(by is not ColourBy.TOOL)
-        self.scale.setVisible(by is ColourBy.ENGAGEMENT)
+            row.line.set_any_colour(by is not PathColourBy.TOOL)
+        self.scale.setVisible(by is PathColourBy.ENGAGEMENT)
         self._fit()
         self.colour_chosen.emit(by)
 
@@ -175,8 +175,8 @@ class Legend(QFrame):
 
     def show_left(self, left: bool, unreachable: bool) -> None:
         """Have entries for what is left on the floor only when there is some."""
-        self.rows[Sample.LEFT].setVisible(left)
-        self.rows[Sample.UNREACHABLE].setVisible(unreachable)
+        self.rows[PathLineKind.LEFT].setVisible(left)
+        self.rows[PathLineKind.UNREACHABLE].setVisible(unreachable)
         self._fit()
 
     def _fit(self) -> None:
@@ -191,10 +191,10 @@ class Legend(QFrame):
         """Name the tools of the paths, and have entries for rest machining and keep-out areas only when there are
         any.
         """
-        for sample in (Sample.POCKET, Sample.REST, Sample.CONTOUR):
+        for sample in (PathLineKind.POCKET, PathLineKind.REST, PathLineKind.CONTOUR):
             self.rows[sample].label.setText(f"{sample.value} {_tools(job.operations, sample)}".strip())
-        self.rows[Sample.REST].setVisible(bool(_tools(job.operations, Sample.REST)))
-        self.rows[Sample.CLAMP].setVisible(bool(job.keep_out_layers))
+        self.rows[PathLineKind.REST].setVisible(bool(_tools(job.operations, PathLineKind.REST)))
+        self.rows[PathLineKind.CLAMP].setVisible(bool(job.keep_out_layers))
         self._fit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
@@ -208,6 +208,6 @@ class Legend(QFrame):
         QPainter(self).fillRect(self.rect(), ground)
 
 
-def _tools(operations: tuple[Operation, ...], sample: Sample) -> str:
+def _tools(operations: tuple[Operation, ...], sample: PathLineKind) -> str:
     numbers = dict.fromkeys(op.cut.tool for op in operations if sample_of(op) is sample and op.cut.enabled)
     return " ".join(f"T{number}" for number in numbers)

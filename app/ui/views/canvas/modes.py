@@ -54,7 +54,7 @@ class CanvasMode(Enum):
     PATHS = "paths"
 
 
-class ColourBy(Enum):
+class PathColourBy(Enum):
     """What the colour of a tool path tells."""
 
     TOOL = "tool"

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ....model.curves import Point
 from ....model.job import Job
 from ....model.moves import MoveKind, Purpose
-from .program_geometry import MoveShapes
+from .painting.move_shapes import MoveShapes
 
 _NAMES = {
     Purpose.RAPID: "Rapid",

@@ -9,7 +9,7 @@ from ....core.tolerances import WELD
 from ....drafting.curves.shapes import arc_about, arc_through, circle, on_circle
 from ....drafting.expressions.words import number_text, point_text
 from ....model.curves import Arc, Line, Point
-from .drawing_tool import DrawingTool, Preview, arc_label
+from .drawing_tool import DrawingTool, ToolPreview, arc_label
 from .value_boxes import PLACE, RADIUS, SPAN, PointBoxes, ValueBox, sweep
 
 
@@ -47,12 +47,12 @@ class ArcCentreTool(DrawingTool):
             "" if arc.ccw else " cw"
         )
 
-    def show(self, cursor: Point) -> Preview:
+    def show(self, cursor: Point) -> ToolPreview:
         """Return the radius, then the arc."""
         spokes = tuple(Line(self.points[0], p) for p in (*self.points[1:], cursor))
         if len(self.points) == 1:
-            return Preview(helpers=spokes)
-        return Preview((self._arc([*self.points, cursor]),), spokes)
+            return ToolPreview(helpers=spokes)
+        return ToolPreview((self._arc([*self.points, cursor]),), spokes)
 
     def _arc(self, points: list[Point]) -> Arc:
         centre, start, towards = points
@@ -72,12 +72,12 @@ class ArcThreeTool(DrawingTool):
         """Return `arc start via end`."""
         return " ".join(["arc", *map(point_text, points)])
 
-    def show(self, cursor: Point) -> Preview:
+    def show(self, cursor: Point) -> ToolPreview:
         """Return the chord, then the arc."""
         if len(self.points) == 1:
-            return Preview(helpers=(Line(self.points[0], cursor),))
+            return ToolPreview(helpers=(Line(self.points[0], cursor),))
         arc = arc_through(self.points[0], self.points[1], cursor)
-        return Preview((arc,), label=arc_label(arc, self.unit))
+        return ToolPreview((arc,), label=arc_label(arc, self.unit))
 
 
 @dataclass
@@ -96,10 +96,10 @@ class CircleTool(DrawingTool):
         """Return `circle centre r`."""
         return f"circle {point_text(points[0])} {number_text(round(math.dist(*points), 6))}"
 
-    def show(self, cursor: Point) -> Preview:
+    def show(self, cursor: Point) -> ToolPreview:
         """Return the circle and its radius."""
         (centre,) = self.points
-        return Preview((circle(centre, math.dist(centre, cursor)),), (Line(centre, cursor),))
+        return ToolPreview((circle(centre, math.dist(centre, cursor)),), (Line(centre, cursor),))
 
 
 def _round(point: Point) -> Point:

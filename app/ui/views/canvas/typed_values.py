@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from ....core.tolerances import WELD
 from ....model.curves import Point
-from .aim import tidy
-from .asking import AskingTool
 from .drawing_tool import DrawingTool
+from .prompt_tool import PromptTool
+from .snapped_point import tidy
 from .value_boxes import Held, NamedValue, PointBoxes, ValueBox, ValueKind
 
 ORIGIN: Point = (0.0, 0.0)
@@ -99,7 +99,7 @@ class TypedValues:
 
     def shown(self, tool: DrawingTool, row: ValueRow, pointer: Point) -> float | None:
         """Return what a box shows, in mm, degrees or as it is; None where that is open."""
-        if isinstance(tool, AskingTool) and row.word:
+        if isinstance(tool, PromptTool) and row.word:
             return tool.number_shown(row.word, pointer)
         boxes = tool.boxes
         if row.part in self.held:

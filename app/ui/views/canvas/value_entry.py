@@ -13,9 +13,9 @@ from ....core.errors import HitofudeError
 from ....drafting.expressions.errors import CommandError
 from ....model.curves import Point
 from ...framework.figures import TIMES, grouped
-from .asking import AskingTool
 from .drawing_tool import DrawingTool, length_label
-from .running import ToolRunner
+from .prompt_tool import PromptTool
+from .tool_runner import ToolRunner
 from .typed_values import ORIGIN, ValueRow, rows_of
 from .value_boxes import ValueKind
 
@@ -233,7 +233,7 @@ class ValueEntry:
         reason = typed.refused(tool, row, value)
         if reason:
             return reason
-        if isinstance(tool, AskingTool) and row.word:
+        if isinstance(tool, PromptTool) and row.word:
             self._before.setdefault(row.word, tool.value(row.word))
             tool.set_value(row.word, value)
         else:
@@ -249,7 +249,7 @@ class ValueEntry:
 
     def _set_back(self, word: str) -> None:
         value, tool = self._before.pop(word), self._runner.tool
-        if isinstance(tool, AskingTool) and word in tool.numbers:
+        if isinstance(tool, PromptTool) and word in tool.numbers:
             tool.set_value(word, value)
 
     def _settled(self) -> bool:
@@ -266,7 +266,7 @@ class ValueEntry:
     def _keep_numbers(self) -> None:
         """Leave the numbers of the tool as they were typed."""
         tool = self._runner.tool
-        if isinstance(tool, AskingTool) and tool.setting in self._before:
+        if isinstance(tool, PromptTool) and tool.setting in self._before:
             tool.setting = ""
         self._before.clear()
 
@@ -276,7 +276,7 @@ class ValueEntry:
         lengths = list(map(abs, point)) if point is not None else []
         for row in self.rows:
             value = self._runner.typed.held.get(row.part) if not row.word else None
-            if row.word in self._before and isinstance(tool, AskingTool):
+            if row.word in self._before and isinstance(tool, PromptTool):
                 value = tool.value(row.word)
             if value is not None and row.box.quantity is ValueKind.COUNT and value > _MANY:
                 return f"{row.box.name} {grouped(value, 0)}? Enter again takes it."

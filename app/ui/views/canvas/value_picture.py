@@ -10,8 +10,8 @@ from functools import cache, lru_cache
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen, QPixmap
 
+from ...framework.catalogue import tr
 from ...framework.theme import Theme, text_font
-from ...framework.words import tr
 from .value_entry import RowShown, ValueEntry
 
 _GAP = 16.0

@@ -25,10 +25,10 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from ....geometry.sample import Box
-from .far_picture import FarPicture
-from .grid import RULER
-from .growing import Growing
-from .view import View, fitted
+from .painting.grid import RULER
+from .painting.incremental_picture import IncrementalPicture
+from .painting.overview_picture import OverviewPicture
+from .view_transform import ViewTransform, fitted
 
 GLIDE_MS = 150
 _SETTLE_MS = 90
@@ -67,14 +67,14 @@ class Viewport(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         """Begin with 5 px per mm."""
         super().__init__(parent)
-        self.view = View()
+        self.view = ViewTransform()
         self.scene_ms, self.unit = 0.0, 1.0
         self._scene: QPixmap | None = None
         self._scene_view, self._outdated = self.view, True
-        self._growing: Growing | None = None
+        self._growing: IncrementalPicture | None = None
         self._slices = QTimer(self, singleShot=True, interval=0)
         self._slices.timeout.connect(self._grow)
-        self._far = FarPicture()
+        self._far = OverviewPicture()
         self._far_rest = QTimer(self, singleShot=True)
         self._far_rest.timeout.connect(self._grow_far)
         self._pan_from: QPointF | None = None
@@ -120,7 +120,7 @@ class Viewport(QWidget):
         """
         return None
 
-    def far_steps(self, painter: QPainter, view: View) -> Iterator[None]:
+    def far_steps(self, painter: QPainter, view: ViewTransform) -> Iterator[None]:
         """Paint everything coarsely, without its ground, as a view has it; at every pause others may have their
         turn.
         """
@@ -139,7 +139,7 @@ class Viewport(QWidget):
         """Paint what follows the mouse."""
         raise NotImplementedError
 
-    def set_view(self, view: View) -> None:
+    def set_view(self, view: ViewTransform) -> None:
         """Look at the drawing this way; a shift by whole px keeps what was painted."""
         self._fitted = None
         self._show(view)
@@ -162,7 +162,7 @@ class Viewport(QWidget):
         covered = self.covered_right if self.covered_right < _SPARE * self.area.width() else 0.0
         return self.area.adjusted(0.0, 0.0, -covered, 0.0)
 
-    def _show(self, view: View) -> None:
+    def _show(self, view: ViewTransform) -> None:
         self.view = view
         if self._scroll() is not None:
             self._settle.start()
@@ -214,7 +214,7 @@ class Viewport(QWidget):
         self._glide.stop()
         self.set_view(self.view.zoomed(factor, at or self.area.center()))
 
-    def glide_to(self, view: View) -> None:
+    def glide_to(self, view: ViewTransform) -> None:
         """Go to another view in 150 ms; at once while the widget is hidden."""
         self._glide.stop()
         self._fitted = None
@@ -314,7 +314,7 @@ class Viewport(QWidget):
         ratio = self.devicePixelRatioF()
         pixmap = QPixmap(round(self.width() * ratio), round(self.height() * ratio))
         pixmap.setDevicePixelRatio(ratio)
-        self._growing = Growing(pixmap, self.view, partial(self._whole_scene, self._scroll()))
+        self._growing = IncrementalPicture(pixmap, self.view, partial(self._whole_scene, self._scroll()))
         if self._scene is None or not self.heavy:
             self._grow(math.inf)
         elif self.scene_ms <= _FRAME_MS:

@@ -10,11 +10,11 @@ from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from ...framework.catalogue import tr
 from ...framework.labels import Elided
 from ...framework.section import heading
 from ...framework.theme import LIGHT, Theme, text_font
-from ...framework.words import tr
-from .track import Spot, Track
+from .deviation_track import DeviationSample, DeviationTrack
 
 if TYPE_CHECKING:
     from pyqtgraph import InfiniteLine, PlotWidget
@@ -27,7 +27,7 @@ class DeviationPlot(QWidget):
     """A sheet with the deviation over the length; nothing until there is a track.
 
     Signals:
-        picked(Spot): a place was clicked. hovered(sentence): what is under the mouse, or "".
+        picked(DeviationSample): a place was clicked. hovered(sentence): what is under the mouse, or "".
     """
 
     picked = Signal(object)
@@ -41,8 +41,8 @@ class DeviationPlot(QWidget):
         self._plot: PlotWidget | None = None
         self._cursor: InfiniteLine | None = None
         self._pressed: QPointF | None = None
-        self.track: Track | None = None
-        self.spot: Spot | None = None
+        self.track: DeviationTrack | None = None
+        self.spot: DeviationSample | None = None
         self._tolerance = 0.0
         self.figures = Elided(role="muted")
         head = QHBoxLayout()
@@ -61,7 +61,7 @@ class DeviationPlot(QWidget):
         """The plot; None until something was shown."""
         return self._plot
 
-    def show_track(self, track: Track | None, tolerance: float) -> None:
+    def show_track(self, track: DeviationTrack | None, tolerance: float) -> None:
         """Show another track, or none.
 
         Args:
@@ -79,7 +79,7 @@ class DeviationPlot(QWidget):
         self._plot.setYRange(0.0, 1.12 * tolerance, padding=0.0)
         self._say()
 
-    def show_spot(self, spot: Spot | None) -> None:
+    def show_spot(self, spot: DeviationSample | None) -> None:
         """Mark a place."""
         self.spot = spot
         if self._cursor is not None:
@@ -96,7 +96,7 @@ class DeviationPlot(QWidget):
     def _say(self) -> None:
         spot = self.spot or (self.track.farthest() if self.track is not None else None)
         if spot is not None:
-            self.figures.setText(f"{'' if self.spot is not None else 'Largest: '}{told(spot)}")
+            self.figures.setText(f"{'' if self.spot is not None else 'Largest: '}{deviation_text(spot)}")
 
     def _made_plot(self) -> PlotWidget:
         from pyqtgraph import PlotWidget  # heavy; most programs are looked at without
@@ -111,7 +111,7 @@ class DeviationPlot(QWidget):
         plot.viewport().installEventFilter(self)
         return plot
 
-    def _draw(self, plot: PlotWidget, track: Track) -> None:
+    def _draw(self, plot: PlotWidget, track: DeviationTrack) -> None:
         from pyqtgraph import InfiniteLine, mkPen
 
         theme = self._theme
@@ -147,7 +147,7 @@ class DeviationPlot(QWidget):
                 self._pressed = event.position() if event.button() is Qt.MouseButton.LeftButton else None
             elif event.type() == QEvent.Type.MouseMove:
                 spot = self._at(event.position())
-                self.hovered.emit(told(spot) if spot is not None else "")
+                self.hovered.emit(deviation_text(spot) if spot is not None else "")
             elif event.type() == QEvent.Type.MouseButtonRelease and self._pressed is not None:
                 spot = (
                     self._at(event.position())
@@ -161,7 +161,7 @@ class DeviationPlot(QWidget):
             self.hovered.emit("")
         return super().eventFilter(watched, event)
 
-    def _at(self, position: QPointF) -> Spot | None:
+    def _at(self, position: QPointF) -> DeviationSample | None:
         """Return the sample under a place of the plot, px."""
         if self._plot is None or self.track is None:
             return None
@@ -171,7 +171,7 @@ class DeviationPlot(QWidget):
         return self.track.near(float(box.mapSceneToView(position).x()))
 
 
-def told(spot: Spot) -> str:
+def deviation_text(spot: DeviationSample) -> str:
     """Return what there is to say about a place."""
     x, y, z = spot.place
     return f"{spot.off:.4f} mm apart · line {spot.line} · X {x:.3f} Y {y:.3f} Z {z:.3f} · at {spot.along:.2f} mm"

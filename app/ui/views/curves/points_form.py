@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from ....fitting.point_curves.correction import CorrectionMove, CorrectionOptions, CorrectionScope
 from ....fitting.point_curves.effective_method import EffectiveMethod, second_embodiment
 from ....fitting.point_curves.effective_points import EffectiveOptions, RangeEnds
-from ...framework.fields import ChoiceField, NumberField, Spec
+from ...framework.fields import ChoiceField, NumberField, NumberSpec
 
 _USUAL = CorrectionOptions()
 _EPSILON = 0.005
@@ -23,26 +23,32 @@ class PointsForm(QWidget):
         super().__init__(parent)
         self.points = ChoiceField("Points", [(False, "All"), (True, "Effective")])
         self.epsilon = NumberField(
-            Spec("Epsilon", low=1e-4, high=9.0, decimals=4, tip="Points so near to one segment belong to one facet")
+            NumberSpec(
+                "Epsilon", low=1e-4, high=9.0, decimals=4, tip="Points so near to one segment belong to one facet"
+            )
         )
         self.nearness = NumberField(
-            Spec("Nearness", low=1e-4, high=9.0, decimals=4, tip="How near to these points the curve goes", auto="auto")
+            NumberSpec(
+                "Nearness", low=1e-4, high=9.0, decimals=4, tip="How near to these points the curve goes", auto="auto"
+            )
         )
         self.ends = ChoiceField(
             "Ends", [(RangeEnds.OUTER, "Outer"), (RangeEnds.RATIO, "Ratio"), (RangeEnds.DISTANCE, "Distance")]
         )
         self.share = NumberField(
-            Spec("Share", "", 0.0, 0.5, 3, False, "Points in so much of a facet from either end count as its ends")
+            NumberSpec(
+                "Share", "", 0.0, 0.5, 3, False, "Points in so much of a facet from either end count as its ends"
+            )
         )
         self.reach = NumberField(
-            Spec("Reach", high=1000.0, decimals=4, tip="Points so near to an end of a facet count as its end")
+            NumberSpec("Reach", high=1000.0, decimals=4, tip="Points so near to an end of a facet count as its end")
         )
         self.others = ChoiceField("Others", [(_LEFT_OUT, "Left out"), (_CORRECTED, "Corrected")])
         self.before = NumberField(
-            Spec("Before", "", 0, 50, 0, False, "Effective points before a facet that its correction goes by")
+            NumberSpec("Before", "", 0, 50, 0, False, "Effective points before a facet that its correction goes by")
         )
         self.after = NumberField(
-            Spec("After", "", 1, 50, 0, False, "Effective points after a facet that its correction goes by")
+            NumberSpec("After", "", 1, 50, 0, False, "Effective points after a facet that its correction goes by")
         )
         self.move_to = ChoiceField(
             "Move", [(CorrectionMove.NEAREST, "Nearest"), (CorrectionMove.PERPENDICULAR, "Square")]
@@ -51,10 +57,12 @@ class PointsForm(QWidget):
             "Correct", [(None, "All"), (CorrectionScope.RATIO, "Ratio"), (CorrectionScope.DISTANCE, "Distance")]
         )
         self.near = NumberField(
-            Spec("Share", "", 0.0, 1.0, 3, False, "Points in so much of a facet from either end are corrected")
+            NumberSpec("Share", "", 0.0, 1.0, 3, False, "Points in so much of a facet from either end are corrected")
         )
         self.moved = NumberField(
-            Spec("At most", high=10.0, decimals=4, tip="Points that move no farther are corrected, others left out")
+            NumberSpec(
+                "At most", high=10.0, decimals=4, tip="Points that move no farther are corrected, others left out"
+            )
         )
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

@@ -28,7 +28,7 @@ class StandardView(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Ray:
+class SightRay:
     """A line of sight: points origin + t direction for every t; the direction leads away from the eye, length 1."""
 
     origin: Floats
@@ -69,11 +69,11 @@ class Camera:
             [size[0] / 2 + seen[:, 0] * self.scale, size[1] / 2 - seen[:, 1] * self.scale, seen[:, 2]]
         )
 
-    def ray(self, at: Pixel, size: Size) -> Ray:
+    def ray(self, at: Pixel, size: Size) -> SightRay:
         """Return the line of sight through a pixel, px from the left and from the top."""
         right, up, towards = self.axes
         across, above = (at[0] - size[0] / 2) / self.scale, (size[1] / 2 - at[1]) / self.scale
-        return Ray(np.asarray(self.target) + across * right + above * up, -towards)
+        return SightRay(np.asarray(self.target) + across * right + above * up, -towards)
 
     def matrix(self, size: Size, reach: float) -> NDArray[np.float32]:
         """Return the (4, 4) matrix from mm to clip space, column vectors.

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .colouring import FINE_PLACES, OUT_OF_REACH, STEPS, CutColour, values_of
-from .picture import CutPicture, Floats
+from .cell_colours import FINE_PLACES, OUT_OF_REACH, STEPS, CutColourBy, values_of
+from .cut_picture import CutPicture, Floats
 
 if TYPE_CHECKING:
     from ....verify.judgement import Judgement
@@ -43,7 +43,7 @@ def histogram_of(picture: CutPicture, judgement: Judgement) -> Histogram:
     something about.
     """
     cell = picture.pitch**2
-    counts = np.bincount(values_of(picture, CutColour.DEVIATION, picture.span).ravel(), minlength=256)
+    counts = np.bincount(values_of(picture, CutColourBy.DEVIATION, picture.span).ravel(), minlength=256)
     low, high = (round(at * (STEPS - 1)) for at in FINE_PLACES)
     below, above = (np.append(np.arange(start, stop, WIDTH), stop) for start, stop in ((0, low), (high + 1, STEPS)))
     right = sum(

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from ...framework.figures import grouped
 from ...framework.labels import muted
 from ...framework.theme import LIGHT, Theme, text_font
-from .colouring import STEPS, ColourKey
+from .cell_colours import STEPS, ColourKey
 from .histogram import Histogram
 
 if TYPE_CHECKING:

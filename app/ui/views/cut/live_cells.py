@@ -15,11 +15,11 @@ from ....core.progress import NO_PROGRESS, Progress
 from ....model.motion import MotionKind
 from ....model.tool import Tool
 from ....simulation.gpu.wedges_picture import MOVES, WedgesPicture, has_wedges, wedges_picture
-from .colouring import CutColour, values_of
-from .patch import Patch, patch_of
-from .picture import CutPicture, Floats, Heights
+from .cell_colours import CutColourBy, values_of
+from .cell_patch import CellPatch, patch_of
+from .cut_picture import CutPicture, Floats, Heights
 from .relief import Bytes
-from .tool_body import Place
+from .rendering.tool_body import Place
 
 if TYPE_CHECKING:
     from ....usecases.playback import Playback, PlayFrame
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class ChangedCells:
     """Cells that have changed, as the view's picture holds them.
 
     Attributes:
@@ -60,16 +60,16 @@ class LiveFrame:
     """
 
     moment: TimelinePlace
-    cells: Cells | None
-    patch: Patch | None
-    colour: CutColour
+    cells: ChangedCells | None
+    patch: CellPatch | None
+    colour: CutColourBy
     tool: Tool | None
     tip: Place | None
     wedges: WedgesPicture | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class FrameRequest:
     """What is wanted.
 
     Attributes:
@@ -78,7 +78,7 @@ class Wish:
     """
 
     moment: TimelinePlace
-    colour: CutColour
+    colour: CutColourBy
     wedges: bool = False
     all_cells: bool = False
 
@@ -114,9 +114,9 @@ class LiveCells:
         """
         self.playback, self._end, self._tools = playback, picture, tools
         self._heights, self._move = picture.heights.copy(), None if picture.move is None else picture.move.copy()
-        self._values: tuple[CutColour, Bytes] | None = None
+        self._values: tuple[CutColourBy, Bytes] | None = None
 
-    def frame(self, wish: Wish, progress: Progress = NO_PROGRESS) -> LiveFrame:
+    def frame(self, wish: FrameRequest, progress: Progress = NO_PROGRESS) -> LiveFrame:
         """Return what the view must take over.
 
         Raises:
@@ -138,7 +138,7 @@ class LiveCells:
             patch = patch_of(self._heights, values, self._end.pitch, (rows, cols))
         return self._with_tool(LiveFrame(wish.moment, cells, patch, wish.colour, None, None), played, wish.wedges)
 
-    def _coloured(self, colour: CutColour, rows: slice, cols: slice) -> tuple[Bytes, bool]:
+    def _coloured(self, colour: CutColourBy, rows: slice, cols: slice) -> tuple[Bytes, bool]:
         """Return the places of all cells in the palette, and whether all were worked out anew."""
         known = self._values
         if known is None or known[0] is not colour:
@@ -171,9 +171,9 @@ class LiveCells:
             return None
         return np.asarray(end.deviation[rows, cols] + (self._heights[rows, cols] - end.heights[rows, cols]))
 
-    def _cells(self, rows: slice, cols: slice) -> Cells:
+    def _cells(self, rows: slice, cols: slice) -> ChangedCells:
         move = None if self._move is None else self._move[rows, cols].copy()
-        return Cells(rows, cols, move, self._deviation(rows, cols))
+        return ChangedCells(rows, cols, move, self._deviation(rows, cols))
 
     def _with_tool(self, frame: LiveFrame, played: PlayFrame, wedges: bool) -> LiveFrame:
         timeline, moment = self.playback.timeline, frame.moment

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 
 from ...framework.theme import LIGHT, Theme, text_font
 from .camera import Camera
-from .overlay_words import pitch_words
+from .overlay_text import pitch_words
 
 _AXIS_PX, _AXES_EDGE_PX, _NAME_PX = 30.0, 52.0, 11.0
 _RING_PX, _LEADER_PX = 9.0, 34.0
@@ -23,7 +23,7 @@ Line = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 @dataclass(frozen=True, slots=True)
-class Probe:
+class ProbedCell:
     """What is known of one place: where it is on the screen, px, and two lines of words."""
 
     at: QPointF
@@ -32,7 +32,7 @@ class Probe:
 
 
 @dataclass(frozen=True, slots=True)
-class Pin:
+class PlacePin:
     """A place that is pointed at: where, mm, two lines of words, and the colour of the first."""
 
     place: tuple[float, float, float]
@@ -48,9 +48,9 @@ class CutOverlay(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._theme, self._camera = LIGHT, Camera()
-        self.probe: Probe | None = None
+        self.probe: ProbedCell | None = None
         self.line: Line | None = None
-        self.pin: Pin | None = None
+        self.pin: PlacePin | None = None
         self._pitch, self._finer = "", False
 
     def set_theme(self, theme: Theme) -> None:
@@ -70,7 +70,7 @@ class CutOverlay(QWidget):
         self.line = line
         self.update()
 
-    def show_pin(self, pin: Pin | None) -> None:
+    def show_pin(self, pin: PlacePin | None) -> None:
         """Point at a place, or at none."""
         self.pin = pin
         self.update()
@@ -80,7 +80,7 @@ class CutOverlay(QWidget):
         self._pitch, self._finer = f"cells {pitch_words(pitch)}", finer
         self.update()
 
-    def show_probe(self, probe: Probe | None) -> None:
+    def show_probe(self, probe: ProbedCell | None) -> None:
         """Show what is known of a place, or nothing."""
         if probe != self.probe:
             self.probe = probe
@@ -126,7 +126,7 @@ class CutOverlay(QWidget):
         x, y, _ = self._camera.project(np.array([place]), (self.width() * ratio, self.height() * ratio))[0] / ratio
         return QPointF(x, y)
 
-    def _paint_pin(self, painter: QPainter, pin: Pin) -> None:
+    def _paint_pin(self, painter: QPainter, pin: PlacePin) -> None:
         """Paint a ring round the place, and a line from it to the words."""
         at = self._on_screen(pin.place)
         if not self.rect().contains(at.toPoint()):
@@ -165,7 +165,7 @@ class CutOverlay(QWidget):
             for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
                 painter.drawLine(at + QPointF(dx, dy) * 3.0, at + QPointF(dx, dy) * _CROSS_PX)
 
-    def _paint_card(self, painter: QPainter, probe: Probe) -> None:
+    def _paint_card(self, painter: QPainter, probe: ProbedCell) -> None:
         """Paint the words beside the place, on the side where there is room."""
         metrics = QFontMetricsF(text_font(12))
         wide = max(metrics.horizontalAdvance(text) for text in (probe.place, probe.facts)) + 2 * _PAD_PX

@@ -12,8 +12,8 @@ from ...framework.icons import IconButton
 from ...framework.labels import muted
 from ...framework.section import heading
 from ...framework.theme import LIGHT, Theme, text_font
-from .overlay_words import number
-from .profile import Profile
+from .height_profile import HeightProfile
+from .overlay_text import number
 
 if TYPE_CHECKING:
     from pyqtgraph import PlotWidget
@@ -33,7 +33,7 @@ class ProfilePanel(QFrame):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._theme = LIGHT
-        self._profile: Profile | None = None
+        self._profile: HeightProfile | None = None
         self._plot: PlotWidget | None = None
         self.figures = muted()
         close = IconButton("cancel", "Close the profile (Esc)", self)
@@ -49,7 +49,7 @@ class ProfilePanel(QFrame):
         self._column.addLayout(head)
         self.hide()
 
-    def show_profile(self, profile: Profile) -> None:
+    def show_profile(self, profile: HeightProfile) -> None:
         """Show the heights along another line."""
         self._profile = profile
         low, high = float(profile.heights.min()), float(profile.heights.max())
@@ -61,7 +61,7 @@ class ProfilePanel(QFrame):
         self.show()
 
     @property
-    def drawn(self) -> Profile | None:
+    def drawn(self) -> HeightProfile | None:
         """What is shown; None = nothing."""
         return self._profile if self.isVisible() else None
 
@@ -81,7 +81,7 @@ class ProfilePanel(QFrame):
         plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         return plot
 
-    def _draw(self, plot: PlotWidget, profile: Profile) -> None:
+    def _draw(self, plot: PlotWidget, profile: HeightProfile) -> None:
         from pyqtgraph import mkPen
 
         theme = self._theme

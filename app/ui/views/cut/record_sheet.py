@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
-from ...framework.fields import NumberField, Spec
+from ...framework.fields import NumberField, NumberSpec
 from ...framework.figures import TIMES, counted
 from ...framework.icons import IconButton
 from ...framework.labels import muted
@@ -17,7 +17,7 @@ from ...framework.section import heading
 from ...framework.theme import LIGHT, Theme
 from .gif import MOST_PER_SECOND
 
-LENGTH = Spec(
+LENGTH = NumberSpec(
     "Length",
     "s",
     0.1,
@@ -26,13 +26,13 @@ LENGTH = Spec(
     False,
     "How long the recording runs; all of the cut is in it, but for dwells and changes of tool.",
 )
-RATE = Spec("Pictures", "a second", 1.0, MOST_PER_SECOND, 0, False, "More run smoother and make a larger file.")
-WIDTH = Spec("Width", "px", 64.0, 4096.0, 0, False, "Of the pictures; their height follows from the view.")
+RATE = NumberSpec("Pictures", "a second", 1.0, MOST_PER_SECOND, 0, False, "More run smoother and make a larger file.")
+WIDTH = NumberSpec("Width", "px", 64.0, 4096.0, 0, False, "Of the pictures; their height follows from the view.")
 
 _SHEET_PX = 300
 
 
-class RecordForm(Enum):
+class RecordFormat(Enum):
     """What is written."""
 
     GIF = "gif"
@@ -65,10 +65,10 @@ class RecordSheet(QFrame):
     """A sheet with three fields and two buttons.
 
     Signals:
-        wanted(RecordForm): record so. closed(): rather not.
+        requested(RecordFormat): record so. closed(): rather not.
     """
 
-    wanted = Signal(object)
+    requested = Signal(object)
     closed = Signal()
 
     def __init__(self, parent: QWidget) -> None:
@@ -76,14 +76,14 @@ class RecordSheet(QFrame):
         self._theme = LIGHT
         self.plan = RecordPlan()
         self.length, self.rate, self.width_px = NumberField(LENGTH), NumberField(RATE), NumberField(WIDTH)
-        self.told = muted()
+        self.summary = muted()
         self.gif, self.pictures = QPushButton("Save GIF…"), QPushButton("Save pictures…")
         self._size = (4, 3)
         self._lay_out()
         for field in (self.length, self.rate, self.width_px):
             field.committed.connect(lambda _: self._take())
-        self.gif.clicked.connect(lambda: self.wanted.emit(RecordForm.GIF))
-        self.pictures.clicked.connect(lambda: self.wanted.emit(RecordForm.PICTURES))
+        self.gif.clicked.connect(lambda: self.requested.emit(RecordFormat.GIF))
+        self.pictures.clicked.connect(lambda: self.requested.emit(RecordFormat.PICTURES))
         self.hide()
 
     def _lay_out(self) -> None:
@@ -99,7 +99,7 @@ class RecordSheet(QFrame):
         column.setContentsMargins(16, 8, 12, 12)
         column.setSpacing(4)
         column.addLayout(head)
-        for widget in (self.length, self.rate, self.width_px, self.told):
+        for widget in (self.length, self.rate, self.width_px, self.summary):
             column.addWidget(widget)
         column.addSpacing(4)
         column.addLayout(buttons)
@@ -120,7 +120,7 @@ class RecordSheet(QFrame):
     def _take(self) -> None:
         self.plan = RecordPlan(self.length.number, self.rate.number, round(self.width_px.number))
         wide, high = self.plan.size(self._size)
-        self.told.setText(f"{counted(self.plan.count, 'picture')} of {wide} {TIMES} {high} px")
+        self.summary.setText(f"{counted(self.plan.count, 'picture')} of {wide} {TIMES} {high} px")
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""

@@ -18,13 +18,13 @@ from ....core.progress import NO_PROGRESS, Progress
 from ....simulation.gpu.graphics import standalone_context
 from ....simulation.gpu.wedges_picture import WedgesPicture
 from .camera import Camera
-from .colouring import Colouring
-from .frame import Frame
+from .cell_colours import CellColours
+from .cell_patch import CellPatch
+from .cut_picture import CutPicture
 from .gif import MOST_PER_SECOND, Pixels, gif_chunks
-from .patch import Patch
-from .picture import CutPicture
-from .scene import CutScene
-from .tool_body import Place
+from .rendering.cut_frame import CutFrame
+from .rendering.cut_scene import CutScene
+from .rendering.tool_body import Place
 from .tool_outline import DrawnTool
 
 _PACKING = 3
@@ -32,15 +32,15 @@ _PACKING = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Whole:
+class CutSnapshot:
     """A cut to begin with, or to go on with: heights, and the colours of its cells."""
 
     picture: CutPicture
-    colours: Colouring
+    colours: CellColours
 
 
 @dataclass(frozen=True, eq=False)
-class Shot:
+class FrameChange:
     """What one picture of a recording shows otherwise than the one before.
 
     Attributes:
@@ -49,8 +49,8 @@ class Shot:
         camera: from where; None = from where the frame says.
     """
 
-    whole: Whole | None = None
-    patches: tuple[Patch, ...] = ()
+    whole: CutSnapshot | None = None
+    patches: tuple[CellPatch, ...] = ()
     tool: DrawnTool | None = None
     tip: Place = (0.0, 0.0, 0.0)
     wedges: WedgesPicture | None = None
@@ -58,14 +58,14 @@ class Shot:
 
 
 @dataclass(frozen=True, slots=True)
-class Reel:
+class RecordingLength:
     """How many pictures a recording has, >= 1, and how many are shown a second, in (0, 50] for GIF."""
 
     count: int
     per_second: float = 25.0
 
 
-def rendered(shots: Iterable[Shot], frame: Frame) -> Iterator[Pixels]:
+def rendered(shots: Iterable[FrameChange], frame: CutFrame) -> Iterator[Pixels]:
     """Paint pictures in a context of their own, on the caller's thread, so that no window is disturbed.
 
     Args:
@@ -81,7 +81,7 @@ def rendered(shots: Iterable[Shot], frame: Frame) -> Iterator[Pixels]:
     with context:
         scene = CutScene(context)
     try:
-        before = Shot()
+        before = FrameChange()
         for shot in shots:
             with context:  # only while it is painted: meanwhile the thread may need another one
                 _set_up(scene, shot, before)
@@ -95,7 +95,7 @@ def rendered(shots: Iterable[Shot], frame: Frame) -> Iterator[Pixels]:
         context.release()
 
 
-def _set_up(scene: CutScene, shot: Shot, before: Shot) -> None:
+def _set_up(scene: CutScene, shot: FrameChange, before: FrameChange) -> None:
     """Show what a shot shows otherwise than the one before."""
     if shot.whole is not None:
         scene.show_picture(shot.whole.picture)
@@ -110,7 +110,9 @@ def _set_up(scene: CutScene, shot: Shot, before: Shot) -> None:
     scene.place_tool(shot.tip)
 
 
-def record(shots: Iterable[Shot], frame: Frame, target: Path, reel: Reel, progress: Progress = NO_PROGRESS) -> None:
+def record(
+    shots: Iterable[FrameChange], frame: CutFrame, target: Path, reel: RecordingLength, progress: Progress = NO_PROGRESS
+) -> None:
     """Paint and write: a moving picture where the target's name ends in ".gif", else a folder of single pictures.
 
     Raises:
@@ -122,7 +124,7 @@ def record(shots: Iterable[Shot], frame: Frame, target: Path, reel: Reel, progre
     write(rendered(shots, frame), target, reel, progress)
 
 
-def write_gif(frames: Iterator[Pixels], path: Path, reel: Reel, progress: Progress = NO_PROGRESS) -> None:
+def write_gif(frames: Iterator[Pixels], path: Path, reel: RecordingLength, progress: Progress = NO_PROGRESS) -> None:
     """Write pictures as a GIF that is shown for ever: whole or not at all.
 
     Raises:
@@ -137,7 +139,9 @@ def write_gif(frames: Iterator[Pixels], path: Path, reel: Reel, progress: Progre
     progress.step(1.0, "Recorded")
 
 
-def write_pictures(frames: Iterator[Pixels], folder: Path, reel: Reel, progress: Progress = NO_PROGRESS) -> None:
+def write_pictures(
+    frames: Iterator[Pixels], folder: Path, reel: RecordingLength, progress: Progress = NO_PROGRESS
+) -> None:
     """Write pictures as frame_0001.png and so on into a new folder: all or none.
 
     Raises:
@@ -164,7 +168,7 @@ def write_pictures(frames: Iterator[Pixels], folder: Path, reel: Reel, progress:
     progress.step(1.0, "Recorded")
 
 
-def _told(frames: Iterator[Pixels], reel: Reel, progress: Progress) -> Iterator[Pixels]:
+def _told(frames: Iterator[Pixels], reel: RecordingLength, progress: Progress) -> Iterator[Pixels]:
     """Hand pictures on, and tell how many there were; stop painting when nobody wants more."""
     try:
         for number in range(reel.count):

@@ -15,13 +15,13 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVB
 from ....core.errors import HitofudeError
 from ....model.tool import Tool, ToolKind, shape_keys
 from ....model.tool_kind import tool_kind
-from ...framework.fields import ListField, NumberField, Spec
+from ...framework.fields import ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
-from ...framework.section import EDGE, Section, hairline, heading
+from ...framework.section import EDGE, PanelSection, hairline, heading
 from ...panels.side_panel import WIDTH
-from .foreign import Asked
-from .given import Box, Given
+from .foreign_program import MissingSetup
+from .user_setup import Box, UserSetup
 
 _KINDS = {
     ToolKind.FLAT: "Flat end mill",
@@ -35,7 +35,7 @@ _ANGLE, _FAR = np.radians(60.0), 100_000.0
 _AXES = ("X from", "Y from", "Z from", "X to", "Y to", "Z to")
 
 
-class ToolFields(Section):
+class ToolFields(PanelSection):
     """Kind and shape of one tool; fields that its kind does not have are not there."""
 
     def __init__(self, number: int, tool: Tool) -> None:
@@ -45,13 +45,13 @@ class ToolFields(Section):
         self.kind.chosen.connect(lambda kind: self._change(lambda tool: as_kind(tool, tool_kind(kind))))
         self.add_indented(self.kind)
         self.fields = {
-            "diameter": NumberField(Spec("Diameter", low=0.001, high=1000)),
-            "corner_radius": NumberField(Spec("Corner radius", high=500)),
+            "diameter": NumberField(NumberSpec("Diameter", low=0.001, high=1000)),
+            "corner_radius": NumberField(NumberSpec("Corner radius", high=500)),
             "tip_diameter": NumberField(
-                Spec("Tip diameter", high=1000, tip="Of the flat of a V tool, of the ball of a tapered one.")
+                NumberSpec("Tip diameter", high=1000, tip="Of the flat of a V tool, of the ball of a tapered one.")
             ),
             "tip_angle": NumberField(
-                Spec("Angle", "°", 1, 179, 2, False, "The full angle of the point, or of the cone.")
+                NumberSpec("Angle", "°", 1, 179, 2, False, "The full angle of the point, or of the cone.")
             ),
         }
         self.reason = QLabel()
@@ -107,25 +107,25 @@ class SetupForm(QWidget):
     """Fields for every tool that cuts, and for the stock.
 
     Signals:
-        accepted(Given): cut it so. left(): leave it as it is.
+        accepted(UserSetup): cut it so. left(): leave it as it is.
 
     Attributes:
         asked: what it asks for; None = nothing.
     """
 
-    accepted = Signal(Given)
+    accepted = Signal(UserSetup)
     left = Signal()
 
     def __init__(self) -> None:
         super().__init__()
         self.setObjectName("sidePanel")
         self.setFixedWidth(WIDTH)
-        self.asked: Asked | None = None
+        self.asked: MissingSetup | None = None
         self.title, self.reason = heading("Tools and stock"), QLabel()
         self.name = Elided(role="muted")
         self.reason.setWordWrap(True)
         self.tools: dict[int, ToolFields] = {}
-        self.stock = [NumberField(Spec(axis, low=-_FAR, high=_FAR)) for axis in _AXES]
+        self.stock = [NumberField(NumberSpec(axis, low=-_FAR, high=_FAR)) for axis in _AXES]
         self.compare, self.compare_row = Switch("Compare with the open drawing"), QWidget()
         self.wrong = QLabel()
         self.cut, self.leave = QPushButton("Cut"), QPushButton("Leave it")
@@ -168,8 +168,8 @@ class SetupForm(QWidget):
         buttons.addStretch(1)
         column.addLayout(buttons)
 
-    def _stock_section(self) -> Section:
-        section = Section("Stock")
+    def _stock_section(self) -> PanelSection:
+        section = PanelSection("Stock")
         for field in self.stock:
             section.add_indented(field)
         row = QHBoxLayout(self.compare_row)
@@ -180,7 +180,7 @@ class SetupForm(QWidget):
         section.add_indented(self.compare_row)
         return section
 
-    def ask(self, asked: Asked | None) -> None:
+    def ask(self, asked: MissingSetup | None) -> None:
         """Ask for something else, or for nothing."""
         self.asked = asked
         for old in self.tools.values():
@@ -209,7 +209,7 @@ class SetupForm(QWidget):
             self.wrong.show()
             return
         self.accepted.emit(
-            Given({number: fields.tool for number, fields in self.tools.items()}, box, self.compare.isChecked())
+            UserSetup({number: fields.tool for number, fields in self.tools.items()}, box, self.compare.isChecked())
         )
 
     def _box(self) -> Box:

@@ -12,11 +12,11 @@ import numpy as np
 from ....core.progress import NO_PROGRESS, Progress
 from ....model.finding import Finding
 from ..nc.program_text import ProgramText
-from .colouring import CutColour, prepare
-from .given import Given
+from .cell_colours import CutColourBy, prepare
+from .cut_picture import CutMoves, CutPaths, CutPicture, Floats
 from .histogram import Histogram, histogram_of
-from .picture import CutMoves, CutPaths, CutPicture, Floats
 from .relief import Bytes
+from .user_setup import UserSetup
 
 if TYPE_CHECKING:
     from ....gcode.interpreter.program import NcProgram
@@ -53,7 +53,7 @@ class ShownCut:
     names: tuple[str, ...]
     texts: tuple[ProgramText, ...]
     first: tuple[int, ...]
-    given: Given | None = None
+    given: UserSetup | None = None
     assumed: tuple[Finding, ...] = ()
     histogram: Histogram | None = None
 
@@ -83,7 +83,7 @@ class ShownCut:
 
 
 def shown_cut(
-    cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColour, progress: Progress = NO_PROGRESS
+    cut: CutProgram, files: tuple[ProgramFile, ...], colour: CutColourBy, progress: Progress = NO_PROGRESS
 ) -> ShownCut:
     """Prepare a program that was cut; the job's, as long as nobody says otherwise.
 

@@ -14,7 +14,7 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
 from ....simulation.gpu.graphics import standalone_context
-from .scene import CutScene
+from .rendering.cut_scene import CutScene
 
 if TYPE_CHECKING:
     import moderngl

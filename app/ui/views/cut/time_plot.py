@@ -12,11 +12,11 @@ from PySide6.QtWidgets import QToolTip, QWidget
 
 from ...framework.figures import grouped
 from ...framework.theme import LIGHT, Theme, mixed, text_font
-from .cut_panel import colour_of
+from .panel import colour_of
 
 if TYPE_CHECKING:
     from ....usecases.timeline import Timeline, TimelineColumns
-    from .player import Mark
+    from .cut_player import TimelineMark
 
 HEIGHT = 58
 _EDGE, _BAND, _TOP, _HANDLE, _MARK = 12, 5, 9, 5.0, 4.0
@@ -40,10 +40,10 @@ class TimePlot(QWidget):
     """Painted once for each width; the cursor moves over it.
 
     Signals:
-        wanted(seconds): the user wants to be there.
+        requested(seconds): the user wants to be there.
     """
 
-    wanted = Signal(float)
+    requested = Signal(float)
 
     def __init__(self) -> None:
         super().__init__()
@@ -51,12 +51,12 @@ class TimePlot(QWidget):
         self.setMouseTracking(True)
         self.setAccessibleName("Timeline: cross-section of the cut and metal removed; click to go there")
         self._theme = LIGHT
-        self._marks: tuple[Mark, ...] = ()
+        self._marks: tuple[TimelineMark, ...] = ()
         self._at = 0.0
         self._columns: _Columns | None = None
         self._timeline: Timeline | None = None
 
-    def show_timeline(self, timeline: Timeline | None, marks: tuple[Mark, ...]) -> None:
+    def show_timeline(self, timeline: Timeline | None, marks: tuple[TimelineMark, ...]) -> None:
         """Show another way, or none."""
         if timeline is self._timeline and marks == self._marks:
             return
@@ -202,7 +202,7 @@ class TimePlot(QWidget):
 
     def _go(self, x: float) -> None:
         if self._timeline is not None:
-            self.wanted.emit(self._seconds(x))
+            self.requested.emit(self._seconds(x))
 
 
 def _upright(room: QRectF, column: int, height: float) -> QLineF:

@@ -12,7 +12,7 @@ from ....model.tool import Tool, ToolKind
 from .camera import Floats
 
 
-class Part(IntEnum):
+class ToolPart(IntEnum):
     """What a stretch of a tool is; the shader knows these numbers."""
 
     CUTTING = 0
@@ -39,7 +39,7 @@ _STEPS = 24
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class OutlineSection:
     """One part of a tool.
 
     Attributes:
@@ -48,7 +48,7 @@ class Stretch:
             before ends.
     """
 
-    part: Part
+    part: ToolPart
     points: Floats
 
 
@@ -60,7 +60,7 @@ class ToolOutline:
         stretches: from the tip up.
     """
 
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[OutlineSection, ...]
 
     @property
     def height(self) -> float:
@@ -104,10 +104,10 @@ def outline_of(tool: Tool) -> ToolOutline:
     body = np.vstack([profile, [neck, tool.radius], [neck, shank], [max(face, neck), shank]])
     body, _ = _split(body, face)
     cutting, above = _split(body, flutes)
-    parts = [(Part.CUTTING, cutting), (Part.SHANK, above)]
+    parts = [(ToolPart.CUTTING, cutting), (ToolPart.SHANK, above)]
     top = body[-1]
     if tool.holder:
-        parts.append((Part.HOLDER, np.vstack([top, np.array(tool.holder) + (top[0], 0.0)])))
+        parts.append((ToolPart.HOLDER, np.vstack([top, np.array(tool.holder) + (top[0], 0.0)])))
     parts = [
         (part, points)
         for part, points in ((part, _without_doubles(points)) for part, points in parts)
@@ -115,7 +115,7 @@ def outline_of(tool: Tool) -> ToolOutline:
     ]
     part, points = parts.pop()
     parts.append((part, _without_doubles(np.vstack([points, [points[-1, 0], 0.0]]))))
-    return ToolOutline(tuple(Stretch(part, points) for part, points in parts))
+    return ToolOutline(tuple(OutlineSection(part, points) for part, points in parts))
 
 
 def profile_of(tool: Tool) -> Floats:

@@ -12,23 +12,23 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QVBoxLayout, QWid
 from ...framework.figures import TIMES, grouped
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
-from .player import RANGES, Pace, Player, Step
+from .cut_player import RANGES, CutPlayer, PlaybackPace, PlaybackStep
 from .time_plot import TimePlot, exact_clock
 
 _NOTCHES = 100
 _SPEED_PX, _BUTTON_PX = 96, 28
-_WORDS = {Pace.TIME: f"{TIMES} {{}}", Pace.MOVES: "{} a second", Pace.TOOLS: "{} a second"}
+_WORDS = {PlaybackPace.TIME: f"{TIMES} {{}}", PlaybackPace.MOVES: "{} a second", PlaybackPace.TOOLS: "{} a second"}
 
-Stepped = tuple[str, str, Step, int]
+Stepped = tuple[str, str, PlaybackStep, int]
 _BEFORE: tuple[Stepped, ...] = (
-    ("previous-finding", "The finding before (Shift+N)", Step.FINDING, -1),
-    ("previous-tool", "Back to the change of tool ([)", Step.TOOL, -1),
-    ("back", "One NC line back (,)", Step.LINE, -1),
+    ("previous-finding", "The finding before (Shift+N)", PlaybackStep.FINDING, -1),
+    ("previous-tool", "Back to the change of tool ([)", PlaybackStep.TOOL, -1),
+    ("back", "One NC line back (,)", PlaybackStep.LINE, -1),
 )
 _AFTER: tuple[Stepped, ...] = (
-    ("forward", "One NC line on (.)", Step.LINE, 1),
-    ("next-tool", "On to the next tool (])", Step.TOOL, 1),
-    ("next-finding", "The next finding (N)", Step.FINDING, 1),
+    ("forward", "One NC line on (.)", PlaybackStep.LINE, 1),
+    ("next-tool", "On to the next tool (])", PlaybackStep.TOOL, 1),
+    ("next-finding", "The next finding (N)", PlaybackStep.FINDING, 1),
 )
 
 
@@ -36,15 +36,15 @@ class Transport(QWidget):
     """Shows where a cut stands, and asks the player for everything else.
 
     Signals:
-        record_wanted(): the user wants to keep what is played.
+        record_requested(): the user wants to keep what is played.
 
     Attributes:
         plot: the way along time. play, play_back, record, steps: buttons. pace, speed: how it goes on.
     """
 
-    record_wanted = Signal()
+    record_requested = Signal()
 
-    def __init__(self, player: Player) -> None:
+    def __init__(self, player: CutPlayer) -> None:
         super().__init__()
         self.setObjectName("ncPlaces")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -82,7 +82,7 @@ class Transport(QWidget):
             row.addSpacing(6)
         self.clock.setMinimumWidth(self.clock.fontMetrics().horizontalAdvance("0:00:00.0 / 0:00:00"))
         self.rate.setMinimumWidth(self.rate.fontMetrics().horizontalAdvance("10 000 a second"))
-        for pace in Pace:
+        for pace in PlaybackPace:
             self.pace.addItem(pace.value, pace)
         self.pace.setFixedHeight(24)
         self.pace.setToolTip("What goes on evenly: time at the programmed feeds and rapids, moves, or tools")
@@ -105,7 +105,7 @@ class Transport(QWidget):
         button = IconButton(name, tip)
         button.clicked.connect(lambda: self._player.step(what, way))
         self.steps.append(button)
-        if what is Step.FINDING:
+        if what is PlaybackStep.FINDING:
             self._finding_steps.append(button)
         return button
 
@@ -113,8 +113,8 @@ class Transport(QWidget):
         player = self._player
         self.play.clicked.connect(lambda: player.toggle(1))
         self.play_back.clicked.connect(lambda: player.toggle(-1))
-        self.record.clicked.connect(self.record_wanted)
-        self.plot.wanted.connect(player.seek)
+        self.record.clicked.connect(self.record_requested)
+        self.plot.requested.connect(player.seek)
         self.pace.currentIndexChanged.connect(lambda _: self._choose(player.speeds[self.pace.currentData()]))
         self.speed.valueChanged.connect(lambda notch: self._choose(speed_of(self.pace.currentData(), notch)))
         for signal in (player.moved, player.ticked):
@@ -188,23 +188,23 @@ class Transport(QWidget):
 
 def _stepping(
     plain: Qt.KeyboardModifier, shift: Qt.KeyboardModifier
-) -> Iterator[tuple[Qt.Key, Qt.KeyboardModifier, Step, int]]:
+) -> Iterator[tuple[Qt.Key, Qt.KeyboardModifier, PlaybackStep, int]]:
     """Yield which keys step where."""
     key = Qt.Key
-    yield from ((key.Key_Comma, plain, Step.LINE, -1), (key.Key_Period, plain, Step.LINE, 1))
+    yield from ((key.Key_Comma, plain, PlaybackStep.LINE, -1), (key.Key_Period, plain, PlaybackStep.LINE, 1))
     # as layouts tell the same two keys with Shift
     for back, on in (
         (key.Key_Comma, key.Key_Period),
         (key.Key_Less, key.Key_Greater),
     ):
-        yield from ((back, shift, Step.MOVE, -1), (on, shift, Step.MOVE, 1))
-    yield from ((key.Key_Semicolon, shift, Step.MOVE, -1), (key.Key_Colon, shift, Step.MOVE, 1))
+        yield from ((back, shift, PlaybackStep.MOVE, -1), (on, shift, PlaybackStep.MOVE, 1))
+    yield from ((key.Key_Semicolon, shift, PlaybackStep.MOVE, -1), (key.Key_Colon, shift, PlaybackStep.MOVE, 1))
     for back, on in ((key.Key_BracketLeft, key.Key_BracketRight), (key.Key_PageUp, key.Key_PageDown)):
-        yield from ((back, plain, Step.TOOL, -1), (on, plain, Step.TOOL, 1))
-    yield from ((key.Key_N, shift, Step.FINDING, -1), (key.Key_N, plain, Step.FINDING, 1))
+        yield from ((back, plain, PlaybackStep.TOOL, -1), (on, plain, PlaybackStep.TOOL, 1))
+    yield from ((key.Key_N, shift, PlaybackStep.FINDING, -1), (key.Key_N, plain, PlaybackStep.FINDING, 1))
 
 
-def speed_of(pace: Pace, notch: int) -> float:
+def speed_of(pace: PlaybackPace, notch: int) -> float:
     """Return the speed at a notch of the slider: each notch is as much faster as the one before, rounded to two
     figures.
     """
@@ -213,7 +213,7 @@ def speed_of(pace: Pace, notch: int) -> float:
     return float(f"{speed:.2g}")
 
 
-def notch_of(pace: Pace, speed: float) -> int:
+def notch_of(pace: PlaybackPace, speed: float) -> int:
     """Return the notch that is nearest to a speed."""
     low, high = RANGES[pace]
     return round(_NOTCHES * math.log(min(max(speed, low), high) / low) / math.log(high / low))

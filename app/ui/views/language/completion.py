@@ -11,7 +11,7 @@ from PySide6.QtGui import QFontMetrics, QPainter
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from ...framework.theme import LIGHT, Theme, mixed, mono_font, text_font
-from .usage import Kind, usage_of, usages
+from .usage import WordKind, usage_of, usages
 
 _ROW_PX, _MOST_ROWS = 24, 8
 _LEAST_PX, _WIDEST_PX = 280, 380
@@ -20,7 +20,7 @@ _WORD_BEFORE = re.compile(r"[^\W\d]\w*$")
 
 
 @dataclass(frozen=True, slots=True)
-class Offer:
+class CompletionItem:
     """A word that can be put, and how it is used."""
 
     word: str
@@ -36,7 +36,7 @@ def word_before(line: str) -> str:
     return found[0] if found and not line[: found.start()].endswith((".", "_")) else ""
 
 
-def offers(line: str, names: Iterable[tuple[str, bool]]) -> list[Offer]:
+def offers(line: str, names: Iterable[tuple[str, bool]]) -> list[CompletionItem]:
     """Return what the word at the end of a line, cut at the cursor, could become, best first.
 
     Args:
@@ -47,31 +47,35 @@ def offers(line: str, names: Iterable[tuple[str, bool]]) -> list[Offer]:
     before = line[: len(line) - len(begun)]
     statement = _STATEMENT.search(before)
     command = statement[1] if statement else None
-    found = list[Offer]()
+    found = list[CompletionItem]()
     if not command:
         found += [
-            Offer(usage.word, usage.form, " ") for key, usage in usages().items() if usage.kind is not Kind.FUNCTION
+            CompletionItem(usage.word, usage.form, " ")
+            for key, usage in usages().items()
+            if usage.kind is not WordKind.FUNCTION
         ]
-        found += [Offer(name, "your command", " ") for name, runs in names if runs]
+        found += [CompletionItem(name, "your command", " ") for name, runs in names if runs]
     else:
         usage = usage_of(command)
-        found += [Offer(word, usage.form) for word in usage.options] if usage is not None else []
-        found += [Offer("as", "as NAME", " ")]
-        found += [Offer(name, "your name") for name, runs in names if not runs]
-        found += [Offer(each.word, each.form, "(") for each in usages().values() if each.kind is Kind.FUNCTION]
+        found += [CompletionItem(word, usage.form) for word in usage.options] if usage is not None else []
+        found += [CompletionItem("as", "as NAME", " ")]
+        found += [CompletionItem(name, "your name") for name, runs in names if not runs]
+        found += [
+            CompletionItem(each.word, each.form, "(") for each in usages().values() if each.kind is WordKind.FUNCTION
+        ]
     unique = {offer.word: offer for offer in reversed(found)}
     fitting = (offer for offer in unique.values() if offer.word.lower().startswith(begun))
     return sorted(fitting, key=lambda offer: (found.index(offer) if command else 0, offer.word))
 
 
-class OfferList(QListWidget):
+class CompletionList(QListWidget):
     """The offers, under the word; the editor keeps the keyboard.
 
     Signals:
-        taken(Offer): it was clicked.
+        taken(CompletionItem): it was clicked.
     """
 
-    taken = Signal(Offer)
+    taken = Signal(CompletionItem)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -79,7 +83,7 @@ class OfferList(QListWidget):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setUniformItemSizes(True)
-        self._painter = _OfferPainter(self)
+        self._painter = _CompletionDelegate(self)
         self.setItemDelegate(self._painter)
         self.itemClicked.connect(lambda item: self.taken.emit(item.data(Qt.ItemDataRole.UserRole)))
         self.hide()
@@ -93,13 +97,13 @@ class OfferList(QListWidget):
         )
 
     @property
-    def current(self) -> Offer | None:
+    def current(self) -> CompletionItem | None:
         """The offer that Enter takes."""
         item = self.currentItem()
         offer = item.data(Qt.ItemDataRole.UserRole) if item is not None else None
-        return offer if isinstance(offer, Offer) else None
+        return offer if isinstance(offer, CompletionItem) else None
 
-    def show_offers(self, found: list[Offer], word: QRect, room: QRect) -> None:
+    def show_offers(self, found: list[CompletionItem], word: QRect, room: QRect) -> None:
         """Show offers below a word, or above it where there is more room; all in the parent's coordinates."""
         self.clear()
         for offer in found:
@@ -120,7 +124,7 @@ class OfferList(QListWidget):
         self.setCurrentRow((self.currentRow() + way) % self.count())
 
 
-class _OfferPainter(QStyledItemDelegate):
+class _CompletionDelegate(QStyledItemDelegate):
     """The word, and quietly how it is used."""
 
     theme: Theme = LIGHT

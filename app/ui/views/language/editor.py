@@ -22,9 +22,9 @@ from PySide6.QtWidgets import QPlainTextEdit, QTextEdit
 
 from ...framework.theme import LIGHT, Theme, mixed, mono_font
 from . import blocks
-from .completion import Offer, OfferList, offers, word_before
+from .completion import CompletionItem, CompletionList, offers, word_before
 from .gutter import Gutter, blocks_in_sight
-from .highlight import Highlighter
+from .highlight import ShapeHighlighter
 
 _OFFERED_AFTER = 2
 _MOST_MATCHED = 20_000  # lines; looking for what belongs together in more would be felt
@@ -40,16 +40,17 @@ class ShapeEditor(QPlainTextEdit):
     """A text in the shape language.
 
     Signals:
-        run_asked(): Ctrl+Enter. help_asked(word, function): F1 on a word; a bracket follows it. find_asked(): Ctrl+F.
+        run_requested(): Ctrl+Enter. help_requested(word, function): F1 on a word; a bracket follows it.
+            find_requested(): Ctrl+F.
         left(): Esc.
 
     Attributes:
         names: (name, whether it is a command) of what the drawing has named already.
     """
 
-    run_asked = Signal()
-    help_asked = Signal(str, bool)
-    find_asked = Signal()
+    run_requested = Signal()
+    help_requested = Signal(str, bool)
+    find_requested = Signal()
     left = Signal()
 
     def __init__(self) -> None:
@@ -65,7 +66,7 @@ class ShapeEditor(QPlainTextEdit):
         self.document().setDocumentMargin(8)
         self._theme, self._wrong, self._found = LIGHT, (0, 0), ""
         self.names: Names = tuple
-        self.highlighter, self.gutter, self.list = Highlighter(self.document()), Gutter(self), OfferList(self)
+        self.highlighter, self.gutter, self.list = ShapeHighlighter(self.document()), Gutter(self), CompletionList(self)
         self.list.taken.connect(self._take_offer)
         self.blockCountChanged.connect(lambda _: self._lay_out())
         self.textChanged.connect(self._show_marks)
@@ -170,7 +171,7 @@ class ShapeEditor(QPlainTextEdit):
         plain = not event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
         enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
         if control and enter:
-            return self.run_asked.emit
+            return self.run_requested.emit
         if plain and enter:
             return self._new_line
         if event.key() == Qt.Key.Key_Escape and plain:
@@ -182,7 +183,7 @@ class ShapeEditor(QPlainTextEdit):
         acts = {
             Qt.Key.Key_Space: lambda: self.offer(asked=True),
             Qt.Key.Key_Slash: self.switch_remarks,
-            Qt.Key.Key_F: self.find_asked.emit,
+            Qt.Key.Key_F: self.find_requested.emit,
         }
         if control and event.key() in acts:
             return acts[Qt.Key(event.key())]
@@ -297,7 +298,7 @@ class ShapeEditor(QPlainTextEdit):
             return False
         return True
 
-    def _take_offer(self, offer: Offer) -> None:
+    def _take_offer(self, offer: CompletionItem) -> None:
         cursor = self.textCursor()
         line = cursor.block().text()[: cursor.positionInBlock()]
         cursor.movePosition(QTextCursor.MoveOperation.Left, QTextCursor.MoveMode.KeepAnchor, len(word_before(line)))
@@ -311,7 +312,7 @@ class ShapeEditor(QPlainTextEdit):
         cursor = self.textCursor()
         cursor.select(QTextCursor.SelectionType.WordUnderCursor)
         following = cursor.block().text()[cursor.selectionEnd() - cursor.block().position() :][:1]
-        self.help_asked.emit(cursor.selectedText(), following == "(")
+        self.help_requested.emit(cursor.selectedText(), following == "(")
 
     def _show_marks(self) -> None:
         """Show the line of the cursor, what belongs to the word at it, what was found, and what is wrong."""

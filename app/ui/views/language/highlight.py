@@ -26,7 +26,7 @@ _TOKEN = re.compile(
 )
 
 
-class Ink(Enum):
+class SyntaxKind(Enum):
     """What a piece of the text is."""
 
     COMMAND = "command"
@@ -38,9 +38,9 @@ class Ink(Enum):
     REMARK = "remark"
 
 
-def pieces(line: str) -> list[tuple[int, int, Ink]]:
+def pieces(line: str) -> list[tuple[int, int, SyntaxKind]]:
     """Return (start, length, ink) of what is coloured in a line."""
-    found, first = list[tuple[int, int, Ink]](), True
+    found, first = list[tuple[int, int, SyntaxKind]](), True
     for token in _TOKEN.finditer(line):
         kind, start, length = token.lastgroup, token.start(), token.end() - token.start()
         if kind == "end":
@@ -49,7 +49,7 @@ def pieces(line: str) -> list[tuple[int, int, Ink]]:
         ink = (
             _word_ink(token["word"].lower(), first, line[token.end() : token.end() + 1])
             if token["word"]
-            else {"remark": Ink.REMARK, "text": Ink.TEXT}.get(kind or "", Ink.NUMBER)
+            else {"remark": SyntaxKind.REMARK, "text": SyntaxKind.TEXT}.get(kind or "", SyntaxKind.NUMBER)
         )
         first = False
         if ink is not None:
@@ -57,48 +57,48 @@ def pieces(line: str) -> list[tuple[int, int, Ink]]:
     return found
 
 
-def _word_ink(word: str, first: bool, following: str) -> Ink | None:
+def _word_ink(word: str, first: bool, following: str) -> SyntaxKind | None:
     if following == "(" and word in FUNCTIONS:
-        return Ink.FUNCTION
+        return SyntaxKind.FUNCTION
     if word in BLOCKS:
-        return Ink.BLOCK
+        return SyntaxKind.BLOCK
     if first:
-        return Ink.COMMAND if word in _COMMANDS else None
+        return SyntaxKind.COMMAND if word in _COMMANDS else None
     if word == "pi":
-        return Ink.NUMBER
-    return Ink.OPTION if word in RESERVED else None
+        return SyntaxKind.NUMBER
+    return SyntaxKind.OPTION if word in RESERVED else None
 
 
-def inks(theme: Theme) -> dict[Ink, QColor]:
+def syntax_colours(theme: Theme) -> dict[SyntaxKind, QColor]:
     """Return the colour of each ink; all have a contrast of 4.5 on the theme's raised ground."""
     return {
-        Ink.COMMAND: theme.accent_text,
-        Ink.BLOCK: theme.parameter,
-        Ink.OPTION: mixed(theme.accent_text, theme.ink, 0.35),
-        Ink.FUNCTION: mixed(theme.left, theme.ink, 0.3),
-        Ink.NUMBER: theme.warning,
-        Ink.TEXT: mixed(theme.rest, theme.ink, 0.5),
-        Ink.REMARK: theme.muted,
+        SyntaxKind.COMMAND: theme.accent_text,
+        SyntaxKind.BLOCK: theme.parameter,
+        SyntaxKind.OPTION: mixed(theme.accent_text, theme.ink, 0.35),
+        SyntaxKind.FUNCTION: mixed(theme.left, theme.ink, 0.3),
+        SyntaxKind.NUMBER: theme.warning,
+        SyntaxKind.TEXT: mixed(theme.rest, theme.ink, 0.5),
+        SyntaxKind.REMARK: theme.muted,
     }
 
 
-class Highlighter(QSyntaxHighlighter):
+class ShapeHighlighter(QSyntaxHighlighter):
     """Colours the lines that its editor has in sight."""
 
     def __init__(self, document: QTextDocument) -> None:
         super().__init__(document)
         self._first, self._last = 0, 200
-        self._formats: dict[Ink, QTextCharFormat] = {}
+        self._formats: dict[SyntaxKind, QTextCharFormat] = {}
         self.set_theme(LIGHT)
 
     def set_theme(self, theme: Theme) -> None:
         """Follow the theme."""
-        for ink, colour in inks(theme).items():
+        for ink, colour in syntax_colours(theme).items():
             made = QTextCharFormat()
             made.setForeground(colour)
-            if ink in (Ink.COMMAND, Ink.BLOCK):
+            if ink in (SyntaxKind.COMMAND, SyntaxKind.BLOCK):
                 made.setFontWeight(QFont.Weight.DemiBold)
-            made.setFontItalic(ink is Ink.REMARK)
+            made.setFontItalic(ink is SyntaxKind.REMARK)
             self._formats[ink] = made
         self.rehighlight()
 

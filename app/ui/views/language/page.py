@@ -13,7 +13,7 @@ from ...framework.section import hairline
 from ..nc.find_bar import FindBar
 from ..nc.program_text import program_text
 from .editor import ShapeEditor
-from .trying import Problem
+from .trial_runner import TextProblem
 
 WIDTH = 420
 _FIND_REST_MS = 150
@@ -23,7 +23,7 @@ _ADD_TIP = "What the text draws is added to the drawing"
 _REPLACE_TIP = "The drawing becomes what the text draws"
 
 
-class Verdict(QLabel):
+class TrialLabel(QLabel):
     """Two lines under the editor: what would be drawn, or what is wrong; a click on that goes there.
 
     Signals:
@@ -56,7 +56,7 @@ class TextPage(QWidget):
     """The text of one drawing.
 
     Signals:
-        edited(): the text is another. way_chosen(): add, or replace. run_asked().
+        edited(): the text is another. way_chosen(): add, or replace. run_requested().
 
     Attributes:
         menu: what else can be done; whoever does it fills it.
@@ -65,12 +65,12 @@ class TextPage(QWidget):
 
     edited = Signal()
     way_chosen = Signal()
-    run_asked = Signal()
+    run_requested = Signal()
 
     def __init__(self) -> None:
         super().__init__()
         self.setFixedWidth(WIDTH)
-        self.editor, self.finder, self.verdict, self.menu = ShapeEditor(), FindBar(), Verdict(), QMenu(self)
+        self.editor, self.finder, self.verdict, self.menu = ShapeEditor(), FindBar(), TrialLabel(), QMenu(self)
         self.add_, self.replace = self._way("Add", _ADD_TIP), self._way("Replace", _REPLACE_TIP)
         self.add_.setChecked(True)
         self.run_button = QPushButton("Run")
@@ -81,7 +81,7 @@ class TextPage(QWidget):
             IconButton("find", "Find (Ctrl+F)"),
             IconButton("more", "Text from the drawing, files, samples"),
         )
-        self.problem: Problem | None = None
+        self.problem: TextProblem | None = None
         self._told = ""
         self._finding = QTimer(self)
         self._finding.setSingleShot(True)
@@ -110,7 +110,7 @@ class TextPage(QWidget):
         (self.replace if replaces else self.add_).setChecked(True)
         self.way_chosen.emit()
 
-    def show_problem(self, problem: Problem | None) -> None:
+    def show_problem(self, problem: TextProblem | None) -> None:
         """Underline what is wrong and say it; None: nothing is known to be wrong."""
         self.problem = problem
         self.editor.show_wrong(*((problem.line, problem.column) if problem is not None else (0, 0)))
@@ -164,9 +164,9 @@ class TextPage(QWidget):
     def _connect(self) -> None:
         editor, finder = self.editor, self.finder
         editor.textChanged.connect(self._on_text)
-        editor.run_asked.connect(self.run_asked)
-        editor.find_asked.connect(self.begin_find)
-        self.run_button.clicked.connect(self.run_asked)
+        editor.run_requested.connect(self.run_requested)
+        editor.find_requested.connect(self.begin_find)
+        self.run_button.clicked.connect(self.run_requested)
         self.find_button.clicked.connect(self.begin_find)
         self.more.clicked.connect(lambda: drop(self.menu, self.more))
         self.verdict.pressed.connect(self.go_to_problem)

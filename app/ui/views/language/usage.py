@@ -28,7 +28,7 @@ _BLOCKS: Mapping[str, tuple[str, str]] = {
 }
 
 
-class Kind(Enum):
+class WordKind(Enum):
     """What a word is."""
 
     COMMAND = "command"
@@ -46,7 +46,7 @@ class Usage:
     """
 
     word: str
-    kind: Kind
+    kind: WordKind
     forms: tuple[tuple[str, str], ...]
     short: tuple[str, ...] = ()
 
@@ -74,11 +74,11 @@ def usages() -> Mapping[str, Usage]:
         cells = [cell.strip() for cell in _BAR.split(row.strip()[1:-1])]
         _take_row(_SPAN.findall(cells[0]), re.sub(r"[`*]", "", cells[-1]), forms, told)
     found = {
-        word: Usage(word, Kind.COMMAND, tuple(ways) or ((word, ""),), _short(word)) for word, ways in forms.items()
+        word: Usage(word, WordKind.COMMAND, tuple(ways) or ((word, ""),), _short(word)) for word, ways in forms.items()
     }
-    found |= {word: Usage(word, Kind.BLOCK, (form,)) for word, form in _BLOCKS.items()}
+    found |= {word: Usage(word, WordKind.BLOCK, (form,)) for word, form in _BLOCKS.items()}
     return found | {
-        f"{name}(": Usage(name, Kind.FUNCTION, ((function.shown, told.get(name, "")),))
+        f"{name}(": Usage(name, WordKind.FUNCTION, ((function.shown, told.get(name, "")),))
         for name, function in FUNCTIONS.items()
     }
 

@@ -10,8 +10,8 @@ from ....gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...framework.fields import ChoiceField
 from ...framework.icons import IconButton
 from ...framework.labels import Elided, muted
-from .motion_picture import PathColour
-from .motion_shapes import Side
+from .motion_shapes import ViewSide
+from .painting.motion_layer import MotionColourBy
 
 BAR_PX = 36
 _ROOM_PX = 320
@@ -33,12 +33,12 @@ class TextHead(QWidget):
 
     Signals:
         dialect_chosen(Dialect or None): how to read it; None = as it looks. file_chosen(index): of a program in several
-            files. find_asked(). closed(): take this program away.
+            files. find_requested(). closed(): take this program away.
     """
 
     dialect_chosen = Signal(object)
     file_chosen = Signal(int)
-    find_asked = Signal()
+    find_requested = Signal()
     closed = Signal()
 
     def __init__(self, closable: bool = False) -> None:
@@ -61,7 +61,7 @@ class TextHead(QWidget):
         row.addWidget(self.detail)
         row.addWidget(self.dialect)
         find = IconButton("find", "Find (Ctrl+F)")
-        find.clicked.connect(self.find_asked)
+        find.clicked.connect(self.find_requested)
         row.addWidget(find)
         if closable:
             close = IconButton("cancel", "Close this program")
@@ -132,21 +132,21 @@ class PathHead(QWidget):
     """Sides and colours of the path.
 
     Signals:
-        side_chosen(Side). colour_chosen(PathColour). fit_asked(): show everything. cut_asked(): show what the program
-        leaves.
+        side_chosen(ViewSide). colour_chosen(MotionColourBy). fit_requested(): show everything. cut_requested(): show
+        what the program leaves.
     """
 
-    fit_asked = Signal()
-    cut_asked = Signal()
-    side_chosen = Signal(Side)
-    colour_chosen = Signal(PathColour)
+    fit_requested = Signal()
+    cut_requested = Signal()
+    side_chosen = Signal(ViewSide)
+    colour_chosen = Signal(MotionColourBy)
 
     def __init__(self) -> None:
         super().__init__()
-        self.side = ChoiceField("", [(side, side.name) for side in Side])
-        self.colour = ChoiceField("", [(PathColour.TOOL, "Tool"), (PathColour.MOTION, "Motion")])
-        self.side.show_value(Side.XY)
-        self.colour.show_value(PathColour.TOOL)
+        self.side = ChoiceField("", [(side, side.name) for side in ViewSide])
+        self.colour = ChoiceField("", [(MotionColourBy.TOOL, "Tool"), (MotionColourBy.MOTION, "Motion")])
+        self.side.show_value(ViewSide.XY)
+        self.colour.show_value(MotionColourBy.TOOL)
         self.side.chosen.connect(self.side_chosen)
         self.colour.chosen.connect(self.colour_chosen)
         for field, what in ((self.side, "Seen from"), (self.colour, "Colour by")):
@@ -160,12 +160,12 @@ class PathHead(QWidget):
         row.addWidget(self.key)
         row.addWidget(self.colour)
         self.fit = IconButton("fit", "Fit (F)")
-        self.fit.clicked.connect(self.fit_asked)
+        self.fit.clicked.connect(self.fit_requested)
         self.cut = QPushButton("Show the cut")
         self.cut.setProperty("role", "link")
         self.cut.setCursor(Qt.CursorShape.PointingHandCursor)
         self.cut.setToolTip("Cut this program out of its stock and show what is left (Ctrl+K)")
-        self.cut.clicked.connect(self.cut_asked)
+        self.cut.clicked.connect(self.cut_requested)
         row.addSpacing(4)
         row.addWidget(self.fit)
         row.addSpacing(4)

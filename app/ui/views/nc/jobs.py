@@ -7,23 +7,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ....core.progress import Progress
-from .motion_picture import MotionPicture
-from .motion_shapes import Side
-from .places import Compared, drawn_apart
-from .reading import Shown, Source, read_shown
+from .motion_shapes import ViewSide
+from .painting.motion_layer import MotionLayer
+from .places import ComparedProgram, drawn_apart
+from .program_reader import ProgramSource, ShownProgram, read_shown
 
 if TYPE_CHECKING:
     from ....usecases.make import MakeResult
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class ProjectedProgram:
     """A program seen from another side, and what it and the one that it is compared with do alone."""
 
-    shown: Shown
-    picture: MotionPicture
-    both: Compared | None
-    alone: tuple[MotionPicture, MotionPicture] | None
+    shown: ShownProgram
+    picture: MotionLayer
+    both: ComparedProgram | None
+    alone: tuple[MotionLayer, MotionLayer] | None
 
     def keep(self) -> None:
         """Hand the pictures to what they are of; on the window's thread."""
@@ -32,7 +32,7 @@ class Drawn:
             self.both.pictures[self.picture.side] = self.alone
 
 
-def framed(made: MakeResult, name: str, side: Side, progress: Progress) -> Shown:
+def framed(made: MakeResult, name: str, side: ViewSide, progress: Progress) -> ShownProgram:
     """Return the program that goes round a job's cuts, read.
 
     Raises:
@@ -41,10 +41,12 @@ def framed(made: MakeResult, name: str, side: Side, progress: Progress) -> Shown
     """
     from ....gcode.posts.posts import load_post
 
-    return read_shown(Source(name, made.frame().encode(), dialect=load_post(made.job.post).dialect), side, progress)
+    return read_shown(
+        ProgramSource(name, made.frame().encode(), dialect=load_post(made.job.post).dialect), side, progress
+    )
 
 
-def restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
+def restarted(shown: ShownProgram, line: int, side: ViewSide, progress: Progress) -> ShownProgram:
     """Return the program that leads in to a line (1-based) of another and goes on from there, read.
 
     Raises:
@@ -57,11 +59,15 @@ def restarted(shown: Shown, line: int, side: Side, progress: Progress) -> Shown:
         shown.source.bytes(), line, RestartOptions(shown.source.options(shown.dialect)), progress.part(0.0, 0.5)
     )
     name = Path(shown.source.name)
-    source = Source(f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools)
+    source = ProgramSource(
+        f"{name.stem}-from-{line}{name.suffix}", data, dialect=shown.dialect, tools=shown.source.tools
+    )
     return read_shown(source, side, progress.part(0.5, 1.0))
 
 
-def compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tuple[Shown, Compared]:
+def compared(
+    shown: ShownProgram, other: ProgramSource, side: ViewSide, progress: Progress
+) -> tuple[ShownProgram, ComparedProgram]:
     """Return the shown program as it was, and a second one held against it.
 
     Raises:
@@ -73,18 +79,20 @@ def compared(shown: Shown, other: Source, side: Side, progress: Progress) -> tup
     second = read_shown(other, side, progress.part(0.0, 0.5))
     progress.step(0.5, "Comparing")
     differences = compare(shown.program, second.program, progress=progress.part(0.5, 0.9))
-    return shown, Compared(second, differences, {side: drawn_apart(shown, second, differences, side)})
+    return shown, ComparedProgram(second, differences, {side: drawn_apart(shown, second, differences, side)})
 
 
-def drawn(shown: Shown, both: Compared | None, side: Side, progress: Progress) -> Drawn:
+def projected(
+    shown: ShownProgram, both: ComparedProgram | None, side: ViewSide, progress: Progress
+) -> ProjectedProgram:
     """Return the pictures of another side.
 
     Raises:
         Cancelled: the job was asked to stop.
     """
     progress.step(0.0, "Preparing the picture")
-    picture = MotionPicture(shown.shapes, side)
+    picture = MotionLayer(shown.shapes, side)
     progress.step(0.5, "Preparing the picture")
-    return Drawn(
+    return ProjectedProgram(
         shown, picture, both, drawn_apart(shown, both.other, both.differences, side) if both is not None else None
     )

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from ....model.curves import Point
 from ....model.motion import MotionKind
 from ...framework.figures import grouped
-from ..canvas.curve_path import LINE_TO
-from .motion_shapes import MotionShapes, Side
+from ..canvas.painting.curve_path import LINE_TO
+from .motion_shapes import MotionShapes, ViewSide
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ _MOST_CURVED = 300
 _CUBIC_POINTS = 33
 
 
-def nearest_motion(shapes: MotionShapes, side: Side, at: Point, reach: float) -> int | None:
+def nearest_motion(shapes: MotionShapes, side: ViewSide, at: Point, reach: float) -> int | None:
     """Return the number of the motion that is nearest to a point as seen from a side, or None.
 
     Of motions that lie on one another the one nearest to the eye is taken, and of these the last.
@@ -44,7 +44,7 @@ def nearest_motion(shapes: MotionShapes, side: Side, at: Point, reach: float) ->
     if best > reach:
         return None
     alike = rows[distance <= best + 1e-6]
-    front = shapes.high[alike, side.depth] * (-1 if side is Side.XZ else 1)
+    front = shapes.high[alike, side.depth] * (-1 if side is ViewSide.XZ else 1)
     return int(alike[np.flatnonzero(front >= front.max() - 1e-6)[-1]])
 
 

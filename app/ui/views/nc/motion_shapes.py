@@ -13,7 +13,7 @@ from ....gcode.interpreter.program import NcProgram
 from ....gcode.timing.extent import at_home
 from ....model.motion import MotionKind
 from ....model.motion_path import arc_paths, lengths, spline_points
-from ..canvas.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
+from ..canvas.painting.curve_path import CURVE_DATA, CURVE_TO, ELEMENT, LINE_TO, MOVE_TO, PIECE, Elements, path_of
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -26,7 +26,7 @@ _MOST_PIECES = 1_600
 _MOST_LIT = 4_000
 
 
-class Side(Enum):
+class ViewSide(Enum):
     """From where the path is looked at; the value holds the columns that go to the right and up."""
 
     XY = (0, 1)
@@ -39,7 +39,7 @@ class Side(Enum):
         return 3 - sum(self.value)
 
 
-class Look(IntEnum):
+class MotionLineStyle(IntEnum):
     """What a motion is, as far as its line style goes."""
 
     RAPID = 0
@@ -91,7 +91,7 @@ class MotionShapes:
         end = int(np.searchsorted(self.lines, row + 2))
         return int(self.by_line[end - 1]) if end else None
 
-    def seen(self, side: Side, motions: Ints | None = None) -> Ints:
+    def seen(self, side: ViewSide, motions: Ints | None = None) -> Ints:
         """Return those of some motions, or of all, whose way seen from a side is known."""
         rows = np.arange(len(self)) if motions is None else motions
         if not self.program.homeward:
@@ -106,7 +106,7 @@ class MotionShapes:
         broken[1:] = np.any(self.program.motions.start[motions[1:]] != self.program.motions.end[motions[:-1]], axis=1)
         return broken
 
-    def elements(self, motions: Ints, side: Side, heads: Ints | None = None) -> tuple[Elements, Ints]:
+    def elements(self, motions: Ints, side: ViewSide, heads: Ints | None = None) -> tuple[Elements, Ints]:
         """Return painter path elements of some motions seen from a side, and where each one's begin, (k + 1,).
 
         A motion that does not begin where the one before it in the list ends begins with MOVE_TO, and so do those that
@@ -128,7 +128,7 @@ class MotionShapes:
             made[name][body] = self.points[taken, axis]
         return made, at
 
-    def path(self, motions: Ints, side: Side) -> QPainterPath:
+    def path(self, motions: Ints, side: ViewSide) -> QPainterPath:
         """Return the painter path in mm of what is known of some motions' ways, of very many the first 4,000."""
         seen = self.seen(side, motions[:_MOST_LIT])
         return path_of(self.elements(seen, side)[0].tobytes()) if len(seen) else QPainterPath()
@@ -136,7 +136,7 @@ class MotionShapes:
 
 def tools_of(shapes: MotionShapes) -> list[int]:
     """Return the T numbers that feed, in the order of their first cut."""
-    tools, first = np.unique(shapes.tool[shapes.look != Look.RAPID], return_index=True)
+    tools, first = np.unique(shapes.tool[shapes.look != MotionLineStyle.RAPID], return_index=True)
     return [int(tool) for tool in tools[np.argsort(first)]]
 
 
@@ -181,9 +181,9 @@ def _looks(program: NcProgram, contour: Bools | None) -> NDArray[np.uint8]:
     motions = program.motions
     way = motions.end - motions.start
     down = (motions.kind == MotionKind.LINE) & (way[:, 2] < 0) & np.all(way[:, :2] == 0, axis=1)
-    along = Look.CUT if contour is None else np.where(contour, Look.CONTOUR, Look.CUT)
-    looks = np.where(down, Look.PLUNGE, along)
-    return np.where(motions.kind == MotionKind.RAPID, Look.RAPID, looks).astype(np.uint8)
+    along = MotionLineStyle.CUT if contour is None else np.where(contour, MotionLineStyle.CONTOUR, MotionLineStyle.CUT)
+    looks = np.where(down, MotionLineStyle.PLUNGE, along)
+    return np.where(motions.kind == MotionKind.RAPID, MotionLineStyle.RAPID, looks).astype(np.uint8)
 
 
 def _elements(program: NcProgram) -> tuple[NDArray[np.uint8], Floats, Ints]:

@@ -15,15 +15,15 @@ from PySide6.QtWidgets import QWidget
 from ....geometry.sample import Box, union
 from ....model.curves import Point
 from ...framework.theme import LIGHT, Theme, text_font
-from ..canvas import overlay
-from ..canvas.grid import paint_origin, paint_paper, paint_ruler_marks, paint_rulers
-from ..canvas.view import View, fitted
+from ..canvas.painting import overlay
+from ..canvas.painting.grid import paint_origin, paint_paper, paint_ruler_marks, paint_rulers
+from ..canvas.view_transform import ViewTransform, fitted
 from ..canvas.viewport import Viewport
-from .line_looks import Ints
+from .line_marks import Ints
 from .motion_hover import describe_motion, nearest_motion
-from .motion_picture import MotionPicture, PathColour, PathPaint, paint_stock
-from .motion_shapes import Side
-from .path_key import Corner, KeyRow, beside_key, cuts_within, key_place, key_size, paint_key
+from .motion_shapes import ViewSide
+from .painting.motion_layer import MotionColourBy, MotionLayer, MotionPaint, paint_stock
+from .painting.path_key import KeyCorner, KeyRow, beside_key, cuts_within, key_place, key_size, paint_key
 
 _PICK_PX, _CLICK_PX, _BLEED_PX, _EDGE_PX = 6.0, 4.0, 8.0, 16.0
 _AT_ONCE_S = 0.012
@@ -51,11 +51,11 @@ class PathView(Viewport):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._how = PathPaint(LIGHT)
-        self.picture: MotionPicture | None = None
-        self.other: MotionPicture | None = None
-        self._alone: MotionPicture | None = None
-        self.corner = Corner.TOP_RIGHT
+        self._how = MotionPaint(LIGHT)
+        self.picture: MotionLayer | None = None
+        self.other: MotionLayer | None = None
+        self._alone: MotionLayer | None = None
+        self.corner = KeyCorner.TOP_RIGHT
         self._fresh = False
         self._rest: Iterator[Callable[[QPainter], None]] = iter(())
         self._later = QTimer(self, singleShot=True, interval=0)
@@ -78,17 +78,17 @@ class PathView(Viewport):
 
     def set_theme(self, theme: Theme) -> None:
         """Paint with another theme."""
-        self._how = PathPaint(theme, self._how.colour)
+        self._how = MotionPaint(theme, self._how.colour)
         self.repaint_scene()
 
-    def set_colour(self, colour: PathColour) -> None:
+    def set_colour(self, colour: MotionColourBy) -> None:
         """Colour by tool or by kind of motion."""
-        self._how = PathPaint(self._how.theme, colour)
+        self._how = MotionPaint(self._how.theme, colour)
         self.corner = self._free_corner(self.view) or self.corner
         self.repaint_scene()
 
     def show_pictures(
-        self, picture: MotionPicture | None = None, alone: tuple[MotionPicture, MotionPicture] | None = None
+        self, picture: MotionLayer | None = None, alone: tuple[MotionLayer, MotionLayer] | None = None
     ) -> None:
         """Show a program's motions; what was lit up is not any more.
 
@@ -153,7 +153,7 @@ class PathView(Viewport):
             yield from self.picture.portions(self.view, box, self._how)
         for alone, hue in ((self._alone, theme.parameter), (self.other, theme.left)):
             if alone is not None:
-                yield from alone.portions(self.view, box, PathPaint(theme, self._how.colour, hue, _ALONE_PX))
+                yield from alone.portions(self.view, box, MotionPaint(theme, self._how.colour, hue, _ALONE_PX))
         yield lambda painter: paint_origin(painter, self.view, theme)
         yield self._name_axes
 
@@ -247,21 +247,21 @@ class PathView(Viewport):
         return _union(picture.box for picture in (self.picture, self.other) if picture is not None) or _FRAME
 
     def _seen(self, point: NDArray[np.float64]) -> Point:
-        side = self.picture.side if self.picture is not None else Side.XY
+        side = self.picture.side if self.picture is not None else ViewSide.XY
         return (float(point[side.value[0]]), float(point[side.value[1]]))
 
     def free_area(self, box: Box) -> QRectF:
         """Return the part of the area that a box in mm is fitted into, the key in a corner of it or beside it."""
         corner = self._free_corner(fitted(box, self.area))
-        self.corner = corner or Corner.TOP_RIGHT
+        self.corner = corner or KeyCorner.TOP_RIGHT
         rooms = beside_key(key_size(self._key()), self.area)
         return self.area if corner is not None else max(rooms, key=lambda room: fitted(box, room).scale)
 
-    def _free_corner(self, view: View) -> Corner | None:
+    def _free_corner(self, view: ViewTransform) -> KeyCorner | None:
         """Return a corner where the key would lie on nothing that is cut, if there is one."""
         size = key_size(self._key())
         programs = [picture for picture in (self.picture, self.other) if picture is not None]
-        for corner in Corner:
+        for corner in KeyCorner:
             box = view.world_box(key_place(size, self.area, corner))
             if not any(cuts_within(picture.shapes, picture.side, box) for picture in programs):
                 return corner
@@ -289,14 +289,14 @@ class PathView(Viewport):
     def _name_axes(self, painter: QPainter) -> None:
         """Write the names of the two axes at the arrows of the zero."""
         names = "XYZ"
-        side = self.picture.side if self.picture is not None else Side.XY
+        side = self.picture.side if self.picture is not None else ViewSide.XY
         zero = self.view.to_screen((0.0, 0.0))
         painter.setFont(text_font(11))
         painter.setPen(QColor(self._how.theme.muted))
         painter.drawText(QPointF(zero.x() + 41, zero.y() + 4), names[side.value[0]])
         painter.drawText(QPointF(zero.x() - 3.5, zero.y() - 41), names[side.value[1]])
 
-    def _at(self, position: QPointF, picture: MotionPicture | None) -> int | None:
+    def _at(self, position: QPointF, picture: MotionLayer | None) -> int | None:
         if picture is None or not len(picture.shapes) or not self.area.contains(position):
             return None
         return nearest_motion(picture.shapes, picture.side, self.view.to_world(position), _PICK_PX / self.view.scale)

@@ -10,14 +10,14 @@ import numpy as np
 from ....gcode.interpreter.program import ProgramProblem, Severity
 from ....gcode.rework.compare import DifferenceKind, ProgramDifference, ProgramDifferences, ProgramSpan
 from ...framework.figures import counted
-from .motion_picture import MotionPicture
-from .motion_shapes import Ints, Side
-from .places_panel import Place, Weight
-from .reading import Shown
+from .motion_shapes import Ints, ViewSide
+from .painting.motion_layer import MotionLayer
+from .places_panel import ListedPlace, PlaceWeight
+from .program_reader import ShownProgram
 
 
 @dataclass(frozen=True, eq=False)
-class Compared:
+class ComparedProgram:
     """Another program held against the one that is shown.
 
     Attributes:
@@ -25,23 +25,23 @@ class Compared:
         pictures: by side, what only the first does and what only the second does.
     """
 
-    other: Shown
+    other: ShownProgram
     differences: ProgramDifferences
-    pictures: dict[Side, tuple[MotionPicture, MotionPicture]]
+    pictures: dict[ViewSide, tuple[MotionLayer, MotionLayer]]
 
 
 _APART = (DifferenceKind.PATH, DifferenceKind.RAPID, DifferenceKind.MISSING, DifferenceKind.EXTRA)
 
 
 def drawn_apart(
-    first: Shown, second: Shown, differences: ProgramDifferences, side: Side
-) -> tuple[MotionPicture, MotionPicture]:
+    first: ShownProgram, second: ShownProgram, differences: ProgramDifferences, side: ViewSide
+) -> tuple[MotionLayer, MotionLayer]:
     """Return pictures of what only the first program does, and of what only the second does: where paths differ, not
     their feeds.
     """
     items = [item for item in differences.items if item.kind in _APART]
     one, other = (_motions([getattr(item, name) for item in items]) for name in "ab")
-    return MotionPicture(first.shapes, side, one), MotionPicture(second.shapes, side, other)
+    return MotionLayer(first.shapes, side, one), MotionLayer(second.shapes, side, other)
 
 
 def _motions(spans: Sequence[ProgramSpan]) -> Ints:
@@ -53,7 +53,7 @@ def in_order(problems: Sequence[ProgramProblem]) -> tuple[ProgramProblem, ...]:
     return tuple(sorted(problems, key=lambda problem: (problem.line, problem.column)))
 
 
-def problem_places(problems: Sequence[ProgramProblem]) -> tuple[str, list[Place]]:
+def problem_places(problems: Sequence[ProgramProblem]) -> tuple[str, list[ListedPlace]]:
     """Return title and rows for problems."""
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
     warnings = len(problems) - errors
@@ -61,28 +61,28 @@ def problem_places(problems: Sequence[ProgramProblem]) -> tuple[str, list[Place]
     return ", ".join(filter(None, words)), [_problem_place(problem) for problem in problems]
 
 
-def _problem_place(problem: ProgramProblem) -> Place:
+def _problem_place(problem: ProgramProblem) -> ListedPlace:
     at = f"{problem.line}:{problem.column}" if problem.column else f"{problem.line}"
-    weight = Weight.ERROR if problem.severity is Severity.ERROR else Weight.WARNING
-    return Place(f"{at}   {problem.word + ': ' if problem.word else ''}{problem.text}", problem.text, weight)
+    weight = PlaceWeight.ERROR if problem.severity is Severity.ERROR else PlaceWeight.WARNING
+    return ListedPlace(f"{at}   {problem.word + ': ' if problem.word else ''}{problem.text}", problem.text, weight)
 
 
-def difference_places(differences: ProgramDifferences) -> tuple[str, list[Place]]:
+def difference_places(differences: ProgramDifferences) -> tuple[str, list[ListedPlace]]:
     """Return title and rows for differences."""
     items = differences.items
     if not items:
         words = "No motion, feed, tool, length, work offset, spindle, coolant, path mode or dwell differs."
-        return "Both programs do the same.", [Place(words, "", Weight.REMARK)]
+        return "Both programs do the same.", [ListedPlace(words, "", PlaceWeight.REMARK)]
     motion = (
         "the same motion" if differences.same_motion else f"paths up to {differences.largest_distance:.3f} mm apart"
     )
     return f"{counted(len(items), 'difference')}, {motion}", [_difference_place(item) for item in items]
 
 
-def _difference_place(item: ProgramDifference) -> Place:
+def _difference_place(item: ProgramDifference) -> ListedPlace:
     lines = f"{_lines(item.a)}  \u2194  {_lines(item.b)}"
-    loud = Weight.REMARK if item.kind is DifferenceKind.SAME_PATH else Weight.WARNING
-    return Place(f"{lines}   {item.kind.value}: {item.text}", item.text, loud)
+    loud = PlaceWeight.REMARK if item.kind is DifferenceKind.SAME_PATH else PlaceWeight.WARNING
+    return ListedPlace(f"{lines}   {item.kind.value}: {item.text}", item.text, loud)
 
 
 def _lines(span: ProgramSpan) -> str:

@@ -18,7 +18,7 @@ from ...framework.theme import LIGHT, Theme
 _MOST, _SEEN, _ROW_PX = 500, 5, 24
 
 
-class Weight(Enum):
+class PlaceWeight(Enum):
     """How much a place matters; decides its colour."""
 
     ERROR = "error"
@@ -27,12 +27,12 @@ class Weight(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class ListedPlace:
     """One row: what to say, and how loud."""
 
     words: str
     tip: str
-    weight: Weight
+    weight: PlaceWeight
 
 
 class PlacesPanel(QWidget):
@@ -61,7 +61,7 @@ class PlacesPanel(QWidget):
         self.list.setUniformItemSizes(True)
         self.list.itemActivated.connect(lambda item: self.picked.emit(self.list.row(item)))
         self.list.itemClicked.connect(lambda item: self.picked.emit(self.list.row(item)))
-        self.places: tuple[Place, ...] = ()
+        self.places: tuple[ListedPlace, ...] = ()
         self._theme: Theme = LIGHT
         head = QHBoxLayout()
         head.setContentsMargins(12, 0, 8, 0)
@@ -84,7 +84,7 @@ class PlacesPanel(QWidget):
         for row, place in enumerate(self.places[:_MOST]):
             self.list.item(row).setForeground(self._colour(place.weight))
 
-    def show_places(self, title: str, places: Sequence[Place]) -> None:
+    def show_places(self, title: str, places: Sequence[ListedPlace]) -> None:
         """List places, the first 500 of them; hide when there are none.
 
         Args:
@@ -111,6 +111,8 @@ class PlacesPanel(QWidget):
             self.list.setCurrentRow(row)
             self.picked.emit(row)
 
-    def _colour(self, weight: Weight) -> QColor:
+    def _colour(self, weight: PlaceWeight) -> QColor:
         theme = self._theme
-        return {Weight.ERROR: theme.error, Weight.WARNING: theme.warning, Weight.REMARK: theme.ink}[weight]
+        return {PlaceWeight.ERROR: theme.error, PlaceWeight.WARNING: theme.warning, PlaceWeight.REMARK: theme.ink}[
+            weight
+        ]

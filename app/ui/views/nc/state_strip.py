@@ -7,7 +7,7 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
 from ...framework.theme import LIGHT, Theme, text_font
-from .state_words import Item
+from .state_words import StateItem
 
 STRIP_PX = 28
 _EDGE, _GAP, _NAME_GAP = 12, 16, 5
@@ -20,7 +20,7 @@ class StateStrip(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._theme: Theme = LIGHT
-        self.items: list[Item] = []
+        self.items: list[StateItem] = []
         self.setFixedHeight(STRIP_PX)
         self.setMinimumWidth(80)
         self.show_items([])
@@ -34,7 +34,7 @@ class StateStrip(QWidget):
         self._theme = theme
         self.update()
 
-    def show_items(self, items: list[Item]) -> None:
+    def show_items(self, items: list[StateItem]) -> None:
         """Show what is in force; nothing picked, nothing to show."""
         self.items = items
         words = "   ".join(f"{item.name} {item.value}".strip() for item in items)
@@ -68,6 +68,6 @@ class StateStrip(QWidget):
         return QRect(x, 1, width + 1, self.height() - 1)
 
 
-def _width(item: Item, metrics: QFontMetrics) -> int:
+def _width(item: StateItem, metrics: QFontMetrics) -> int:
     name = metrics.horizontalAdvance(item.name) + _NAME_GAP if item.name else 0
     return name + metrics.horizontalAdvance(item.value)

@@ -17,14 +17,16 @@ _PLANES = ("G17", "G18", "G19")
 
 
 @dataclass(frozen=True, slots=True)
-class Item:
+class StateItem:
     """One thing to know: a short name, perhaps "", and its value."""
 
     name: str
     value: str
 
 
-def state_items(shapes: MotionShapes, row: int, motion: int | None = None, times: Duration | None = None) -> list[Item]:
+def state_items(
+    shapes: MotionShapes, row: int, motion: int | None = None, times: Duration | None = None
+) -> list[StateItem]:
     """Return what is in force once the line at `row` (0-based) is done, what matters most first.
 
     A line without a motion has the place of the motion before it and the words of the one that comes next.
@@ -48,37 +50,37 @@ def state_items(shapes: MotionShapes, row: int, motion: int | None = None, times
     if done is not None:
         items += _place_items(shapes, done)
         if times is not None:
-            items.append(Item("Time", clock(float(times.ends[done]))))
+            items.append(StateItem("Time", clock(float(times.ends[done]))))
     return items + _modal_items(state)
 
 
-def _tool_items(state: ModalState) -> list[Item]:
+def _tool_items(state: ModalState) -> list[StateItem]:
     sense = {1: "M3", -1: "M4", 0: "M5"}[state.spindle]
     unit = "m/min" if state.constant_surface else "rpm"
-    items = [Item("", f"T{state.tool}" if state.tool else "No tool")]
-    items.append(Item(sense, f"{grouped(state.speed, 0)} {unit}" if state.spindle else "off"))
+    items = [StateItem("", f"T{state.tool}" if state.tool else "No tool")]
+    items.append(StateItem(sense, f"{grouped(state.speed, 0)} {unit}" if state.spindle else "off"))
     coolant = " ".join(word for word, on in (("flood", state.flood), ("mist", state.mist)) if on)
-    return [*items, Item("", coolant)] if coolant else items
+    return [*items, StateItem("", coolant)] if coolant else items
 
 
-def _place_items(shapes: MotionShapes, motion: int) -> list[Item]:
+def _place_items(shapes: MotionShapes, motion: int) -> list[StateItem]:
     """Return where a motion ends; of an axis that is at the machine's own home only the machine knows where that is."""
     ends = zip("XYZ", shapes.program.motions.end[motion].tolist(), shapes.home[motion].tolist(), strict=True)
-    return [Item(name, "home" if home else f"{value + 0.0:.3f}") for name, value, home in ends]
+    return [StateItem(name, "home" if home else f"{value + 0.0:.3f}") for name, value, home in ends]
 
 
-def _motion_items(shapes: MotionShapes, motion: int) -> list[Item]:
+def _motion_items(shapes: MotionShapes, motion: int) -> list[StateItem]:
     motions = shapes.program.motions
     kind, feed = int(motions.kind[motion]), float(motions.feed[motion])
-    items = [Item("", _WORDS[kind])]
+    items = [StateItem("", _WORDS[kind])]
     if kind:
-        items.append(Item("F", "not told" if np.isnan(feed) else f"{grouped(feed, 0 if feed >= 10 else 2)}"))
+        items.append(StateItem("F", "not told" if np.isnan(feed) else f"{grouped(feed, 0 if feed >= 10 else 2)}"))
     if motion in shapes.program.homeward:
-        return [*items, Item("", "to the machine's home")]
-    return [*items, Item("Length", f"{grouped(float(shapes.length[motion]))} mm")]
+        return [*items, StateItem("", "to the machine's home")]
+    return [*items, StateItem("Length", f"{grouped(float(shapes.length[motion]))} mm")]
 
 
-def _modal_items(state: ModalState) -> list[Item]:
+def _modal_items(state: ModalState) -> list[StateItem]:
     words = [
         _PLANES[int(state.plane)],
         "G20" if state.units is Units.INCH else "G21",
@@ -90,4 +92,4 @@ def _modal_items(state: ModalState) -> list[Item]:
     words.append(state.path)
     if any(state.shift):
         words.append("shifted " + ", ".join(f"{value:.3f}" for value in state.shift))
-    return [Item("", word) for word in words]
+    return [StateItem("", word) for word in words]

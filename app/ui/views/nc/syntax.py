@@ -6,7 +6,7 @@ import re
 from enum import Enum
 
 
-class Part(Enum):
+class SyntaxPart(Enum):
     """What a stretch of text is."""
 
     PLAIN = "plain"
@@ -17,7 +17,7 @@ class Part(Enum):
     FLOW = "flow"
 
 
-Span = tuple[int, int, Part]
+Span = tuple[int, int, SyntaxPart]
 
 _FLOW_WORDS = (
     "sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|end\\d*|repeat|endrepeat|break|continue|goto|then"
@@ -31,11 +31,11 @@ _PARTS = re.compile(
     re.IGNORECASE,
 )
 _KINDS = {
-    "comment": Part.COMMENT,
-    "flow": Part.FLOW,
-    "number": Part.LINE_NUMBER,
-    "command": Part.COMMAND,
-    "setting": Part.SETTING,
+    "comment": SyntaxPart.COMMENT,
+    "flow": SyntaxPart.FLOW,
+    "number": SyntaxPart.LINE_NUMBER,
+    "command": SyntaxPart.COMMAND,
+    "setting": SyntaxPart.SETTING,
 }
 
 
@@ -46,9 +46,9 @@ def spans(line: str) -> list[Span]:
     for match in _PARTS.finditer(line):
         first, last = match.start(), match.start() + len(match.group().rstrip())
         if first > at:
-            found.append((at, first, Part.PLAIN))
+            found.append((at, first, SyntaxPart.PLAIN))
         found.append((first, last, _KINDS[match.lastgroup or ""]))
         at = last
     if at < len(line):
-        found.append((at, len(line), Part.PLAIN))
+        found.append((at, len(line), SyntaxPart.PLAIN))
     return found

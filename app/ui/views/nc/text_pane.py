@@ -11,11 +11,11 @@ from ....gcode.interpreter.program import ProgramProblem
 from ...framework.figures import counted
 from .find_bar import FindBar
 from .heads import Banner, TextHead
-from .line_looks import Ints, line_looks
+from .line_marks import Ints, line_marks
 from .places import in_order, problem_places
 from .places_panel import PlacesPanel
+from .program_reader import ShownProgram
 from .program_text import ProgramText
-from .reading import Shown
 from .text_view import NcTextView
 
 
@@ -23,18 +23,18 @@ class TextPane(QWidget):
     """Head, banner, find bar, text, problems.
 
     Signals:
-        rows_picked(first, last): lines, 0-based, both included. menu_asked(point): on the screen.
+        rows_picked(first, last): lines, 0-based, both included. menu_requested(point): on the screen.
 
     Attributes:
         shown: what was read of the text; None while only the text is known.
     """
 
     rows_picked = Signal(int, int)
-    menu_asked = Signal(QPoint)
+    menu_requested = Signal(QPoint)
 
     def __init__(self, closable: bool = False) -> None:
         super().__init__()
-        self.shown: Shown | None = None
+        self.shown: ShownProgram | None = None
         self.head, self.banner, self.finder, self.text = TextHead(closable), Banner(), FindBar(), NcTextView()
         self.panel = PlacesPanel("problem", "F4")
         self.problems: tuple[ProgramProblem, ...] = ()
@@ -45,9 +45,9 @@ class TextPane(QWidget):
             column.addWidget(widget, 1 if widget is self.text else 0)
         self.setFocusProxy(self.text)
         self.text.rows_picked.connect(self.rows_picked)
-        self.text.menu_asked.connect(self.menu_asked)
+        self.text.menu_requested.connect(self.menu_requested)
         self.panel.picked.connect(lambda index: self.go_to_problem(self.problems[index]))
-        self.head.find_asked.connect(self.begin_find)
+        self.head.find_requested.connect(self.begin_find)
         self.finder.reached.connect(self._on_found)
         self.finder.marked.connect(self.text.show_found)
         self.finder.closed.connect(self.text.setFocus)
@@ -61,7 +61,7 @@ class TextPane(QWidget):
         self.finder.close_quietly()
         self._show_problems(())
 
-    def show_program(self, shown: Shown) -> None:
+    def show_program(self, shown: ShownProgram) -> None:
         """Show a program that was read; of the same text, the picked line stays."""
         if shown.text.text != self.text.text.text:
             self.show_text(shown.source.name, shown.text)
@@ -72,7 +72,7 @@ class TextPane(QWidget):
 
     def mark_differing(self, rows: Ints) -> None:
         """Mark the rows (k,) that another program has not alike; none = no other program."""
-        looks = self.shown.looks if self.shown is not None else line_looks(len(self.text.text))
+        looks = self.shown.looks if self.shown is not None else line_marks(len(self.text.text))
         self.text.show_looks(replace(looks, differing=rows))
 
     def go_to_problem(self, problem: ProgramProblem) -> None:

@@ -19,10 +19,10 @@ from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
 
 from ....gcode.interpreter.program import ProgramProblem
 from ...framework.theme import LIGHT, Theme, mono_font
-from .line_looks import LineLooks, line_looks
-from .motion_picture import PathColour
+from .line_marks import LineMarks, line_marks
+from .painting.motion_layer import MotionColourBy
+from .painting.text_painter import LINE_PX, MARKS_PX, TextStyle, paint_lines, paint_marks
 from .program_text import ProgramText, program_text
-from .text_paint import LINE_PX, MARKS_PX, TextLook, paint_lines, paint_marks
 
 _NO_TEXT = program_text(b"")
 _SPARE_ROWS = 2
@@ -32,16 +32,16 @@ class NcTextView(QAbstractScrollArea):
     """Read-only NC text.
 
     Signals:
-        rows_picked(first, last): the user chose lines (0-based, both included). menu_asked(point): right click, on the
-        screen.
+        rows_picked(first, last): the user chose lines (0-based, both included). menu_requested(point): right click, on
+        the screen.
     """
 
     rows_picked = Signal(int, int)
-    menu_asked = Signal(QPoint)
+    menu_requested = Signal(QPoint)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._look = TextLook(_NO_TEXT, line_looks(0), LIGHT)
+        self._look = TextStyle(_NO_TEXT, line_marks(0), LIGHT)
         self.setFrameShape(QAbstractScrollArea.Shape.NoFrame)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("NC program")
@@ -75,16 +75,16 @@ class NcTextView(QAbstractScrollArea):
 
     def show_text(self, text: ProgramText) -> None:
         """Show another program from its beginning."""
-        self._change(text=text, lines=line_looks(len(text)), cursor=-1, anchor=-1, found=())
+        self._change(text=text, lines=line_marks(len(text)), cursor=-1, anchor=-1, found=())
         self._set_ranges()
         self.verticalScrollBar().setValue(0)
         self.horizontalScrollBar().setValue(0)
 
-    def show_looks(self, lines: LineLooks) -> None:
+    def show_looks(self, lines: LineMarks) -> None:
         """Show what the lines move and what is wrong with them."""
         self._change(lines=lines)
 
-    def set_colour(self, colour: PathColour) -> None:
+    def set_colour(self, colour: MotionColourBy) -> None:
         """Let the bars beside the lines tell the tool or the kind of motion."""
         self._change(colour=colour)
 
@@ -179,7 +179,7 @@ class NcTextView(QAbstractScrollArea):
             row = self._row_at(event.pos().y())
             if not self.selection[0] <= row <= self.selection[1]:
                 self.pick(row)
-        self.menu_asked.emit(event.globalPos())
+        self.menu_requested.emit(event.globalPos())
 
     def viewportEvent(self, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Tell what is wrong with the line under the mouse."""

@@ -11,7 +11,7 @@ from ....core.errors import HitofudeError
 from ....drafting.expressions.numbers import length
 from ....formats.plot.layout import PlotOptions, scale_words
 from ....formats.plot.page import Paper
-from ...framework.fields import ChoiceField, ListField, NumberField, Spec
+from ...framework.fields import ChoiceField, ListField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.form import SwitchField
 from ...framework.labels import muted
@@ -41,7 +41,7 @@ def read_scale(text: str) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class PlotRequest:
     """What the user wants on paper.
 
     Attributes:
@@ -58,12 +58,12 @@ class PlotPanel(QWidget):
     """The fields; a change asks for another preview.
 
     Signals:
-        changed(Wish). save_wanted(). print_wanted(). left().
+        changed(PlotRequest). save_requested(). print_requested(). left().
     """
 
-    changed = Signal(Wish)
-    save_wanted = Signal()
-    print_wanted = Signal()
+    changed = Signal(PlotRequest)
+    save_requested = Signal()
+    print_requested = Signal()
     left = Signal()
 
     def __init__(self) -> None:
@@ -71,12 +71,12 @@ class PlotPanel(QWidget):
         self.setObjectName("sidePanel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedWidth(WIDTH)
-        self.wish = Wish()
+        self.request = PlotRequest()
         self.paper = ListField("Paper", list(_PAPERS.items()))
         self.lies = ChoiceField("Lies", [(True, "Landscape"), (False, "Portrait")])
         self.scale = ListField("Scale", [(None, "Fit one sheet"), *((each, scale_words(each)) for each in _SCALES)])
         self.factor = NumberField(
-            Spec("Factor", "", decimals=4, is_length=False, tip="Any other scale: 1:3, 0.25 or 75%."), read_scale
+            NumberSpec("Factor", "", decimals=4, is_length=False, tip="Any other scale: 1:3, 0.25 or 75%."), read_scale
         )
         self.framed, self.paths = (
             SwitchField("Frame, title"),
@@ -121,33 +121,37 @@ class PlotPanel(QWidget):
         column.addStretch(1)
 
     def _connect(self) -> None:
-        self.paper.chosen.connect(lambda paper: self._lay(replace(self.wish.layout, paper=paper)))
-        self.lies.chosen.connect(lambda across: self._lay(replace(self.wish.layout, landscape=across)))
-        self.scale.chosen.connect(lambda scale: self._lay(replace(self.wish.layout, scale=scale)))
-        self.factor.committed.connect(lambda scale: self._lay(replace(self.wish.layout, scale=scale)))
-        self.framed.chosen.connect(lambda on: self._lay(replace(self.wish.layout, framed=on)))
-        self.paths.chosen.connect(lambda on: self._take(replace(self.wish, paths=on)))
-        self.notes.chosen.connect(lambda on: self._take(replace(self.wish, notes=on)))
-        self.black.chosen.connect(lambda on: self._take(replace(self.wish, black=on)))
-        self.save.clicked.connect(self.save_wanted)
-        self.print.clicked.connect(self.print_wanted)
+        self.paper.chosen.connect(lambda paper: self._lay(replace(self.request.layout, paper=paper)))
+        self.lies.chosen.connect(lambda across: self._lay(replace(self.request.layout, landscape=across)))
+        self.scale.chosen.connect(lambda scale: self._lay(replace(self.request.layout, scale=scale)))
+        self.factor.committed.connect(lambda scale: self._lay(replace(self.request.layout, scale=scale)))
+        self.framed.chosen.connect(lambda on: self._lay(replace(self.request.layout, framed=on)))
+        self.paths.chosen.connect(lambda on: self._take(replace(self.request, paths=on)))
+        self.notes.chosen.connect(lambda on: self._take(replace(self.request, notes=on)))
+        self.black.chosen.connect(lambda on: self._take(replace(self.request, black=on)))
+        self.save.clicked.connect(self.save_requested)
+        self.print.clicked.connect(self.print_requested)
         self.leave.clicked.connect(self.left)
 
     def _lay(self, layout: PlotOptions) -> None:
-        self._take(replace(self.wish, layout=layout))
+        self._take(replace(self.request, layout=layout))
 
-    def _take(self, wish: Wish) -> None:
-        self.wish = wish
+    def _take(self, request: PlotRequest) -> None:
+        self.request = request
         self._show()
-        self.changed.emit(wish)
+        self.changed.emit(request)
 
     def _show(self) -> None:
-        layout = self.wish.layout
+        layout = self.request.layout
         self.paper.show_value(layout.paper)
         self.lies.show_value(layout.landscape)
         self.scale.show_value(layout.scale)
         self.framed.show_value(layout.framed)
-        for switch, on in ((self.paths, self.wish.paths), (self.notes, self.wish.notes), (self.black, self.wish.black)):
+        for switch, on in (
+            (self.paths, self.request.paths),
+            (self.notes, self.request.notes),
+            (self.black, self.request.black),
+        ):
             switch.show_value(on)
 
     def show_paths_there(self, there: bool) -> None:

@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent,
 from PySide6.QtWidgets import QWidget
 
 from ...framework.theme import LIGHT, Theme
-from .painting import Sheet, paint
+from .sheet_painter import PlotSheet, paint
 
 _EDGE_PX, _GAP_MM = 24.0, 8.0
 _STEP, _NEAREST = 1.25, 40.0
@@ -26,14 +26,14 @@ class PlotPreview(QWidget):
         super().__init__()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Page preview")
-        self.sheets: tuple[Sheet, ...] = ()
+        self.sheets: tuple[PlotSheet, ...] = ()
         self._columns = 1
         self._theme = LIGHT
         self._zoom, self._shift = 1.0, QPointF()
         self._grabbed: QPointF | None = None
         self._picture: QPixmap | None = None
 
-    def show_sheets(self, sheets: tuple[Sheet, ...], columns: int) -> None:
+    def show_sheets(self, sheets: tuple[PlotSheet, ...], columns: int) -> None:
         """Show other sheets; what is looked at stays where their number does."""
         if len(sheets) != len(self.sheets) or columns != self._columns:
             self.fit()

@@ -15,7 +15,7 @@ from ....model.tool import Tool, ToolKind
 
 
 @dataclass(frozen=True, slots=True)
-class Offsets:
+class EnteredOffsets:
     """The three amounts that the text has entered.
 
     Attributes:
@@ -33,12 +33,12 @@ class Offsets:
         return 2 * self.pocket - self.overlap
 
 
-def offered(job: Job) -> Offsets:
+def offered(job: Job) -> EnteredOffsets:
     """Return what a job's own tools amount to."""
     pocket, contour = _operations(job)
     radius = _tool(job, pocket, Tool(1, 6.0)).radius
     step = radius if pocket.stepover is None else min(pocket.stepover, 2 * radius - 1e-3)
-    return Offsets(_tool(job, contour, Tool(2, 3.0)).radius, radius, 2 * radius - step)
+    return EnteredOffsets(_tool(job, contour, Tool(2, 3.0)).radius, radius, 2 * radius - step)
 
 
 def amount(text: str, low: float, high: float) -> float:
@@ -68,7 +68,7 @@ def _inwards(value: float, towards: Callable[[float], int]) -> str:
     return f"{towards(value / unit) * unit:.6g}"
 
 
-def job_of(job: Job, given: Offsets) -> Job:
+def job_of(job: Job, given: EnteredOffsets) -> Job:
     """Return the job with a pocket and a contour operation whose tools have these offsets, and with no other.
 
     Speeds, feeds, depths and everything else stay; a tool whose offset is what it was stays as it is, another becomes

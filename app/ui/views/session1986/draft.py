@@ -17,7 +17,7 @@ from ....model.job import Job
 from ....model.part import Part
 from ....raster.frame import POINTS
 from .glyphs import Bits
-from .making import ScreenSize
+from .processing import ScreenSize
 from .screen import BOTTOM, TOP, Place
 
 PITCH = 0.25
@@ -29,7 +29,7 @@ SHEET = (2 * PITCH, 2 * PITCH, (POINTS - 2) * PITCH, (BOTTOM - TOP - 2) * PITCH)
 WORDS = ("line", "circle", "arc", "polyline", "rect", "delete", "undo", "redo")
 
 
-class Draft:
+class ShapeDraft:
     """A drawing of its own; the document is not touched.
 
     Attributes:

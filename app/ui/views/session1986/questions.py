@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from enum import Enum, auto
 
-from .answers import Offsets
+from .answers import EnteredOffsets
 
 
-class Ask(Enum):
+class SessionQuestion(Enum):
     """Which question the operator is at, or what goes on."""
 
     SHAPE = auto()
@@ -22,19 +22,19 @@ class Ask(Enum):
 
 
 BACK = {
-    Ask.DRAW: Ask.SHAPE,
-    Ask.CONTOUR: Ask.SHAPE,
-    Ask.POCKET: Ask.CONTOUR,
-    Ask.OVERLAP: Ask.POCKET,
-    Ask.DONE: Ask.OVERLAP,
+    SessionQuestion.DRAW: SessionQuestion.SHAPE,
+    SessionQuestion.CONTOUR: SessionQuestion.SHAPE,
+    SessionQuestion.POCKET: SessionQuestion.CONTOUR,
+    SessionQuestion.OVERLAP: SessionQuestion.POCKET,
+    SessionQuestion.DONE: SessionQuestion.OVERLAP,
 }
 """The question before each."""
 
-BUSY = (Ask.WORK, Ask.PLAY, Ask.LIST)
+BUSY = (SessionQuestion.WORK, SessionQuestion.PLAY, SessionQuestion.LIST)
 """Where nothing is asked."""
 
 
-def prompt(ask: Ask, given: Offsets, drawn: bool) -> str:
+def prompt(ask: SessionQuestion, given: EnteredOffsets, drawn: bool) -> str:
     """Return the words of a question, with what Return alone answers in brackets.
 
     Args:
@@ -42,9 +42,9 @@ def prompt(ask: Ask, given: Offsets, drawn: bool) -> str:
         drawn: the job has a drawing.
     """
     return {
-        Ask.SHAPE: f"SHAPE [{1 if drawn else 2}]?",
-        Ask.DRAW: "DRAW?",
-        Ask.CONTOUR: f"CONTOUR TOOL OFFSET, MM [{given.contour:.6g}]?",
-        Ask.POCKET: f"POCKET TOOL OFFSET, MM [{given.pocket:.6g}]?",
-        Ask.OVERLAP: f"POCKET TOOL OVERLAP, MM [{given.overlap:.6g}]?",
+        SessionQuestion.SHAPE: f"SHAPE [{1 if drawn else 2}]?",
+        SessionQuestion.DRAW: "DRAW?",
+        SessionQuestion.CONTOUR: f"CONTOUR TOOL OFFSET, MM [{given.contour:.6g}]?",
+        SessionQuestion.POCKET: f"POCKET TOOL OFFSET, MM [{given.pocket:.6g}]?",
+        SessionQuestion.OVERLAP: f"POCKET TOOL OVERLAP, MM [{given.overlap:.6g}]?",
     }.get(ask, "RETURN FOR THE MODERN VIEWS, BACK, NEW?")

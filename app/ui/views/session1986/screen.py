@@ -61,7 +61,7 @@ Place = tuple[int, int]
 
 
 @dataclass(eq=False)
-class Screen:
+class TerminalScreen:
     """What the terminal shows; whoever changes it has it painted.
 
     Attributes:

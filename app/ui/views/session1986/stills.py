@@ -31,7 +31,7 @@ _SPARSE: Bits = (_ROW % 4 == 0) & ((_COL + _ROW // 2) % 4 == 0)
 
 
 @dataclass(frozen=True, eq=False)
-class Still:
+class ScreenStill:
     """The display after a step.
 
     Attributes:
@@ -52,7 +52,7 @@ class Still:
 
 def stills_of(
     stages: Iterable[StepState], contours: Sequence[PixelChain], smoothed: Sequence[PixelChain] = ()
-) -> Iterator[Still]:
+) -> Iterator[ScreenStill]:
     """Yield what the display shows after each stage.
 
     Args:
@@ -64,7 +64,7 @@ def stills_of(
         yield still_of(stage, contours, smoothed)
 
 
-def still_of(stage: StepState, contours: Sequence[PixelChain] = (), smoothed: Sequence[PixelChain] = ()) -> Still:
+def still_of(stage: StepState, contours: Sequence[PixelChain] = (), smoothed: Sequence[PixelChain] = ()) -> ScreenStill:
     """Return what the display shows after a stage; chains as in `stills_of`."""
     plane, number = stage.plane, stage.number
     picture: Bits = plane != PixelCode.EMPTY
@@ -78,7 +78,7 @@ def still_of(stage: StepState, contours: Sequence[PixelChain] = (), smoothed: Se
         picture &= ((plane != PixelCode.CONTOUR) | _HALF) & ((plane != PixelCode.PROCESSED) | _SPARSE)
     if number != 208:
         picture |= _blocks(_of_codes(plane, _BLOCKS))
-    return Still(number, _name(stage), np.packbits(picture), _hold_ms(number))
+    return ScreenStill(number, _name(stage), np.packbits(picture), _hold_ms(number))
 
 
 def _of_codes(plane: Plane, codes: Sequence[PixelCode]) -> Bits:

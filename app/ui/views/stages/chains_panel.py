@@ -15,7 +15,7 @@ from ...framework.figures import counted
 from ...framework.icons import IconButton
 from ...framework.section import heading
 from ...framework.theme import mono_font
-from .rose import Rose
+from .direction_rose import DirectionRose
 
 _LIST_PX, _TEXT_PX, _MOST_SHOWN, _MOST_DIGITS = 96, 132, 300, 20_000
 
@@ -36,7 +36,7 @@ class ChainsPanel(QWidget):
         super().__init__()
         self.chains: tuple[PixelChain, ...] = ()
         self.title, self.copy = heading("Chain code"), IconButton("copy", "Copy all chain codes of this step")
-        self.list, self.text, self.rose = QListWidget(), QPlainTextEdit(), Rose()
+        self.list, self.text, self.rose = QListWidget(), QPlainTextEdit(), DirectionRose()
         self._lay_out()
         self._show_text(-1)
         self.list.currentRowChanged.connect(self._choose)

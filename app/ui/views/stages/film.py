@@ -39,7 +39,7 @@ _PHASE_OF = {number: k for k, numbers in enumerate(PHASES) for number in numbers
 
 
 @dataclass(frozen=True, eq=False)
-class Still:
+class FilmFrame:
     """One stage without its pixels.
 
     Attributes:
@@ -77,7 +77,7 @@ class Film:
     """
 
     shape: tuple[int, int]
-    stills: tuple[Still, ...]
+    stills: tuple[FilmFrame, ...]
     codes: dict[int, frozenset[int]]
 
     def __len__(self) -> int:
@@ -129,7 +129,7 @@ def film_of(stages: Iterable[StepState], count: int, progress: Progress = NO_PRO
     Raises:
         Cancelled: by progress.
     """
-    stills: list[Still] = []
+    stills: list[FilmFrame] = []
     codes: dict[int, frozenset[int]] = {}
     last: Plane | None = None
     for stage in stages:
@@ -138,7 +138,7 @@ def film_of(stages: Iterable[StepState], count: int, progress: Progress = NO_PRO
         before = last if last is not None else np.zeros_like(plane)
         pixels = np.flatnonzero(plane != before).astype(np.int32)
         stills.append(
-            Still(
+            FilmFrame(
                 stage.number,
                 stage.name,
                 stage.sentence,

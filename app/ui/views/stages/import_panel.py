@@ -12,13 +12,13 @@ from ....core.errors import HitofudeError
 from ....raster.ambiguities import AmbiguityKind
 from ....raster.picture_file import MM_PER_INCH
 from ....raster.picture_options import InkMeaning, PictureOptions
-from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, Spec
+from ...framework.fields import LABEL_WIDTH, ChoiceField, NumberField, NumberSpec
 from ...framework.figures import TIMES, counted, grouped
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
-from .preview import ASSUMED_DPI, Measure, Preview, Reading
+from .picture_preview import ASSUMED_DPI, PicturePreview, PictureSettings, PixelSize
 
 _LIST_PX = 96
 _DOUBTS = {
@@ -34,14 +34,14 @@ _KINDS = {
 }
 
 
-class See(Enum):
+class PictureAspect(Enum):
     """What is shown of the picture."""
 
     READING = "Reading"
     PICTURE = "Picture"
 
 
-class By(Enum):
+class SizeGivenBy(Enum):
     """What tells how large a pixel is."""
 
     DPI = "Resolution"
@@ -52,15 +52,16 @@ class ImportPanel(QWidget):
     """Fields for one picture; a change asks for another reading, which comes back by `show_preview`.
 
     Signals:
-        wanted(Reading): read it like this. see_chosen(See). place_picked(index): show this doubtful place.
+        requested(PictureSettings): read it like this. see_chosen(PictureAspect). place_picked(index): show this
+            doubtful place.
         accepted(): make it the part. left(): leave it.
 
     Attributes:
         reading: what was asked for last; None = there is no picture. by: what tells the size.
     """
 
-    wanted = Signal(Reading)
-    see_chosen = Signal(See)
+    requested = Signal(PictureSettings)
+    see_chosen = Signal(PictureAspect)
     place_picked = Signal(int)
     accepted = Signal()
     left = Signal()
@@ -70,20 +71,22 @@ class ImportPanel(QWidget):
         self.setObjectName("sidePanel")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.setFixedWidth(WIDTH)
-        self.reading: Reading | None = None
-        self.by = By.DPI
+        self.reading: PictureSettings | None = None
+        self.by = SizeGivenBy.DPI
         self.name, self.about = Elided(role="muted"), muted()
-        self.see = ChoiceField("See", [(see, see.value) for see in See])
+        self.see = ChoiceField("See", [(see, see.value) for see in PictureAspect])
         self.threshold, self.level, self.otsu = QSlider(Qt.Orientation.Horizontal), muted(), QPushButton("Automatic")
         self.invert = Switch("Ink is light on dark")
         self.despeckle = NumberField(
-            Spec("Despeckle", "px", 0, 100_000, 0, False, "Spots of up to so many pixels are taken away.")
+            NumberSpec("Despeckle", "px", 0, 100_000, 0, False, "Spots of up to so many pixels are taken away.")
         )
         self.ink = ChoiceField("Ink is", [(kind, kind.value.capitalize()) for kind in InkMeaning])
-        self.measure = ChoiceField("Size by", [(by, by.value) for by in By])
-        self.dpi = NumberField(Spec("Resolution", "dpi", 1, 99_999, 2, False, "Pixels an inch."))
-        self.apart = NumberField(Spec("Apart", "mm", 0.001, 99_999, tip="How far the two points are from one another."))
-        self.kind, self.told, self.doubts, self.list, self.wrong = (
+        self.measure = ChoiceField("Size by", [(by, by.value) for by in SizeGivenBy])
+        self.dpi = NumberField(NumberSpec("Resolution", "dpi", 1, 99_999, 2, False, "Pixels an inch."))
+        self.apart = NumberField(
+            NumberSpec("Apart", "mm", 0.001, 99_999, tip="How far the two points are from one another.")
+        )
+        self.kind, self.summary, self.ambiguities, self.list, self.wrong = (
             muted(),
             muted(),
             heading("Doubtful places"),
@@ -95,7 +98,7 @@ class ImportPanel(QWidget):
         self._connect()
 
     def _lay_out(self) -> None:
-        for label in (self.about, self.kind, self.told, self.wrong):
+        for label in (self.about, self.kind, self.summary, self.wrong):
             label.setWordWrap(True)
         self.wrong.setProperty("role", "error")
         self.otsu.setProperty("role", "link")
@@ -120,8 +123,8 @@ class ImportPanel(QWidget):
                 self.ink,
                 self.kind,
             ),
-            (heading("Size"), self.measure, self.dpi, self.apart, self.told),
-            (self.doubts, self.list),
+            (heading("Size"), self.measure, self.dpi, self.apart, self.summary),
+            (self.ambiguities, self.list),
         )
         for k, group in enumerate(groups):
             if k:
@@ -193,21 +196,21 @@ class ImportPanel(QWidget):
         self.despeckle.committed.connect(lambda most: self._change(despeckle=round(most)))
         self.ink.chosen.connect(lambda kind: self._change(shows=kind))
         self.measure.chosen.connect(self._choose_measure)
-        self.dpi.committed.connect(lambda dpi: self._measure(Measure(dpi)))
+        self.dpi.committed.connect(lambda dpi: self._measure(PixelSize(dpi)))
         self.apart.committed.connect(self._set_apart)
         self.list.currentRowChanged.connect(self.place_picked)
         self.take.clicked.connect(self.accepted)
         self.leave.clicked.connect(self.left)
 
-    def begin(self, preview: Preview) -> None:
+    def begin(self, preview: PicturePreview) -> None:
         """Begin with another picture."""
-        self.by = By.DPI
+        self.by = SizeGivenBy.DPI
         self.reading = preview.reading
         self.name.setText(preview.reading.path.name)
-        self.see.show_value(See.READING)
+        self.see.show_value(PictureAspect.READING)
         self.show_preview(preview)
 
-    def show_preview(self, preview: Preview) -> None:
+    def show_preview(self, preview: PicturePreview) -> None:
         """Show how the picture was read."""
         reading, options = preview.reading, preview.reading.options
         with QSignalBlocker(self.threshold), QSignalBlocker(self.invert):
@@ -224,7 +227,7 @@ class ImportPanel(QWidget):
             for k, place in enumerate(preview.places):
                 self.list.item(k).setToolTip(f"At {place.where}, {place.kind.value}")
             self.list.setCurrentRow(-1)
-        self.doubts.setText(
+        self.ambiguities.setText(
             f"{counted(len(preview.places), 'doubtful place')}" if preview.places else "No doubtful place"
         )
         self.list.setVisible(bool(preview.places))
@@ -238,7 +241,7 @@ class ImportPanel(QWidget):
 
     def add_point(self, col: float, row: float) -> None:
         """Take a point of the picture, px, as one of the two; a third one begins anew."""
-        if self.reading is None or self.by is not By.POINTS:
+        if self.reading is None or self.by is not SizeGivenBy.POINTS:
             return
         before = self.reading.measure
         points = (*before.points, (col, row)) if len(before.points) < 2 else ((col, row),)
@@ -249,19 +252,19 @@ class ImportPanel(QWidget):
         if self.reading is not None:
             options: PictureOptions = replace(self.reading.options, **changes)  # type: ignore[arg-type]
             self.reading = replace(self.reading, options=options)
-            self.wanted.emit(self.reading)
+            self.requested.emit(self.reading)
 
-    def _choose_measure(self, by: By) -> None:
+    def _choose_measure(self, by: SizeGivenBy) -> None:
         self.by = by
         if self.reading is not None:
             pitch = self.reading.measure.pitch
-            self._measure(Measure(MM_PER_INCH / pitch))
+            self._measure(PixelSize(MM_PER_INCH / pitch))
 
     def _set_apart(self, apart: float) -> None:
         if self.reading is not None:
             self._measure(replace(self.reading.measure, apart=apart))
 
-    def _measure(self, measure: Measure) -> None:
+    def _measure(self, measure: PixelSize) -> None:
         """Take another size, unless it is none: then say why."""
         if self.reading is None:
             return
@@ -272,13 +275,13 @@ class ImportPanel(QWidget):
             self.apart.refuse(str(error))
         else:
             self.reading = changed
-            self.wanted.emit(changed)
+            self.requested.emit(changed)
 
-    def _show_measure(self, reading: Reading) -> None:
+    def _show_measure(self, reading: PictureSettings) -> None:
         frame, measure = reading.frame, reading.measure
         self.measure.show_value(self.by)
-        self.dpi.setVisible(self.by is By.DPI)
-        self.apart.setVisible(self.by is By.POINTS)
+        self.dpi.setVisible(self.by is SizeGivenBy.DPI)
+        self.apart.setVisible(self.by is SizeGivenBy.POINTS)
         self.dpi.show_value(MM_PER_INCH / frame.pitch)
         if measure.apart is not None:
             self.apart.show_value(measure.apart)
@@ -286,11 +289,11 @@ class ImportPanel(QWidget):
             f"{grouped(frame.cols, 0)} {TIMES} {grouped(frame.rows, 0)} px, {grouped(frame.cols * frame.pitch, 1)} "
             f"{TIMES} {grouped(frame.rows * frame.pitch, 1)} mm"
         )
-        self.told.setText(self._words(reading))
+        self.summary.setText(self._words(reading))
 
-    def _words(self, reading: Reading) -> str:
+    def _words(self, reading: PictureSettings) -> str:
         """Return what is known of the size, or what to do next."""
-        if self.by is By.DPI:
+        if self.by is SizeGivenBy.DPI:
             assumed = not reading.names_size and reading.measure.dpi == ASSUMED_DPI
             guess = (
                 f"The file does not say how large it is; {ASSUMED_DPI:g} dpi is a guess. Type it, or measure two "

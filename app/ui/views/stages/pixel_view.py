@@ -17,13 +17,21 @@ from ....model.curves import Point
 from ....raster.frame import BitmapFrame
 from ....raster.trace import PixelChain
 from ...framework.theme import LIGHT, Theme
-from ..canvas.curve_path import curve_path
-from ..canvas.grid import paint_ruler_marks, paint_rulers
-from ..canvas.overlay import paint_highlight, paint_place
-from ..canvas.pens import screen_pen
+from ..canvas.painting.curve_path import curve_path
+from ..canvas.painting.grid import paint_ruler_marks, paint_rulers
+from ..canvas.painting.overlay import paint_highlight, paint_place
+from ..canvas.painting.pens import screen_pen
 from ..canvas.viewport import Viewport
-from .code_key import EDGE_PX, CodeRow, code_key_place, code_key_size, paint_code_key
-from .pixel_paint import Pixels, Window, paint_letters, paint_pixels, paint_raster, pixel_at, screen_rect
+from .painting.code_key import EDGE_PX, CodeRow, code_key_place, code_key_size, paint_code_key
+from .painting.pixel_painter import (
+    PixelPaint,
+    PixelWindow,
+    paint_letters,
+    paint_pixels,
+    paint_raster,
+    pixel_at,
+    screen_rect,
+)
 
 _CLICK_PX = 4.0
 _FAINT, _LARGE_PX = 0.3, 5.0
@@ -33,7 +41,7 @@ strength.
 
 
 @dataclass(frozen=True, eq=False)
-class Mark:
+class PixelMark:
     """A place that is pointed at, mm; `strong` where it is the chosen one."""
 
     at: Point
@@ -55,9 +63,9 @@ class PixelView(Viewport):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._theme = LIGHT
-        self.pixels: Pixels | None = None
+        self.pixels: PixelPaint | None = None
         self.key: tuple[CodeRow, ...] = ()
-        self.marks: tuple[Mark, ...] = ()
+        self.marks: tuple[PixelMark, ...] = ()
         self.pixel: tuple[int, int] | None = None
         self._rows, self._lit, self._starts = QPainterPath(), QPainterPath(), QPainterPath()
         self._mouse: QPointF | None = None
@@ -72,7 +80,7 @@ class PixelView(Viewport):
         self._theme = theme
         self.repaint_scene()
 
-    def show_pixels(self, pixels: Pixels | None) -> None:
+    def show_pixels(self, pixels: PixelPaint | None) -> None:
         """Show other pixels; the view stays, unless they lie elsewhere."""
         moved = pixels is not None and (self.pixels is None or self.pixels.frame != pixels.frame)
         self.pixels = pixels
@@ -112,7 +120,7 @@ class PixelView(Viewport):
                 )
         self.update()
 
-    def show_marks(self, marks: tuple[Mark, ...]) -> None:
+    def show_marks(self, marks: tuple[PixelMark, ...]) -> None:
         """Point at places."""
         self.marks = marks
         self.update()
@@ -191,7 +199,7 @@ class PixelView(Viewport):
     def _paint_pixel(self, painter: QPainter, frame: BitmapFrame, pixel: tuple[int, int]) -> None:
         """Outline the pixel under the mouse, so that it is seen however small."""
         row, col = pixel
-        place = screen_rect(frame, self.view, Window(row, col, row + 1, col + 1))
+        place = screen_rect(frame, self.view, PixelWindow(row, col, row + 1, col + 1))
         grow = max((5 - place.width()) / 2, 0.5)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(self._theme.canvas, 3))
@@ -264,4 +272,4 @@ class PixelView(Viewport):
 
 
 def _whole(frame: BitmapFrame, view: PixelView) -> QRectF:
-    return screen_rect(frame, view.view, Window(0, 0, frame.rows, frame.cols))
+    return screen_rect(frame, view.view, PixelWindow(0, 0, frame.rows, frame.cols))

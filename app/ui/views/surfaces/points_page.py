@@ -82,9 +82,9 @@ class PointsPage(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.setFixedWidth(WIDTH)
-        self.model, self.table, self.told = PointsModel(), QTableView(), muted()
-        self.told.setContentsMargins(16, 8, 16, 8)
-        self.told.setWordWrap(True)
+        self.model, self.table, self.summary = PointsModel(), QTableView(), muted()
+        self.summary.setContentsMargins(16, 8, 16, 8)
+        self.summary.setWordWrap(True)
         self.table.setModel(self.model)
         self.table.setFrameShape(QTableView.Shape.NoFrame)
         self.table.setShowGrid(False)
@@ -102,7 +102,7 @@ class PointsPage(QWidget):
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
-        whole.addWidget(self.told)
+        whole.addWidget(self.summary)
         whole.addWidget(self.table, 1)
         self.table.selectionModel().currentRowChanged.connect(
             lambda now, _: self.chosen.emit(now.row()) if now.isValid() else None
@@ -117,7 +117,7 @@ class PointsPage(QWidget):
     def show_points(self, points: tuple[BoundaryPoint, ...]) -> None:
         """Show other points."""
         self.model.show_points(points)
-        self.told.setText(
+        self.summary.setText(
             f"{counted(len(points), 'boundary point')}: where the topmost surface changes"
             if points
             else "No boundary points: one surface is on top all along."

@@ -26,8 +26,8 @@ from PySide6.QtWidgets import QWidget
 from ....model.scene import LineType
 from ...framework.theme import LIGHT, Theme
 from ..cut.camera import Camera, Floats, StandardView
-from .scene_raster import ColourBy, Inks, Layer, Raster, Rgb, Style, raster
-from .shown_scene import Picture
+from .scene_raster import Rgb, SceneColourBy, SceneColours, SceneLayer, SceneRaster, SceneStyle, raster
+from .shown_scene import ScenePicture
 
 _MARK_PX, _REACH_PX, _TURN, _ZOOM, _STEP = 3.0, 9.0, 0.008, 1.0015, 40.0
 _CLICK_PX = 3.0
@@ -42,7 +42,7 @@ _KEYS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 
 
 
 @dataclass(frozen=True)
-class Pointed:
+class PickedPart:
     """What the mouse is over.
 
     Attributes:
@@ -59,7 +59,7 @@ class SceneCanvas(QWidget):
     """A picture of surfaces and lines.
 
     Signals:
-        pointed(Pointed | None): what the mouse is over. picked(Pointed): it was clicked.
+        pointed(PickedPart | None): what the mouse is over. picked(PickedPart): it was clicked.
 
     Attributes:
         camera: from where it is looked at. turns: dragging turns it; else it shifts it. layers, colour_by: see
@@ -73,18 +73,18 @@ class SceneCanvas(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.camera, self.turns = Camera(), True
-        self.layers, self.colour_by = Layer.ALL, ColourBy.SURFACE
+        self.layers, self.colour_by = SceneLayer.ALL, SceneColourBy.SURFACE
         self.marked = -1
-        self.drawn: Raster | None = None
+        self.drawn: SceneRaster | None = None
         self._theme = LIGHT
-        self._picture: Picture | None = None
+        self._picture: ScenePicture | None = None
         self._colours: tuple[str, ...] = ()
         self._names: tuple[str, ...] = ()
         self._lines: tuple[LineType, ...] = ()
         self._tools: dict[int, str] = {}
         self._from, self._at, self._pressed = QPointF(), QPointF(-1, -1), QPointF()
         self._moved = False
-        self._over: Pointed | None = None
+        self._over: PickedPart | None = None
         self._moving, self._took_s, self._ratio = False, 0.0, 1.0
         self._resting = QTimer(self)
         self._resting.setSingleShot(True)
@@ -100,7 +100,7 @@ class SceneCanvas(QWidget):
 
     def show_picture(
         self,
-        picture: Picture | None,
+        picture: ScenePicture | None,
         colours: Sequence[str] = (),
         names: Sequence[str] = (),
         lines: Sequence[LineType] = (),
@@ -114,12 +114,12 @@ class SceneCanvas(QWidget):
         self.marked = -1
         self._refresh()
 
-    def set_layers(self, layers: Layer) -> None:
+    def set_layers(self, layers: SceneLayer) -> None:
         """Show other layers."""
         self.layers = layers
         self._refresh()
 
-    def set_colour_by(self, by: ColourBy) -> None:
+    def set_colour_by(self, by: SceneColourBy) -> None:
         """Tell paths apart by something else."""
         self.colour_by = by
         self._refresh()
@@ -165,10 +165,10 @@ class SceneCanvas(QWidget):
         return self.camera.project(points, self._size)
 
     @property
-    def _inks(self) -> Inks:
+    def _inks(self) -> SceneColours:
         theme = self._theme
         tools = {number: _rgb(theme.regions[at % len(theme.regions)]) for at, number in enumerate(self._tools)}
-        return Inks(
+        return SceneColours(
             _rgb(theme.canvas),
             _rgb(theme.ink),
             _rgb(theme.rapid),
@@ -198,7 +198,7 @@ class SceneCanvas(QWidget):
         self._paint_tool(painter, self._picture)
         self._paint_legend(painter)
 
-    def _drawn_now(self, picture: Picture) -> Raster:
+    def _drawn_now(self, picture: ScenePicture) -> SceneRaster:
         """Paint the picture anew: while it moves, and that takes long, with half as many px each way, and fine once it
         rests.
         """
@@ -206,7 +206,9 @@ class SceneCanvas(QWidget):
         self._ratio = self.devicePixelRatioF() * (0.5 if coarse else 1.0)
         size = (max(round(self.width() * self._ratio), 1), max(round(self.height() * self._ratio), 1))
         began = time.perf_counter()
-        made = raster(picture, Style(self.camera, self._inks, self.layers, self.colour_by, self._ratio, coarse), size)
+        made = raster(
+            picture, SceneStyle(self.camera, self._inks, self.layers, self.colour_by, self._ratio, coarse), size
+        )
         if coarse:
             self._resting.start()
         else:
@@ -223,8 +225,8 @@ class SceneCanvas(QWidget):
         self.camera = camera
         self._refresh()
 
-    def _paint_marks(self, painter: QPainter, picture: Picture) -> None:
-        if not len(picture.marks) or Layer.POINTS not in self.layers:
+    def _paint_marks(self, painter: QPainter, picture: ScenePicture) -> None:
+        if not len(picture.marks) or SceneLayer.POINTS not in self.layers:
             return
         seen = self._seen(picture.marks)
         ahead = self._ahead(seen)
@@ -259,7 +261,7 @@ class SceneCanvas(QWidget):
         """Write names where they cover no other one, and far from the same name; those of `first` in any case."""
         taken: list[QRectF] = []
         said: dict[str, list[QPointF]] = {}
-        metrics, every = painter.fontMetrics(), range(len(labels)) if Layer.NAMES in self.layers else ()
+        metrics, every = painter.fontMetrics(), range(len(labels)) if SceneLayer.NAMES in self.layers else ()
         for number in (*(each for each in first if each < len(labels)), *every):
             if not labels[number]:
                 continue
@@ -276,7 +278,7 @@ class SceneCanvas(QWidget):
             painter.setPen(self._theme.ink)
             painter.drawText(QPointF(x + 7, y - 7), labels[number])
 
-    def _paint_tool(self, painter: QPainter, picture: Picture) -> None:
+    def _paint_tool(self, painter: QPainter, picture: ScenePicture) -> None:
         """Draw the tool where its path is above or below the mouse, in a section."""
         if not len(picture.lows) or not len(picture.tool) or self._over is None:
             return
@@ -293,11 +295,11 @@ class SceneCanvas(QWidget):
 
     def _paint_legend(self, painter: QPainter) -> None:
         step = painter.fontMetrics().height() + 4
-        if self.colour_by is ColourBy.TOOL:
+        if self.colour_by is SceneColourBy.TOOL:
             tools = self._theme.regions
             entries = [(tools[at % len(tools)], name, LineType.SOLID) for at, name in enumerate(self._tools.values())]
         else:
-            by_line = self.colour_by is ColourBy.LINE
+            by_line = self.colour_by is SceneColourBy.LINE
             entries = [
                 (self._theme.ink if by_line else QColor(colour), name, line if by_line else LineType.SOLID)
                 for colour, name, line in zip(self._colours, self._names, self._lines, strict=False)
@@ -312,23 +314,23 @@ class SceneCanvas(QWidget):
             painter.setPen(self._theme.ink)
             painter.drawText(QPointF(_EDGE + 32, y + step / 2 + painter.fontMetrics().ascent() / 2 - 1), name)
 
-    def _point(self, at: QPointF) -> Pointed | None:
+    def _point(self, at: QPointF) -> PickedPart | None:
         """Return what is at a place of the widget: a boundary point that is near, else the surface; in a section, the
         place.
         """
         picture, drawn = self._picture, self.drawn
         if picture is None:
             return None
-        if len(picture.marks) and Layer.POINTS in self.layers:
+        if len(picture.marks) and SceneLayer.POINTS in self.layers:
             off = np.hypot(*(self._seen(picture.marks)[:, :2] - (at.x(), at.y())).T)
             nearest = int(off.argmin())
             if off[nearest] <= _REACH_PX:
                 x, y, z = picture.marks[nearest].tolist()
-                return Pointed(nearest, -1, (x, y, z))
+                return PickedPart(nearest, -1, (x, y, z))
         ray = self.camera.ray((at.x(), at.y()), self._size)
         if len(picture.lows):
             x, y, z = ray.origin.tolist()
-            return Pointed(-1, -1, (x, y, z))
+            return PickedPart(-1, -1, (x, y, z))
         ratio = self._ratio
         row, column = int(at.y() * ratio), int(at.x() * ratio)
         if drawn is None or not (0 <= row < drawn.owners.shape[0] and 0 <= column < drawn.owners.shape[1]):
@@ -336,7 +338,7 @@ class SceneCanvas(QWidget):
         if drawn.owners[row, column] < 0:
             return None
         x, y, z = (ray.origin - ray.direction * float(drawn.depths[row, column])).tolist()
-        return Pointed(-1, int(drawn.owners[row, column]), (x, y, z))
+        return PickedPart(-1, int(drawn.owners[row, column]), (x, y, z))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Fit again what was never moved."""
@@ -377,7 +379,7 @@ class SceneCanvas(QWidget):
         """Point at nothing."""
         self._set_over(None)
 
-    def _set_over(self, over: Pointed | None) -> None:
+    def _set_over(self, over: PickedPart | None) -> None:
         self._over = over
         self.pointed.emit(over)
         self.update()

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from ....model.scene import LineType
 from ....usecases.scene_lines import LineRole, SceneLines
 from ..cut.camera import Camera
-from .shown_scene import Picture
+from .shown_scene import ScenePicture
 
 Floats = NDArray[np.float64]
 Rgb = tuple[int, int, int]
 
 
-class Layer(Flag):
+class SceneLayer(Flag):
     """What can be shown and hidden."""
 
     SURFACES = auto()
@@ -30,7 +30,7 @@ class Layer(Flag):
     ALL = SURFACES | PATHS | LINKS | RAPIDS | POINTS | NAMES
 
 
-class ColourBy(Enum):
+class SceneColourBy(Enum):
     """What tells paths apart."""
 
     SURFACE = "surface"
@@ -39,12 +39,12 @@ class ColourBy(Enum):
 
 
 LAYER_OF = {
-    LineRole.SURFACE: Layer.PATHS,
-    LineRole.PATH: Layer.PATHS,
-    LineRole.LINK: Layer.LINKS,
-    LineRole.RAPID: Layer.RAPIDS,
-    LineRole.PLUNGE: Layer.RAPIDS,
-    LineRole.TIP: Layer.PATHS,
+    LineRole.SURFACE: SceneLayer.PATHS,
+    LineRole.PATH: SceneLayer.PATHS,
+    LineRole.LINK: SceneLayer.LINKS,
+    LineRole.RAPID: SceneLayer.RAPIDS,
+    LineRole.PLUNGE: SceneLayer.RAPIDS,
+    LineRole.TIP: SceneLayer.PATHS,
 }
 _WIDTHS = {
     LineRole.SURFACE: 1.0,
@@ -70,7 +70,7 @@ _DENSE_PX, _FAINTEST = 4.0, 0.18
 
 
 @dataclass(frozen=True)
-class Inks:
+class SceneColours:
     """Colours, (red, green, blue), 0 to 255.
 
     Attributes:
@@ -88,7 +88,7 @@ class Inks:
 
 
 @dataclass(frozen=True, eq=False)
-class Raster:
+class SceneRaster:
     """An image and what is where in it.
 
     Attributes:
@@ -103,7 +103,7 @@ class Raster:
 
 
 @dataclass(frozen=True)
-class Style:
+class SceneStyle:
     """How a scene is painted: from where, with which colours, and what of it.
 
     Attributes:
@@ -111,14 +111,14 @@ class Style:
     """
 
     camera: Camera
-    inks: Inks
-    layers: Layer = Layer.ALL
-    colour_by: ColourBy = ColourBy.SURFACE
+    inks: SceneColours
+    layers: SceneLayer = SceneLayer.ALL
+    colour_by: SceneColourBy = SceneColourBy.SURFACE
     ratio: float = 1.0
     coarse: bool = False
 
 
-def raster(picture: Picture, style: Style, size: tuple[int, int]) -> Raster:
+def raster(picture: ScenePicture, style: SceneStyle, size: tuple[int, int]) -> SceneRaster:
     """Return a picture painted; `size` is width and height, px of the screen."""
     from . import picture_kernels as kernels
 
@@ -127,10 +127,10 @@ def raster(picture: Picture, style: Style, size: tuple[int, int]) -> Raster:
     pixels = np.empty((high, wide, 4), np.uint8)
     pixels[:] = (*style.inks.ground[::-1], 255)
     depths, owners = np.full((high, wide), -np.inf, np.float32), np.full((high, wide), -1, np.int16)
-    if Layer.SURFACES in style.layers and len(picture.triangles):
+    if SceneLayer.SURFACES in style.layers and len(picture.triangles):
         lights, shown = np.zeros((high, wide), np.float32), np.ones(int(picture.owner.max()) + 1, np.bool_)
         kernels.fill(picture.triangles, picture.owner, shown, frame, depths, owners, lights)
-        plain = style.colour_by is not ColourBy.SURFACE
+        plain = style.colour_by is not SceneColourBy.SURFACE
         inks = [style.inks.rapid if plain else style.inks.surfaces[n] for n in range(len(shown))]
         kernels.tint(owners, lights, np.array([ink[::-1] for ink in inks], np.float64), _STRENGTH, pixels)
     pieces = 0
@@ -139,7 +139,7 @@ def raster(picture: Picture, style: Style, size: tuple[int, int]) -> Raster:
             pieces += kernels.draw_lines(
                 each.points, each.joined, frame, _pen(each, style, picture.pitch), depths, pixels
             )
-    return Raster(pixels, depths, owners, pieces)
+    return SceneRaster(pixels, depths, owners, pieces)
 
 
 def frame_of(camera: Camera, size: tuple[int, int], ratio: float) -> Floats:
@@ -147,17 +147,17 @@ def frame_of(camera: Camera, size: tuple[int, int], ratio: float) -> Floats:
     return np.array([*camera.axes.ravel(), *camera.target, camera.scale * ratio, *size], np.float64)
 
 
-def _pen(each: SceneLines, style: Style, pitch: float) -> Floats:
+def _pen(each: SceneLines, style: SceneStyle, pitch: float) -> Floats:
     inks, by = style.inks, style.colour_by
     on = each.surface >= 0
     pattern = PATTERNS[LineType.SOLID]
     if each.role in (LineRole.RAPID, LineRole.PLUNGE):
         ink = inks.rapid if each.role is LineRole.RAPID else inks.plunge
         pattern = _DOTS if each.role is LineRole.RAPID else pattern
-    elif by is ColourBy.LINE:
+    elif by is SceneColourBy.LINE:
         ink = inks.ink
         pattern = PATTERNS[inks.lines[each.surface]] if on else _DOTS
-    elif by is ColourBy.TOOL and each.tool:
+    elif by is SceneColourBy.TOOL and each.tool:
         ink = inks.tools[each.tool]
     else:
         ink = inks.surfaces[each.surface] if on else inks.rapid

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import QPlainTextEdit, QTextEdit, QVBoxLayout, QWidget
 from ...framework.section import hairline
 from ...framework.theme import LIGHT, Theme, mixed, mono_font
 from ..language.gutter import Gutter
-from ..language.page import Verdict
+from ..language.page import TrialLabel
 from .scene_document import SceneDocument
 
 WIDTH = 460
@@ -31,7 +31,7 @@ _TOKEN = re.compile(
 )
 
 
-class Highlighter(QSyntaxHighlighter):
+class TomlHighlighter(QSyntaxHighlighter):
     """Colours TOML."""
 
     formats: dict[str, QTextCharFormat]
@@ -74,7 +74,7 @@ class SceneEditor(QPlainTextEdit):
         self.document().setDefaultFont(mono_font())
         self.document().setDocumentMargin(8)
         self._theme, self.wrong = LIGHT, 0
-        self.gutter, self.highlighter = Gutter(self), Highlighter(self.document())
+        self.gutter, self.highlighter = Gutter(self), TomlHighlighter(self.document())
         self.highlighter.set_theme(LIGHT)
         self.blockCountChanged.connect(lambda _: self._lay_out())
         self.updateRequest.connect(self._follow)
@@ -147,7 +147,7 @@ class SceneText(QWidget):
     def __init__(self, document: SceneDocument) -> None:
         super().__init__()
         self.setFixedWidth(WIDTH)
-        self.editor, self.verdict = SceneEditor(document), Verdict()
+        self.editor, self.verdict = SceneEditor(document), TrialLabel()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)

@@ -25,7 +25,7 @@ Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Picture:
+class ScenePicture:
     """What is painted.
 
     Attributes:
@@ -68,7 +68,7 @@ class ShownScene:
 
     path: Path
     computed: ComputedScene
-    space: Picture
+    space: ScenePicture
     colours: tuple[str, ...]
     lines: tuple[LineType, ...]
 
@@ -77,7 +77,7 @@ class ShownScene:
         """Family and number of every cutting plane, in the order of cutting."""
         return tuple((family, k) for family in self.computed.families for k in range(len(family.planes.offsets)))
 
-    def section(self, family: ComputedFamily, plane: int) -> Picture:
+    def section(self, family: ComputedFamily, plane: int) -> ScenePicture:
         """Return what lies on a plane: x is mm along it, z the height, y 0."""
         from ....usecases.surface_picture import outline
         from ....usecases.surface_plot import boundary_name
@@ -107,7 +107,7 @@ class ShownScene:
         rows = np.flatnonzero((found.plane == plane) & (found.before >= 0) & (found.after >= 0))
         labels = tuple(boundary_name(int(found.before[k]), int(found.after[k])) for k in rows)
         lows = np.concatenate([each.points[:, ::2] for each in tips]) if tips else np.zeros((0, 2))
-        return Picture(
+        return ScenePicture(
             (*curves, *tops, *tips),
             flat(found.place[rows]),
             labels,
@@ -154,7 +154,7 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> Sh
     lines = tuple(
         line_of(number) if kind.line is LineType.AUTO else kind.line for number, kind in enumerate(drawn.surfaces)
     )
-    space = Picture(
+    space = ScenePicture(
         tuple(move_lines(computed)),
         np.asarray(drawn.marks),
         tuple(drawn.labels),

@@ -1,0 +1,100 @@
+"""The window's words in the user's language: a catalogue from English, one file a language in
+`resources/translations`.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from functools import cache, lru_cache
+
+from ...core.resources import resource
+
+_HOLE = re.compile(r"\{(n?)\}")
+_ANYTHING, _NUMBER = "(.+)", "([-+.,\u2009\\d]+)"
+_REMEMBERED = 4096
+_MNEMONIC = re.compile(r"&(\w)")
+_KEY_TIP = re.compile(r"(.+) (\([^()]+\))")
+
+
+class Catalogue:
+    """English texts and what they are in another language.
+
+    An entry stands for the text in a menu (`&Open…`), in a tip (`Open (Ctrl+O)`) and on a button alike: the letter to
+    press, dots, blanks at the ends and keys are put back round it. `{}` in an entry stands for anything, `{n}` for a
+    number; what it stood for is looked up too. An entry that is written farther up goes first.
+    """
+
+    def __init__(self, entries: dict[str, str]) -> None:
+        self._entries = {text: other for text, other in entries.items() if not _HOLE.search(text)}
+        self._patterns = [
+            (_pattern(text), _HOLE.sub("{}", other)) for text, other in entries.items() if _HOLE.search(text)
+        ]
+        self.look_up = lru_cache(_REMEMBERED)(self._look_up)
+
+    def _look_up(self, text: str) -> str | None:
+        """Return a text in this language, or None when it is not in the catalogue."""
+        if text in self._entries:
+            return self._entries[text]
+        core = text.strip()
+        if not core:
+            return None
+        front, tab, hint = core.partition("\t")
+        dots = "…" if front.endswith("…") else ""
+        found = self._core(front.removesuffix("…"))
+        if found is None:
+            return None
+        lead, trail = text[: len(text) - len(text.lstrip())], text[len(text.rstrip()) :]
+        return f"{lead}{found}{dots}{tab}{hint}{trail}"
+
+    def _core(self, text: str) -> str | None:
+        letter = _MNEMONIC.search(text)
+        words = text.replace("&", "")
+        if words in self._entries:
+            return self._entries[words] + (f"(&{letter.group(1).upper()})" if letter else "")
+        with_key = _KEY_TIP.fullmatch(words)
+        if with_key and with_key.group(1) in self._entries:
+            return f"{self._entries[with_key.group(1)]} {with_key.group(2)}"
+        for pattern, other in self._patterns:
+            match = pattern.fullmatch(words)
+            if match:
+                return other.format(*(self.look_up(part) or part for part in match.groups()))
+        return None
+
+
+def _pattern(text: str) -> re.Pattern[str]:
+    """Return what finds the texts that an entry with holes stands for."""
+    words = _HOLE.split(text)
+    return re.compile(
+        "".join((_NUMBER if word else _ANYTHING) if at % 2 else re.escape(word) for at, word in enumerate(words)), re.S
+    )
+
+
+@cache
+def catalogue(code: str) -> Catalogue:
+    """Return the catalogue of a language by its code, such as "ja"; "en" has none, and needs none."""
+    if code == "en":
+        return Catalogue({})
+    return Catalogue(tomllib.loads(resource("translations", f"{code}.toml").read_text("utf-8"))["words"])
+
+
+class _ActiveLanguage:
+    """The language that the window speaks."""
+
+    code = "en"
+
+
+def set_language(code: str) -> None:
+    """Use another language from now on."""
+    catalogue(code)
+    _ActiveLanguage.code = code
+
+
+def active_language() -> str:
+    """Return the code of the language that the window speaks."""
+    return _ActiveLanguage.code
+
+
+def tr(text: str) -> str:
+    """Return a text in the language that the window speaks; what the catalogue lacks stays English."""
+    return catalogue(_ActiveLanguage.code).look_up(text) or text

@@ -1,0 +1,271 @@
+"""Keeps what the window shows in step with the document and the computation: views, badge, titles, enabled actions."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, Signal
+
+from ...drafting.document import DocumentChange
+from ...drafting.expressions.words import name_text
+from ...geometry.sample import bounds, union
+from ...model.finding import Finding
+from ...model.part import Part
+from ..framework.computation import ComputationState
+from ..framework.missing import NOTHING
+from ..framework.samples import PathLineKind
+from ..framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
+from ..framework.view import View, ViewPage
+from ..views.canvas.modes import PathColourBy, PathLayers
+from ..views.canvas.painting.program_layer import ProgramLayer
+from .main_window import MainWindow
+from .open_controller import size_of
+from .view_pages import pages_of
+
+_LAYERS = {
+    PathLineKind.PART: PathLayers.PART,
+    PathLineKind.POCKET: PathLayers.POCKET,
+    PathLineKind.REST: PathLayers.REST,
+    PathLineKind.CONTOUR: PathLayers.CONTOUR,
+    PathLineKind.LINK: PathLayers.LINK,
+    PathLineKind.RAPID: PathLayers.RAPID,
+    PathLineKind.PLUNGE: PathLayers.PLUNGE,
+    PathLineKind.LEFT: PathLayers.LEFT,
+    PathLineKind.UNREACHABLE: PathLayers.UNREACHABLE,
+    PathLineKind.CLAMP: PathLayers.CLAMP,
+}
+
+
+class DisplayController(QObject):
+    """Reads the state and shows it; changes nothing but the window.
+
+    Signals:
+        view_changed(View): another view came to the front.
+
+    Attributes:
+        view: the one at the front. stages_missing: what the stages lack.
+        pages: of every view.
+        writing: the drawing is being written as a text, so that nothing need be said of an empty one.
+    """
+
+    view_changed = Signal(View)
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._document, self._computation = window.document, window.computation
+        self.view = View.DRAW
+        self.stages_missing, self.writing = NOTHING, False
+        self.pages = pages_of(window, self)
+        window.take_pages(self.pages)
+        self._layers = PathLayers.ALL
+        self._shown_program: object = None
+        self._empty_action = "open"
+        self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
+        self._computation.changed.connect(self._on_computation)
+        window.activity.progress.connect(window.status.show_progress)
+        window.activity.busy_changed.connect(window.actions_["cancel"].setEnabled)
+        window.actions_["cancel"].setEnabled(False)
+        window.status.badge.clicked.connect(self.open_findings)
+        window.findings_list.picked.connect(self.go_to)
+        window.findings_list.left_out.connect(self.leave_out)
+        window.canvas.tool_changed.connect(lambda _: self.show_missing())
+        window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
+        window.views.legend.layer_switched.connect(self._on_layer)
+        window.views.legend.colour_chosen.connect(lambda by: window.canvas.set_colour_by(PathColourBy(by)))
+
+    @property
+    def page(self) -> ViewPage:
+        """What the view at the front puts into the window."""
+        return self.pages[self.view]
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Everything there is to say about the drawing and, once computed, its paths."""
+        made = self._computation.made
+        return made.findings if made is not None else self._computation.drawing_findings
+
+    def _marked(self) -> tuple[Finding, ...]:
+        """Return the findings that are marked on the canvas: those that count; a remark only when it is picked."""
+        return tuple(finding for finding in self.findings if finding.counts)
+
+    def part_size(self) -> tuple[float, float] | None:
+        """Return width and height of the drawing without its keep-out layers, mm; None when it is empty."""
+        part, apart = self._document.part, self._document.job.keep_out_layers
+        if self._sized is None or self._sized[0] is not part or self._sized[1] != apart:
+            self._sized = (part, apart, size_of(part, apart))
+        return self._sized[2]
+
+    def know_size(self, part: Part, size: tuple[float, float] | None) -> None:
+        """Take over the size of a part that was measured on another thread."""
+        self._sized = (part, (), size)
+
+    def show_view(self, view: View) -> None:
+        """Bring a view to the front."""
+        self.view = view
+        self._window.actions_[view.value].setChecked(True)
+        self._window.views.show_view(view)
+        self.show_prompt()
+        self._show_standing()
+        self._show_badge()
+        self.view_changed.emit(view)
+        self.show_missing()
+
+    def show_prompt(self) -> None:
+        """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is
+        for.
+        """
+        self._window.command_line.set_prompt(self.page.prompt())
+
+    def refresh(self, change: DocumentChange) -> None:
+        """Show what changed in the document."""
+        if change & (DocumentChange.PART | DocumentChange.JOB):
+            self._window.panel.show_size(self.part_size(), self._document.job)
+            self._window.views.legend.show_job(self._document.job)
+            self.show_missing()
+        self.show_titles()
+
+    def show_titles(self) -> None:
+        """Name the file that is worked on, and what can be undone in it: the drawing, or the scene in its view."""
+        document, scene, actions = self._document, self._window.scene, self._window.actions_
+        on_scene = self.view is View.SURFACES and scene.open
+        name = scene.name if on_scene else document.path.name if document.path else document.part.name
+        modified = scene.modified if on_scene else document.modified
+        self._window.file_label.setText(f"{name}{' *' if modified else ''}")
+        self._window.menuBar().setCornerWidget(self._window.file_label)
+        self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
+        undo = ("" if scene.document.isUndoAvailable() else None) if on_scene else document.undo_name
+        redo = ("" if scene.document.isRedoAvailable() else None) if on_scene else document.redo_name
+        for action, what, verb in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
+            text = f"{verb} {what[0].lower()}{what[1:]}" if what else verb
+            actions[action].setText(text)
+            actions[action].setToolTip(f"{text.replace('&', '')} ({actions[action].shortcut().toString()})")
+            actions[action].setEnabled(what is not None)
+        actions["delete"].setEnabled(bool(document.selection))
+        drawn = bool(document.part.entities)
+        actions["select_all"].setEnabled(drawn)
+        in_surfaces, surfaces = self.view is View.SURFACES, self._window.views.surfaces
+        actions["export"].setEnabled(surfaces.shown is not None if in_surfaces else drawn)
+        actions["compute"].setEnabled(scene.open if in_surfaces else drawn)
+
+    def show_state(self) -> None:
+        """Show where the view at the front stands."""
+        self._show_badge()
+        self._show_standing()
+        self.show_missing()
+
+    def show_missing(self) -> None:
+        """Say what the view lacks, if it lacks anything."""
+        made = self._computation.made
+        missing = self.page.missing()
+        self._empty_action = missing.action
+        self.show_titles()
+        self._window.views.show_missing(missing.sentence, missing.button, made is not None)
+        self._show_side()
+
+    def _show_side(self) -> None:
+        """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
+        window, plotting = self._window, self._window.views.plotting
+        window.tool_strip.setVisible(self.page.widget is window.canvas and not plotting)
+        beside = window.plot_panel if plotting else self.page.side()
+        for widget in window.sides:
+            if widget is not beside:
+                widget.hide()
+        if beside is not None:
+            beside.show()
+
+    def show_hovered(self, text: str) -> None:
+        """Show what the mouse is over, or else where the paths stand."""
+        if text:
+            self._window.status.show_message(text)
+        else:
+            self._show_standing()
+
+    def _show_standing(self) -> None:
+        """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
+        words, computation = self.page.summary(), self._computation
+        self._window.status.show_message(
+            words or computation.error or computation.state.value, error=bool(computation.error and not words)
+        )
+
+    def _on_computation(self) -> None:
+        made, state = self._computation.made, self._computation.state
+        if made is not self._shown_program:
+            self._shown_program = made
+            picture = self._computation.picture
+            assert picture is None or isinstance(picture, ProgramLayer)
+            self._window.canvas.set_program(picture)
+            if picture is not None:
+                self._window.views.legend.show_left(bool(picture.left), bool(picture.unreachable))
+            self._window.canvas.set_findings(self._marked())
+        self._window.canvas.set_stale(self._computation.outdated)
+        strokes = made.program.strokes if made is not None and state is ComputationState.CURRENT else None
+        self._window.panel.show_results(self._computation.operation_times(), strokes)
+        self._show_badge()
+        self.show_missing()
+        self._window.status.show_message(state.value)
+
+    def _show_badge(self) -> None:
+        badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
+        surfaces = self._window.views.surfaces
+        if self.view is View.SURFACES:
+            if surfaces.computing:
+                badge.show_running()
+            else:
+                badge.show_verdict(surfaces.verdict)
+        elif state is ComputationState.RUNNING:
+            badge.show_running()
+        elif state is ComputationState.CURRENT and made is not None:
+            badge.show_verdict(verdict_summary(made.findings, made.report.data))
+        elif state is ComputationState.FAILED:
+            badge.show_verdict(VerdictSummary(VerdictLevel.REMARK, "Could not be computed"))
+        else:
+            badge.show_verdict(
+                VerdictSummary(VerdictLevel.NONE, "Not computed" if state is ComputationState.NONE else "Out of date")
+            )
+
+    def _on_layer(self, sample: PathLineKind, on: bool) -> None:
+        flag = _LAYERS[sample]
+        self._layers = self._layers | flag if on else self._layers & ~flag
+        self._window.canvas.set_visible_layers(self._layers)
+
+    def open_findings(self) -> None:
+        """List every finding above the badge."""
+        sentences = {
+            ComputationState.NONE: "Nothing was computed yet. Press F5.",
+            ComputationState.STALE: "The paths are out of date. Press F5.",
+            ComputationState.FAILED: self._computation.error,
+            ComputationState.RUNNING: "The paths are being computed.",
+        }
+        empty = sentences.get(
+            self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material."
+        )
+        if self.view is View.SURFACES:
+            said = self._window.views.surfaces.verdict
+            self._window.findings_list.show_findings(
+                self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text
+            )
+            return
+        shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
+        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
+
+    def go_to(self, finding: Finding) -> None:
+        """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select
+        these.
+        """
+        ids = set(finding.entity_ids)
+        box = union([bounds(entity.curve) for entity in self._document.part.entities if entity.id in ids])
+        if finding.x is not None and finding.y is not None:
+            place = (finding.x, finding.y)
+        elif box is not None:
+            place = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+        else:
+            return
+        self._window.canvas.set_findings((*self._marked(), finding))
+        if self.view not in (View.DRAW, View.PATHS):
+            self.show_view(View.PATHS)
+        self._window.canvas.go_to(*place, closely=True, around=box)
+        self._window.canvas.setFocus()
+        self._document.select(finding.entity_ids)
+
+    def leave_out(self, layer: str) -> None:
+        """Hide a layer, so that what is on it is not machined; one undoable line."""
+        self._document.run(f"hide {name_text(layer)}")

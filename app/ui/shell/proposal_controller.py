@@ -1,0 +1,205 @@
+"""Replaces the job's operations by those that are proposed for the drawing, or adds some for what is selected; found on
+a worker of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from ...core.progress import Progress
+from ...model.curve_selectors import Selector
+from ...model.job import Job
+from ...model.operation import Order
+from ..framework.commands import Commands, on_trigger
+from ..framework.figures import counted
+from ..framework.worker import JobOutcome, Worker
+from ..framework.workspace import Workspace
+from ..panels.changes import Subject, SubjectKind, operation_name, with_cut
+from ..panels.side_panel import SidePanel
+
+if TYPE_CHECKING:
+    from ...usecases.proposal.chosen_curves import ChosenOperations
+    from ...usecases.proposal.propose import Proposal
+
+NOTHING_DRAWN = "Nothing is drawn yet; draw a closed curve or open a drawing first."
+NOTHING_SELECTED = "Nothing is selected; click a line first."
+WAYS = ("pocket", "outside", "inside", "on", "drill", "engrave")
+"""What a selection can become, as the commands name it: `machine_pocket`, …"""
+A_PICTURE = "All of a picture's pixels is pockets; trace it first to have operations proposed."
+
+
+def proposed_for(job: Job, nesting: bool, progress: Progress) -> Proposal:
+    """Return the operations proposed for a job's drawing, by how its curves lie in one another or as in 1986."""
+    from ...usecases.proposal.propose import as_in_1986, propose  # imports the engines: never on the window's thread
+
+    return propose(job, progress=progress) if nesting else as_in_1986(job)
+
+
+@dataclass(frozen=True)
+class OwnSelection:
+    """Curves that an operation is to have.
+
+    Attributes:
+        index: of the operation. curves: one of each contour that is selected.
+    """
+
+    index: int
+    curves: tuple[Selector, ...]
+
+
+def selection_of(job: Job, numbers: frozenset[int], index: int, progress: Progress) -> OwnSelection:
+    """Return curves, by their numbers, as the operation at an index has them."""
+    from ...usecases.proposal.chosen_curves import numbers_of  # imports the engines: never on the window's thread
+
+    progress.step(0.0, "Sorting contours")
+    return OwnSelection(index, numbers_of(job, numbers))
+
+
+def chosen_for(job: Job, numbers: frozenset[int], way: str, progress: Progress) -> ChosenOperations:
+    """Return the job with an operation for some curves, by their numbers; `way` is one of `WAYS`."""
+    from ...usecases.proposal.chosen_curves import (  # imports the engines: never on the window's thread
+        CurvePurpose,
+        with_chosen,
+    )
+
+    return with_chosen(job, numbers, CurvePurpose[way.upper()], progress)
+
+
+class ProposalController(QObject):
+    """Asks for proposals and takes them, as one step each.
+
+    Signals:
+        failed(sentence): what went wrong. said(sentence): what was done.
+    """
+
+    failed = Signal(str)
+    said = Signal(str)
+
+    def __init__(self, panel: SidePanel, workspace: Workspace, commands: Commands) -> None:
+        super().__init__(panel)
+        self._panel, self._workspace, self._commands = panel, workspace, commands
+        self._document = workspace.document
+        self.worker = Worker(self)
+        workspace.activity.follow(self.worker, "Looking at the drawing…")
+        self.worker.done.connect(self._on_done)
+        self.worker.failed.connect(lambda answer: self.failed.emit(answer.error or ""))
+        on_trigger(commands, "propose", lambda: self.propose(nesting=True))
+        on_trigger(commands, "propose_1986", lambda: self.propose(nesting=False))
+        for way in WAYS:
+            on_trigger(commands, f"machine_{way}", partial(self.machine, way))
+        panel.operation_form.selection.connect(self.use_selection)
+        panel.operations.proposal.connect(commands["propose"].trigger)
+        panel.operations.rule_of_1986.connect(commands["propose_1986"].trigger)
+
+    def propose(self, nesting: bool) -> None:
+        """Have operations proposed by how the curves lie in one another, or by the rule of 1986."""
+        job = self._document.job
+        if not job.part.entities:
+            self.said.emit(NOTHING_DRAWN)
+        elif nesting and self._workspace.computation.pixels_of(job.part) is not None:
+            self.failed.emit(A_PICTURE)
+        else:
+            self._workspace.notice.dismiss()
+            self.worker.start(lambda progress: proposed_for(job, nesting, progress), self._document.revision)
+
+    def machine(self, way: str) -> None:
+        """Have an operation added for the selected curves; `way` is one of `WAYS`."""
+        self._start_on_selection(lambda job, numbers, progress: chosen_for(job, numbers, way, progress))
+
+    def use_selection(self) -> None:
+        """Have the selected curves be those of the operation that is shown."""
+        index = self._panel.operation_form.index
+        self._start_on_selection(lambda job, numbers, progress: selection_of(job, numbers, index, progress))
+
+    def _start_on_selection(self, find: Callable[[Job, frozenset[int], Progress], object]) -> None:
+        job, numbers = self._document.job, self._document.selection
+        if not numbers:
+            self.said.emit(NOTHING_SELECTED)
+        elif self._workspace.computation.pixels_of(job.part) is not None:
+            self.failed.emit(A_PICTURE)
+        else:
+            self._workspace.notice.dismiss()
+            self.worker.start(lambda progress: find(job, numbers, progress), self._document.revision)
+
+    def _on_done(self, answer: JobOutcome) -> None:
+        from ...usecases.proposal.chosen_curves import ChosenOperations
+        from ...usecases.proposal.propose import Proposal
+
+        if answer.revision != self._document.revision:
+            self.said.emit("The drawing was changed meanwhile; ask for the operations again.")
+        elif isinstance(answer.value, ChosenOperations):
+            self._add(answer.value)
+        elif isinstance(answer.value, OwnSelection):
+            self._give(answer.value)
+        elif isinstance(answer.value, Proposal):
+            self._take(answer.value)
+
+    def _add(self, chosen: ChosenOperations) -> None:
+        """Take over operations that were added, and offer to switch off what machines all curves besides."""
+        self._panel.choose(Subject(SubjectKind.OPERATION, chosen.index))
+        self._document.change_job(f"{operation_name(chosen.added[0].operation)} this", chosen.job)
+        self._panel.choose(Subject(SubjectKind.OPERATION, chosen.index))
+        for each in chosen.added:
+            curves = ", ".join(curve.text for curve in each.operation.cut.curves)
+            self._workspace.log.note(f"{operation_name(each.operation)} T{each.operation.cut.tool} {curves}", each.why)
+        name = operation_name(chosen.added[0].operation)
+        if chosen.others:
+            verb = "machines" if chosen.others == 1 else "machine"
+            self._workspace.notice.ask(
+                f"{name} added. {counted(chosen.others, 'operation')} still {verb} all curves of the drawing.",
+                [("Switch them off", self._switch_off_others), ("Compute", self._commands["compute"].trigger)],
+            )
+        self.said.emit(f"{name} added.")
+
+    def _give(self, own: OwnSelection) -> None:
+        """Give an operation its curves."""
+        self._panel.change(
+            "Change curves",
+            lambda job: with_cut(job, own.index, replace(job.operations[own.index].cut, curves=own.curves)),
+        )
+        self.said.emit(f"{operation_name(self._document.job.operations[own.index])} has the selected curves.")
+
+    def _switch_off_others(self) -> None:
+        """Leave only operations that have curves of their own switched on."""
+
+        def make(job: Job) -> Job:
+            return replace(
+                job,
+                operations=tuple(
+                    each if each.cut.curves else replace(each, cut=replace(each.cut, enabled=False))
+                    for each in job.operations
+                ),
+            )
+
+        self._panel.change("Switch operations off", make)
+
+    def _take(self, proposal: Proposal) -> None:
+        from ...usecases.proposal.propose import ProposalRule
+
+        nesting = proposal.rule is ProposalRule.NESTING
+        # outlines free the parts, so they must stay last
+        self._panel.subject = Subject(SubjectKind.OPERATION, 0)
+        job = replace(proposal.job, order=Order.POCKET_FIRST) if nesting else proposal.job
+        changed = job != self._document.job
+        self._document.change_job("Propose operations" if nesting else "Operations as in 1986", job)
+        for each in proposal.operations:
+            self._workspace.log.note(f"propose {operation_name(each.operation)} T{each.operation.cut.tool}", each.why)
+        for finding in proposal.findings:
+            self._workspace.log.note("propose", finding.text, error=True)
+        self._ask_on(proposal, nesting, changed)
+
+    def _ask_on(self, proposal: Proposal, nesting: bool, changed: bool) -> None:
+        """Say what there is now, and offer what comes next; to undo only where something was changed."""
+        names = ", ".join(operation_name(each.operation).lower() for each in proposal.operations)
+        left = f" {counted(len(proposal.findings), 'gap')} to close: see the log." if proposal.findings else ""
+        other = ("As in 1986", "propose_1986") if nesting else ("By the drawing", "propose")
+        answers = [("Compute", "compute"), other, *([("Undo", "undo")] if changed else [])]
+        self._workspace.notice.ask(
+            f"Proposed: {names}.{left}", [(text, self._commands[name].trigger) for text, name in answers]
+        )
+        self.said.emit(f"{counted(len(proposal.operations), 'operation')} proposed; the log says why.")

@@ -1,0 +1,172 @@
+"""The pages of the views: what each puts into the window, what it lacks, and what stands beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+from PySide6.QtWidgets import QWidget
+
+from ..framework.computation import ComputationState
+from ..framework.missing import NOTHING, MissingHint
+from ..framework.view import View, ViewPage, views
+from ..views.canvas.modes import CanvasTool
+from ..views.surfaces.scene_computation import SceneState
+from .main_window import MainWindow
+
+NO_DRAWING = MissingHint(
+    "Nothing is drawn yet. Pick a tool at the left, type  rect 0,0 60,40  or open a drawing.", "Open a drawing"
+)
+NO_PATHS = MissingHint("There are no tool paths yet.", "Compute  F5", "compute")
+NO_CUT = MissingHint("There is no cut yet.", "Compute  F5", "compute")
+NO_NC = MissingHint("There is no NC program yet.", "Compute  F5", "compute")
+NO_PROGRAM = MissingHint(
+    "There is no NC program yet. Draw a part and compute it, or open a program.", "Open an NC program", "nc_open"
+)
+NO_SCENE = MissingHint(
+    "No scene is open. Open one, begin one (File, New scene), or look at figure 1 of the 1986 patent.",
+    "Open figure 1",
+    "scene_compound",
+)
+WRONG_SCENE = MissingHint("The scene's text is wrong; the line is marked at the right.", "Open another scene")
+SCENE_FAILED = MissingHint("The scene could not be computed; the badge below tells why.", "Compute  F5", "compute")
+SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "compute")
+SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
+NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
+CUT_PROMPT = (
+    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to "
+    "the line"
+)
+CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
+SURFACES_PROMPT = (
+    "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
+)
+_NO_SCENE = {
+    SceneState.NONE: NO_SCENE,
+    SceneState.WRONG: WRONG_SCENE,
+    SceneState.FAILED: SCENE_FAILED,
+    SceneState.CHANGED: SCENE_WAITS,
+    SceneState.COMPUTING: SCENE_COMPUTING,
+    SceneState.PROVING: SCENE_COMPUTING,
+    SceneState.PROVEN: SCENE_COMPUTING,
+}
+STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
+PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
+COMPUTING = MissingHint("The paths are being computed.", "Cancel  Shift+F5", "cancel")
+
+
+class WindowState(Protocol):
+    """What pages are told of the window's state."""
+
+    stages_missing: MissingHint
+    writing: bool
+
+
+def pages_of(window: MainWindow, told: WindowState) -> dict[View, ViewPage]:
+    """Return the page of every view; those that were registered beside the window's own are made."""
+    pages = {**_drawing_pages(window, told), **_program_pages(window), **_bitmap_and_scene_pages(window, told)}
+    return {view: pages[view] if view.make is None else view.make(window.workspace) for view in views()}
+
+
+def _drawing_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage]:
+    canvas, document, computation = window.canvas, window.document, window.computation
+
+    def none_drawn() -> MissingHint:
+        return NOTHING if told.writing or canvas.tool is not CanvasTool.SELECT else NO_DRAWING
+
+    def drawing_missing() -> MissingHint:
+        computed = computation.made is not None or computation.state is ComputationState.RUNNING
+        return NOTHING if computed or document.part.entities else none_drawn()
+
+    def paths_missing() -> MissingHint:
+        return _of_job(window, computation.made is not None, none_drawn, NO_PATHS)
+
+    def cut_missing() -> MissingHint:
+        shows = window.views.cut.model.picture is not None or bool(window.views.cut.sentence.text())
+        return _of_job(window, shows, none_drawn, NO_CUT)
+
+    def beside_cut() -> QWidget | None:
+        if window.cut_form.asked is not None:
+            return window.cut_form
+        return window.cut_panel if window.cut_panel.shown is not None else window.side
+
+    def prompt() -> str:
+        return canvas.prompt
+
+    cut = ViewPage(window.views.cut_page, window.views.cut, lambda: CUT_PROMPT, cut_missing, side=beside_cut)
+    return {
+        View.DRAW: ViewPage(canvas, canvas, prompt, drawing_missing, side=lambda: window.side),
+        View.PATHS: ViewPage(canvas, canvas, prompt, paths_missing, side=lambda: window.side),
+        View.CUT: cut,
+    }
+
+
+def _program_pages(window: MainWindow) -> dict[View, ViewPage]:
+    nc, curves = window.views.nc, window.views.curves
+
+    def missing() -> MissingHint:
+        shows = window.computation.made is not None or len(nc.pane.text.text) > 0
+        return _of_job(window, shows, lambda: NO_PROGRAM, NO_NC)
+
+    return {
+        View.CURVES: ViewPage(
+            curves,
+            curves.path,
+            lambda: CURVES_PROMPT,
+            missing,
+            lambda: curves.summary,
+            lambda: window.curves_panel,
+        ),
+        View.NC: ViewPage(nc, nc.path, lambda: NC_PROMPT, missing, lambda: nc.summary, lambda: window.side),
+    }
+
+
+def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View, ViewPage]:
+    stages, surfaces, drawn = window.views.stages, window.views.surfaces, window.document
+
+    def picture() -> bool:
+        return window.import_panel.reading is not None
+
+    def stages_missing() -> MissingHint:
+        shows = stages.film is not None or picture()
+        if not shows and drawn.part.entities:
+            return told.stages_missing
+        return _of_job(window, shows, lambda: NOTHING if told.writing else NO_DRAWING, NOTHING)
+
+    def beside_stages() -> QWidget | None:
+        if picture():
+            return window.import_panel
+        return window.stages_panel if drawn.part.entities else window.side
+
+    def scene_missing() -> MissingHint:
+        return NOTHING if surfaces.shown is not None else _NO_SCENE[surfaces.state]
+
+    return {
+        View.STAGES: ViewPage(
+            stages,
+            stages,
+            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT,
+            stages_missing,
+            lambda: stages.summary,
+            beside_stages,
+        ),
+        View.SURFACES: ViewPage(
+            surfaces,
+            surfaces.canvas,
+            lambda: SURFACES_PROMPT,
+            scene_missing,
+            lambda: surfaces.summary,
+            lambda: window.scene_side if window.scene.open else None,
+        ),
+    }
+
+
+def _of_job(
+    window: MainWindow, shows: bool, none_drawn: Callable[[], MissingHint], otherwise: MissingHint
+) -> MissingHint:
+    """Return what is missing of what is made of the job, when a view shows it or not."""
+    if shows:
+        return NOTHING
+    if window.computation.state is ComputationState.RUNNING:
+        return COMPUTING
+    return otherwise if window.document.part.entities else none_drawn()

@@ -1,0 +1,159 @@
+"""The middle of the window: the canvas, Stages as pixels, Cut in space, Curves, Surfaces, NC as text; or what is
+missing.
+"""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
+
+from ..framework.fade import Fade
+from ..framework.theme import LIGHT, Theme
+from ..framework.view import View, ViewPage, Zoomable
+from ..views.canvas.canvas import Canvas
+from ..views.canvas.legend import Legend
+from ..views.canvas.modes import CanvasMode
+from ..views.curves.view import CurvesView
+from ..views.cut.page import CutPage
+from ..views.cut.view import CutView
+from ..views.nc.view import NcView
+from ..views.plot.preview import PlotPreview
+from ..views.stages.view import StagesView
+from ..views.surfaces.view import SurfacesView
+
+_RULER_PX, _MARGIN_PX = 24, 16
+_LONG_MS = 30.0
+
+
+class EmptyState(QWidget):
+    """One sentence that says what is missing, and the button that makes it."""
+
+    pressed = Signal()
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._theme = LIGHT
+        self.sentence, self.button = QLabel(), QPushButton()
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.button.clicked.connect(self.pressed)
+        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(24, 16, 24, 16)
+        column.setSpacing(12)
+        column.addWidget(self.sentence)
+        column.addWidget(self.button, 0, Qt.AlignmentFlag.AlignHCenter)
+        self.hide()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def say(self, sentence: str, button: str) -> None:
+        """Show a sentence and a button."""
+        self.sentence.setText(sentence)
+        self.button.setText(button)
+        self.adjustSize()
+        self.show()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the canvas' ground, so that the grid does not run through the words."""
+        ground = QColor(self._theme.canvas)
+        ground.setAlphaF(0.92)
+        QPainter(self).fillRect(self.rect(), ground)
+
+
+class ViewStack(QStackedWidget):
+    """Canvas, stages, cut, curves, surfaces and NC text, with legend and empty state laid over them."""
+
+    def __init__(self, canvas: Canvas) -> None:
+        super().__init__()
+        self.canvas, self.stages, self.cut, self.curves, self.nc = (
+            canvas,
+            StagesView(),
+            CutView(),
+            CurvesView(),
+            NcView(),
+        )
+        self.surfaces, self.cut_page = SurfacesView(), CutPage(self.cut)
+        self._pages: dict[View, ViewPage] = {}
+        self.view, self.plot = View.DRAW, PlotPreview()
+        for widget in (canvas, self.stages, self.cut_page, self.curves, self.surfaces, self.nc, self.plot):
+            self.addWidget(widget)
+        self.legend, self.empty, self.fade = Legend(self), EmptyState(self), Fade(self)
+        self.legend.hide()
+        canvas.covered_right = self.legend.width() + _MARGIN_PX
+        self.installEventFilter(self)
+
+    def take_pages(self, pages: dict[View, ViewPage]) -> None:
+        """Show these pages from now on."""
+        self._pages = pages
+        for page in pages.values():
+            if self.indexOf(page.widget) < 0:
+                self.addWidget(page.widget)
+
+    def show_view(self, view: View) -> None:
+        """Bring a view to the front; zoom and selection stay. The one before fades, unless painting it would take
+        long.
+        """
+        if view is not self.view and self.isVisible() and self.canvas.scene_ms < _LONG_MS:
+            self.fade.hide()
+            self.fade.begin(self.grab())
+        self.view = view
+        widget = self._pages[view].widget
+        self.setCurrentWidget(widget)
+        if widget is self.canvas:
+            self.canvas.set_mode(CanvasMode.PATHS if view is View.PATHS else CanvasMode.DRAW)
+        else:
+            self.take_focus()
+
+    def show_plot(self) -> None:
+        """Bring the sheets of paper to the front, until a view is shown again."""
+        self.setCurrentWidget(self.plot)
+        self.take_focus()
+
+    @property
+    def plotting(self) -> bool:
+        """Whether sheets of paper are in front of the view."""
+        return self.currentWidget() is self.plot
+
+    def take_focus(self) -> None:
+        """Have the keys go to what is at the front."""
+        (self.plot if self.plotting else self._pages[self.view].widget).setFocus()
+
+    @property
+    def viewport(self) -> Zoomable:
+        """What zooms and fits at the front."""
+        return self.plot if self.plotting else self._pages[self.view].viewport
+
+    def show_missing(self, sentence: str, button: str, shows_paths: bool) -> None:
+        """Say what is missing in the view, or nothing when `sentence` is empty.
+
+        Args:
+            sentence, button: of the empty state.
+            shows_paths: there are paths, so the legend belongs beside them.
+        """
+        self.empty.setVisible(bool(sentence) and not self.plotting)
+        if sentence and not self.plotting:
+            self.empty.say(sentence, button)
+            self.empty.raise_()
+        self.legend.setVisible(self.view is View.PATHS and shows_paths and not self.plotting)
+        self.legend.raise_()
+        self.fade.raise_()
+        self.place()
+
+    def place(self) -> None:
+        """Put the overlays where they belong."""
+        self.legend.adjustSize()
+        self.legend.fit_into(self.height() - _RULER_PX - _MARGIN_PX)
+        self.legend.move(self.width() - self.legend.width() - _MARGIN_PX, _RULER_PX + 12)
+        self.fade.resize(self.size())
+        self.empty.adjustSize()
+        self.empty.move((self.width() - self.empty.width()) // 2, (self.height() - self.empty.height()) // 2)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Keep the overlays in place when the size changes."""
+        if event.type() == QEvent.Type.Resize:
+            self.place()
+        return super().eventFilter(watched, event)

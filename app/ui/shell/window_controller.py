@@ -1,0 +1,527 @@
+"""What happens when: connects the window's parts with the document, the worker and one another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+
+from ...core.settings import ThemeChoice
+from ...drafting.document import DocumentChange
+from ...model.operation import OPERATION_KINDS
+from ..framework.controller import Controller
+from ..framework.figures import counted
+from ..framework.section import theme_children
+from ..framework.verdict import VerdictLevel, verdict_summary
+from ..framework.view import View, views
+from ..framework.workspace import Workspace
+from ..panels.changes import Subject, SubjectKind
+from ..views.canvas.modes import CanvasTool
+from ..views.curves.controller import SmoothingController
+from ..views.cut.controller import CutController
+from ..views.cut.image_controller import ImageController
+from ..views.cut.recording_controller import RecordingController
+from ..views.nc.action_controller import NcActionController
+from ..views.nc.controller import NcController
+from ..views.nc.program_reader import ShownProgram
+from ..views.plot.controller import PlotController
+from ..views.session1986.controller import SessionController
+from ..views.stages.controller import StagesController
+from ..views.stages.import_controller import ImportController
+from ..views.surfaces.controller import SAMPLES, SceneController, SceneProgram
+from ..views.surfaces.export_controller import SceneExportController
+from .actions import Actions
+from .advice_controller import AdviceController
+from .announcing import Announcing
+from .cleanup_controller import CleanUpController
+from .command_line_controller import CommandLineController
+from .command_palette import CommandPalette
+from .context_menu import ContextMenu
+from .display_controller import DisplayController
+from .drawing_export_controller import DrawingExportController
+from .drawing_page_controller import PAGE as DRAWING_PAGE
+from .drawing_page_controller import DrawingPageController
+from .engagement_controller import EngagementController
+from .file_controller import FileController, Openers
+from .focus_keeping import FocusKeeper
+from .help import show_about
+from .help_window import HelpWindow
+from .keys_window import KeysWindow
+from .main_window import MainWindow
+from .memory_choice import MemoryChoice
+from .owned_curves_controller import OwnedCurvesController
+from .proposal_controller import ProposalController
+from .recovery_controller import RecoveryController
+from .shape_language_controller import ShapeLanguageController
+from .shortcuts import Shortcuts
+from .snap_controller import SnapController
+from .tab_controller import TabController
+from .tool_exchange import ToolExchange
+from .tour import Landmarks, Tour
+from .translation import TranslationController
+from .underlay_controller import UnderlayController
+from .unit_choice import UnitChoice
+from .view_stack import ViewStack
+from .what_is_this import WhatIsThis
+
+TOOLS = {f"tool_{tool.value}": tool for tool in CanvasTool}
+TEXT_PAGE = "Text"
+WORDS = {
+    "compute": "compute",
+    "cancel": "cancel",
+    "f": "fit",
+    "fit": "fit",
+    "export": "export",
+    "new": "new",
+    "open": "open",
+    "findings": "findings",
+    "save": "save",
+}
+
+
+class WindowController(QObject):
+    """The window's behaviour."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self.window_, self.document, self.computation = window, window.document, window.computation
+        workspace, commands = window.workspace, window.actions_
+        self.workspace, self.log = workspace, workspace.log
+        self.display_controller = DisplayController(window)
+        self._make_controllers(window.views, workspace)
+        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open)
+        self.files = FileController(window, self.display_controller, self.log, openers)
+        self.recovery_controller = RecoveryController(self.files, window.card, workspace)
+        self._make_choices(workspace, commands)
+        self._make_drawing_parts(workspace, commands)
+        self._make_helpers(workspace, commands)
+        self._connect_stages()
+        self._connect_files()
+        self._connect_scenes()
+        self._connect_edit()
+        self._connect_view()
+        self._connect_job()
+        self._connect_canvas()
+        self._connect_controllers()
+        self._connect_pages()
+        self._connect_programs()
+        self._connect_language()
+        self._connect_helpers()
+        self._unsubscribe = self.document.subscribe(self.display_controller.refresh)
+        self.display_controller.show_view(View.DRAW)
+        self.display_controller.refresh(DocumentChange.ALL)
+
+    def _make_controllers(self, views: ViewStack, workspace: Workspace) -> None:
+        """Make what acts for the views, each of its own parts."""
+        window = self.window_
+        self.nc = NcController(views.nc, workspace)
+        self._nc_wiring = NcActionController(views.nc, self.nc, self.computation, window.actions_)
+        self.cut_controller = CutController(views.cut_page, window.cut_panel, window.cut_form, workspace)
+        self.image_controller, self.recorder = (
+            ImageController(views.cut, workspace),
+            RecordingController(views.cut_page, workspace),
+        )
+        self.stages_controller = StagesController(views.stages, window.stages_panel, workspace)
+        self.import_controller = ImportController(views.stages, window.import_panel, workspace)
+        self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
+        self.scenes = SceneController(views.surfaces, window.scene_side, window.scene, workspace)
+        self.scene_export = SceneExportController(views.surfaces, lambda: self.scenes.work.proven, workspace)
+        self.plot_controller = PlotController(views.plot, window.plot_panel, workspace)
+        self.session_1986 = SessionController(window, workspace)
+
+    def _make_choices(self, workspace: Workspace, commands: Actions) -> None:
+        """Make what lets the user choose and remembers it."""
+        window, preferences = self.window_, workspace.preferences
+        self.memory_choice = MemoryChoice(preferences, commands)
+        self.unit_choice = UnitChoice(window, window.status, preferences, commands)
+        self.snap_controller = SnapController(window.canvas.snap_state, window.status, commands["polar"], preferences)
+        self.shortcuts = Shortcuts(commands, preferences)
+        self.translation_controller = TranslationController(window, preferences, commands)
+
+    def _make_drawing_parts(self, workspace: Workspace, commands: Actions) -> None:
+        """Make what serves the drawing and its job."""
+        window, canvas = self.window_, self.window_.canvas
+        self.drawing_export = DrawingExportController(window, workspace)
+        self.tools = ToolExchange(window.panel, workspace)
+        self.tab_controller = TabController(window.panel, canvas, self.document)
+        self.underlay_controller = UnderlayController(canvas, workspace, commands)
+        self.language = ShapeLanguageController(window.command_line.edit, HelpWindow(window), workspace, commands)
+        self.files.save_controller.beside.watch(self.underlay_controller, self.language.control)
+        self.advice_controller = AdviceController(window.panel, workspace)
+        self.proposal_controller = ProposalController(window.panel, workspace, commands)
+        self.owned_curves = OwnedCurvesController(window.panel, canvas, workspace)
+        self.drawing_page_controller = DrawingPageController(window.drawing_page, window.notice, commands)
+        self.cleanup_controller = CleanUpController(window.drawing_page.cleanup, canvas, workspace)
+        self.engagement_controller = EngagementController(canvas, window.views.legend, workspace)
+        self.announcing = Announcing(workspace, self)
+        self.command_line_controller = CommandLineController(window.command_line, canvas, self.document)
+        self.focus_keeper = FocusKeeper(window, window.views.take_focus)
+
+    def _make_helpers(self, workspace: Workspace, commands: Actions) -> None:
+        """Make what helps to find one's way."""
+        window, views, preferences = self.window_, self.window_.views, workspace.preferences
+        self.what_is_this = WhatIsThis(window, self.language.help)
+        self.palette = CommandPalette(views, commands, preferences, window.command_line.begin, self.files.open_file)
+        self.palette.set_theme(window.theme)
+        marks = Landmarks(views, window.tool_strip, window.command_line, window.status.badge, window.top_bar)
+        self.tour = Tour(window, marks, preferences)
+
+    def _connect_helpers(self) -> None:
+        window, views = self.window_, self.window_.views
+        self._on("export_drawing", self.drawing_export.start)
+        self.drawing_export.failed.connect(self._say_error)
+        for part in (self.drawing_export, self.tools, self.proposal_controller):
+            part.said.connect(self._say)
+        self.proposal_controller.failed.connect(self._say_error)
+        self.underlay_controller.refused.connect(lambda text: window.status.show_message(text, error=True))
+        window.panel.advice.place_requested.connect(lambda x, y: window.canvas.go_to(x, y, closely=True))
+        self.drawing_page_controller.front_requested.connect(partial(self._show_side_page, DRAWING_PAGE))
+        self._on("what_is_this", self.what_is_this.ask)
+        self._on("palette", self.palette.open)
+        self._on("tour", self.tour.start)
+        for helper in (self.palette, self.tour):
+            helper.left.connect(views.take_focus)
+
+    def _connect_controllers(self) -> None:
+        """Show what the controllers of views tell, and tell them whether their view is at the front."""
+        self._connect_controller(self.stages_controller, View.STAGES)
+        self._connect_controller(self.import_controller, View.STAGES)
+        self._connect_controller(self.cut_controller, View.CUT)
+        self._connect_controller(self.image_controller, View.CUT)
+        self._connect_controller(self.recorder, View.CUT)
+        self._connect_controller(self.smoothing_controller, View.CURVES)
+        self._connect_controller(self.scenes, View.SURFACES)
+        self._connect_controller(self.scene_export, View.SURFACES)
+        self._connect_controller(self.nc, View.NC)
+        for view, page in self.display_controller.pages.items():
+            if page.controller is not None:
+                self._connect_controller(page.controller, view)
+
+    def _connect_controller(self, controller: Controller, view: View) -> None:
+        controller.failed.connect(self._say_error)
+        controller.said.connect(self._say)
+        controller.changed.connect(self.display_controller.show_state)
+        controller.front_requested.connect(partial(self.display_controller.show_view, view))
+        self.display_controller.view_changed.connect(lambda shown: controller.see(shown is view))
+
+    def _connect_pages(self) -> None:
+        """What lies over the views for a while: sheets of paper, a session of 1986."""
+        plotting, session = self.plot_controller, self.session_1986
+        self._on("plot", plotting.start)
+        plotting.failed.connect(self._say_error)
+        plotting.said.connect(self._say)
+        plotting.front_requested.connect(self._show_plot)
+        plotting.left.connect(lambda: self.display_controller.show_view(self.display_controller.view))
+        self.display_controller.view_changed.connect(lambda _: plotting.see(False))
+        self._on("session_1986", session.open)
+        session.left.connect(self.window_.views.take_focus)
+        session.taken.connect(self._show_paths)
+
+    def _show_plot(self) -> None:
+        self.window_.views.show_plot()
+        self.display_controller.show_missing()
+
+    def _show_paths(self) -> None:
+        self.display_controller.show_view(View.PATHS)
+        self.window_.canvas.fit()
+
+    def _connect_language(self) -> None:
+        control, side = self.language.control, self.window_.side
+        self.language.help.set_theme(self.window_.theme)
+        side.add_page(TEXT_PAGE, control.page, "the drawing in words")
+        theme_children(side, self.window_.theme)
+        side.chosen.connect(self._on_side_page)
+        control.page.editor.left.connect(self.window_.canvas.setFocus)
+        control.tried.connect(self.window_.canvas.show_trial)
+        control.front_requested.connect(self._show_text)
+        self.display_controller.view_changed.connect(lambda view: control.see(view in (View.DRAW, View.PATHS)))
+
+    def _on_side_page(self, name: str) -> None:
+        if name != DRAWING_PAGE:
+            self.cleanup_controller.give_up()
+        self.display_controller.writing = name == TEXT_PAGE
+        self.display_controller.show_missing()
+        self.language.control.see(self.display_controller.view in (View.DRAW, View.PATHS))
+
+    def _show_text(self) -> None:
+        if self.display_controller.view not in (View.DRAW, View.PATHS):
+            self.display_controller.show_view(View.DRAW)
+        self.window_.side.show_page(TEXT_PAGE)
+
+    def _show_side_page(self, name: str) -> None:
+        """Bring a page of the right side to the front; where another view has something else there, Draw."""
+        if self.window_.side.isHidden():
+            self.display_controller.show_view(View.DRAW)
+        self.window_.side.show_page(name)
+
+    def _on(self, name: str, act: Callable[[], object]) -> None:
+        self.window_.actions_[name].triggered.connect(lambda *_: act())
+
+    def _connect_files(self) -> None:
+        files = self.files
+        self._on("new", files.ask_new)
+        self._on("open", files.choose_file)
+        self._on("sample", files.ask_sample)
+        self._on("save", lambda: self.scenes.save() if self._on_scene else files.save_controller.save())
+        self._on("save_as", lambda: self.scenes.save_as() if self._on_scene else files.save_controller.save_as())
+        self._on("save_copy", files.save_controller.save_copy)
+        files.save_controller.failed.connect(self._say_error)
+        self._on("export", self.export)
+        self._on("frame", files.export_controller.start_frame)
+        self._on("quit", self.window_.close)
+        for part in (files.open_controller, files.reread_controller):
+            part.failed.connect(self._say_error)
+        files.export_controller.failed.connect(self._say_error)
+        files.export_controller.show_findings.connect(self._show_worst)
+
+    @property
+    def _on_scene(self) -> bool:
+        """Whether the scene is worked on rather than the drawing."""
+        return self.display_controller.view is View.SURFACES and self.window_.scene.open
+
+    def _connect_scenes(self) -> None:
+        scenes = self.scenes
+        self._on("scene_new", scenes.new)
+        for name in SAMPLES:
+            self._on(f"scene_{name}", partial(scenes.open_sample, name))
+        self._on("scene_nc", scenes.show_nc)
+        self._on("scene_cut", scenes.show_cut)
+        scenes.nc_requested.connect(self.nc.show_text)
+        scenes.cut_requested.connect(self._cut_scene)
+        scenes.document.standing_changed.connect(self.display_controller.show_titles)
+        scenes.close_requested.connect(self.window_.close)
+        self.window_.closing.connect(self._ask_scenes)
+        view = self.window_.views.surfaces
+        view.hovered.connect(self.display_controller.show_hovered)
+        view.cursor_moved.connect(self.window_.status.show_place)
+
+    def _ask_scenes(self) -> None:
+        """Keep the window open while the scene's changes are asked about; those of the drawing come first."""
+        self.window_.may_close = self.window_.may_close and self.scenes.may_close()
+
+    def _connect_stages(self) -> None:
+        view = self.window_.views.stages
+        self.stages_controller.changed.connect(self._show_stages)
+        self._on("stages_again", self.stages_controller.again)
+        self.import_controller.shown.connect(self._show_picture)
+        self.import_controller.taken.connect(self._on_picture_taken)
+        view.hovered.connect(self.display_controller.show_hovered)
+        view.pixels.cursor_moved.connect(self.window_.status.show_place)
+
+    def _show_stages(self) -> None:
+        self.display_controller.stages_missing = self.stages_controller.missing
+
+    def _show_picture(self) -> None:
+        """Bring the picture to the front when it comes."""
+        if self.import_controller.preview is not None and self.display_controller.view is not View.STAGES:
+            self.display_controller.show_view(View.STAGES)
+        self.display_controller.show_prompt()
+        self.display_controller.show_missing()
+
+    def _on_picture_taken(self, path: Path) -> None:
+        self.workspace.preferences.add_recent(path)
+        self.window_.notice.hide()
+        self.display_controller.show_view(View.STAGES)
+        self.window_.canvas.fit()
+
+    def _connect_edit(self) -> None:
+        scene = self.window_.scene.document
+        self._on("undo", lambda: scene.undo() if self._on_scene else self.document.undo())
+        self._on("redo", lambda: scene.redo() if self._on_scene else self.document.redo())
+        self._on(
+            "delete",
+            lambda: (
+                self.run("delete") if self.document.selection else self._say("Nothing is selected; click a line first.")
+            ),
+        )
+        self._on("select_all", lambda: self.run("select all"))
+        line = self.window_.command_line
+        line.entered.connect(self._on_entered)
+        line.accepted.connect(self.window_.canvas.accept)
+        line.cancelled.connect(self._on_escape)
+
+    def _connect_view(self) -> None:
+        canvas, actions = self.window_.canvas, self.window_.actions_
+        self._on("cut_picture", self.image_controller.choose)
+        self._on("record", self.recorder.ask)
+        for view in views():
+            self._on(view.value, partial(self.display_controller.show_view, view))
+        self._on("fit", lambda: self.window_.views.viewport.fit())
+        self._on("zoom_in", lambda: self.window_.views.viewport.zoom_by(1.5))
+        self._on("zoom_out", lambda: self.window_.views.viewport.zoom_by(1 / 1.5))
+        status = self.window_.status
+        switches = (
+            ("snap", status.snap, canvas.set_snap),
+            ("ortho", status.ortho, canvas.set_ortho),
+            ("grid", status.grid, canvas.set_grid_snap),
+        )
+        for name, button, switch in switches:
+            actions[name].toggled.connect(switch)
+            actions[name].toggled.connect(button.setChecked)
+            button.clicked.connect(actions[name].setChecked)
+        actions["snap"].setChecked(True)
+        actions["log"].toggled.connect(self.window_.command_line.log.setVisible)
+        actions["log"].setChecked(True)
+        self._on("command", self.window_.command_line.edit.setFocus)
+        for choice in ThemeChoice:
+            self._on(f"theme_{choice.value}", partial(self.window_.choose_theme, choice))
+        self._on("keys", lambda: KeysWindow(self.window_, self.window_.actions_, self.shortcuts).show())
+        self._on("about", lambda: show_about(self.window_))
+
+    def _connect_job(self) -> None:
+        panel, computation = self.window_.panel, self.computation
+        self._on("job_properties", lambda: panel.choose(Subject(SubjectKind.JOB)))
+        self._on("add_tool", panel.tools.added.emit)
+        self._on("tool_library", panel.switch_library)
+        self._on("which_tool", panel.switch_advice)
+        self._on("import_tools", self.tools.choose_file)
+        self._on("export_tools", self.tools.choose_place)
+        for word, kind in OPERATION_KINDS.items():
+            self._on(f"add_{word}", partial(panel.operations.added.emit, kind))
+        self._on("compute", self.compute)
+        self._on("cancel", self.cancel)
+        self._on("findings", self.display_controller.open_findings)
+        panel.refused.connect(self._say_error)
+        computation.failed.connect(self._say_error)
+        computation.finished.connect(self._on_computed)
+        self.window_.status.cancelled.connect(self.cancel)
+
+    def _connect_programs(self) -> None:
+        """Show what the mouse is over in the NC and Curves views, and do what the NC view has the job do."""
+        views, status, hovered = self.window_.views, self.window_.status, self.display_controller.show_hovered
+        for path in (views.nc.path, views.curves.path):
+            path.hovered.connect(hovered)
+        views.curves.deviation.hovered.connect(hovered)
+        views.nc.path.cursor_moved.connect(lambda x, y: status.show_place(x, y, views.nc.side.name))
+        views.curves.path.cursor_moved.connect(lambda x, y: status.show_place(x, y, views.curves.side.name))
+        self._on("curves_smooth", self.smoothing_controller.bring_and_smooth)
+        self.nc.export_requested.connect(self.window_.actions_["export"].trigger)
+        self.nc.compute_requested.connect(self.window_.actions_["compute"].trigger)
+
+    def _connect_canvas(self) -> None:
+        canvas, window = self.window_.canvas, self.window_
+        for name, tool in TOOLS.items():
+            self._on(name, partial(self._take_tool, tool))
+        window.actions_["tool_select"].setChecked(True)
+        canvas.cursor_moved.connect(window.status.show_place)
+        canvas.view_changed.connect(lambda: window.status.show_grid(canvas.grid_step))
+        window.status.show_grid(canvas.grid_step)
+        canvas.prompt_changed.connect(lambda _: self.display_controller.show_prompt())
+        canvas.hovered.connect(self.display_controller.show_hovered)
+        window.views.cut.hovered.connect(self.display_controller.show_hovered)
+        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
+        window.cut_panel.line_requested.connect(self._go_to_motion)
+        self.nc.cut_requested.connect(self._show_cut)
+        window.views.cut.cursor_moved.connect(window.status.show_place)
+        canvas.message.connect(lambda text: window.status.show_message(text, error=True))
+        canvas.key_typed.connect(window.command_line.begin)
+        canvas.tool_changed.connect(self._on_tool)
+        self.context_menu = ContextMenu(canvas, self.document, window.actions_)
+
+    def _take_tool(self, tool: CanvasTool) -> None:
+        """Take a tool in hand, on the canvas."""
+        if self.display_controller.view not in (View.DRAW, View.PATHS):
+            self.display_controller.show_view(View.DRAW)
+        self.window_.canvas.set_tool(tool)
+        self._on_tool(self.window_.canvas.tool)
+
+    def _on_tool(self, tool: CanvasTool) -> None:
+        """Show which tool is in hand, where it can be used."""
+        self.window_.actions_[f"tool_{tool.value}"].setChecked(True)
+        if tool is not CanvasTool.SELECT:
+            if self.display_controller.view not in (View.DRAW, View.PATHS):
+                self.display_controller.show_view(View.DRAW)
+            self.window_.views.take_focus()
+
+    def run(self, line: str) -> None:
+        """Carry out one line of the drawing language; what is wrong with it stands in the log."""
+        self.language.lines.run(line)
+
+    def compute(self) -> None:
+        """Compute the paths and show them; in the Surfaces view the scene's, from its file as it is now."""
+        self.window_.notice.dismiss()
+        if self.display_controller.view is View.SURFACES:
+            self.scenes.compute()
+            return
+        self.computation.start()
+        if self.display_controller.view is View.DRAW:
+            self.display_controller.show_view(View.PATHS)
+
+    def export(self) -> None:
+        """Export what the view at the front has made: the job's program, or of a scene a program, plot or table."""
+        (self.scene_export if self.display_controller.view is View.SURFACES else self.files.export_controller).start()
+
+    def _show_worst(self) -> None:
+        """Show the worst place of the job's cut where it is; what has none there is listed."""
+        self.cut_controller.back()
+        worst = next(
+            (entry for entry in self.window_.cut_panel.entries if entry.counts and entry.place is not None), None
+        )
+        if worst is None:
+            self.display_controller.open_findings()
+            return
+        self.display_controller.show_view(View.CUT)
+        self.window_.cut_panel.choose(worst)
+
+    def _show_cut(self, shown: ShownProgram | None) -> None:
+        """Show the cut of another program, or the job's own."""
+        self.display_controller.show_view(View.CUT)
+        if shown is None:
+            self.cut_controller.back()
+        else:
+            self.cut_controller.show_program(shown.source, shown.dialect)
+
+    def _cut_scene(self, program: SceneProgram) -> None:
+        """Show what a scene's program leaves of its stock, beside the scene's surfaces."""
+        self.display_controller.show_view(View.CUT)
+        self.cut_controller.show_program(program.source, program.dialect, program.part)
+
+    def _go_to_motion(self, motion: int) -> None:
+        """Show the line of a motion of the cut program, if that is the one which the NC view shows, or can."""
+        cut, nc = self.cut_controller.cut, self.nc
+        if cut is None or motion < 0:
+            return
+        name = cut.names[cut.file_of(motion)]
+        if cut.given is None and nc.foreign:
+            nc.back()
+        if cut.given is None or (nc.source is not None and nc.source.name == name):
+            self.display_controller.show_view(View.NC)
+            nc.pick_motion(cut.file_of(motion), cut.row_in_file(motion))
+
+    def cancel(self) -> None:
+        """Leave the running job."""
+        if self.window_.activity.cancel():
+            self._say("Cancelled; nothing has changed.")
+
+    def _on_entered(self, text: str) -> None:
+        name = None if self.window_.canvas.runner.takes(text) else WORDS.get(text.lower())
+        if name is not None:
+            self.window_.actions_[name].trigger()
+            self.window_.views.take_focus()
+        elif not self.window_.canvas.type_text(text):
+            self.run(self.unit_choice.meant(text))
+        elif not self.window_.canvas.runner.wants_words:
+            self.window_.views.take_focus()
+
+    def _on_escape(self) -> None:
+        self.window_.canvas.cancel()
+        self.window_.views.take_focus()
+
+    def _on_computed(self) -> None:
+        made = self.computation.made
+        if made is not None:
+            answer = verdict_summary(made.findings, made.report.data)
+            self.log.note(
+                "compute",
+                f"{counted(len(made.program.moves), 'move')}. {answer.text}",
+                error=answer.level is VerdictLevel.BAD,
+            )
+
+    def _say(self, text: str) -> None:
+        self.window_.status.show_message(text)
+
+    def _say_error(self, text: str) -> None:
+        self.window_.status.show_message(text, error=True)
+        self.window_.notice.ask(text, error=True)

@@ -1,0 +1,1 @@
+"""What the canvas paints: paper, drawing, tool paths, annotations, and what follows the mouse."""

@@ -1,0 +1,1 @@
+"""What the Curves view paints over a program's path."""

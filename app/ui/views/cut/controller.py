@@ -1,0 +1,238 @@
+"""Shows the cut of the job's program as soon as it is computed, and of any other program when that is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ....core.progress import Progress
+from ...framework.computation import ComputationState
+from ...framework.controller import Controller
+from ...framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
+from ...framework.worker import JobOutcome, Worker
+from ...framework.workspace import Workspace
+from ..nc.program_reader import ProgramSource
+from .cell_colours import CutColourBy, key_of
+from .findings import CutFinding, FindingColour
+from .foreign_program import ForeignProgram, MissingSetup, foreign_shown
+from .overlay import PlacePin
+from .page import CutPage
+from .panel import CutPanel, colour_of
+from .setup_form import SetupForm
+from .shown_cut import ProgramFile, ShownCut, shown_cut
+from .theme_colours import colormap_of
+from .user_setup import UserSetup
+from .zoom_controller import ZoomController, ZoomTarget
+
+if TYPE_CHECKING:
+    from ....gcode.interpreter.dialect import Dialect
+    from ....usecases.make import MakeResult
+    from ....verify.parts import Part
+
+
+def job_shown(made: MakeResult, name: str, colour: CutColourBy, progress: Progress) -> ShownCut | None:
+    """Return the cut that came with the job's program, prepared; None where nothing was cut.
+
+    Raises:
+        Cancelled: the job was asked to stop.
+    """
+    if made.cut is None:
+        return None
+    files = tuple(ProgramFile(f"{name}{file.suffix}", file.nc.text.encode("ascii")) for file in made.files)
+    return shown_cut(made.cut, files, colour, progress)
+
+
+class CutController(Controller):
+    """Follows the computation, and shows the cut of another program when it is asked to.
+
+    Its own worker, so that it never holds up computing.
+
+    Signals:
+        changed(): the view shows another cut, or none, or something is asked for.
+
+    Attributes:
+        cut: what is shown; None = nothing.
+    """
+
+    def __init__(self, page: CutPage, panel: CutPanel, form: SetupForm, workspace: Workspace) -> None:
+        super().__init__(page)
+        self._view, self._panel, self._form = page.view, panel, form
+        self._document, self._computation, self._activity = (
+            workspace.document,
+            workspace.computation,
+            workspace.activity,
+        )
+        self.cut: ShownCut | None = None
+        self._own: ShownCut | None = None
+        self._foreign: ForeignProgram | None = None
+        self._shown_foreign: ForeignProgram | None = None
+        self._made: object = None
+        self.worker, self.foreign_worker = Worker(self), Worker(self)
+        self.zoom_controller = ZoomController(self._view.model, self._view.render_scheduler, self)
+        self.zoom_controller.found.connect(self._view.show_detail)
+        self.player = page.player
+        self._connect()
+
+    def _connect(self) -> None:
+        activity = self._activity
+        for worker in (self.worker, self.foreign_worker):
+            worker.done.connect(self._on_done)
+            worker.failed.connect(self._on_failed)
+        activity.follow(self.foreign_worker)
+        activity.cancelled.connect(self.worker.cancel)
+        activity.ended.connect(self.player.pause)
+        for worker in (self.worker, self.zoom_controller.worker, self._view.colours.worker, self.player.worker):
+            activity.ended.connect(worker.finish)
+        activity.ended.connect(self._leave)
+        self.zoom_controller.failed.connect(self.failed)
+        self.player.failed.connect(self.failed)
+        self._view.surface_host.said.connect(self.failed)
+        self.player.moved.connect(self._on_played)
+        self.player.state_changed.connect(self._on_played)
+        self._computation.changed.connect(self._follow)
+        self._computation.changed.connect(self._tell)
+        self._view.colours.known.connect(self._show_key)
+        self._panel.picked.connect(self._go_to)
+        self._panel.form_requested.connect(self._open_form)
+        self._panel.left.connect(self.back)
+        self._form.accepted.connect(self._cut_as)
+        self._form.left.connect(self._leave_form)
+
+    def show_program(self, source: ProgramSource, dialect: Dialect, scene: Callable[[], Part] | None = None) -> None:
+        """Cut a program that is none of the job's; what was there stays until it is cut.
+
+        Args:
+            source, dialect: what it is and how it is read. scene: makes what a scene's program is to come to; None: it
+                is no scene's.
+        """
+        before = self._foreign
+        given = before.given if before is not None and before.source.bytes() == source.bytes() else UserSetup()
+        made, job = self._computation.made, self._document.job
+        part = made.cut.setup.part if made is not None and made.cut is not None else None
+        self._foreign = ForeignProgram(source, dialect, given, {tool.number: tool for tool in job.tools}, part, scene)
+        self._cut_foreign()
+
+    def back(self) -> None:
+        """Show the job's own cut again."""
+        self.foreign_worker.cancel()
+        self._form.ask(None)
+        if self._foreign is not None or self.cut is not self._own:
+            self._foreign = self._shown_foreign = None
+            self._show(self._own)
+
+    def _leave(self) -> None:
+        """Let go of what takes much memory; the window itself may be kept by somebody for longer."""
+        self._foreign = self._shown_foreign = self._own = self._made = None
+        self._show(None)
+
+    def _follow(self) -> None:
+        made = self._computation.made
+        if made is self._made or self._computation.state is ComputationState.RUNNING:
+            return
+        self._made = made
+        if made is None or made.cut is None:
+            self._show_own(None)
+            return
+        name, colour = made.job.part.name, self._view.colour
+        self.worker.start(lambda progress: job_shown(made, name, colour, progress), 0)
+
+    def _cut_foreign(self) -> None:
+        foreign, colour = self._foreign, self._view.colour
+        if foreign is not None:
+            self.foreign_worker.start(lambda progress: foreign_shown(foreign, colour, progress), 0)
+
+    def _cut_as(self, given: UserSetup) -> None:
+        """Cut the foreign program with other tools and stock."""
+        if self._foreign is not None:
+            self._foreign = replace(self._foreign, given=given)
+            self._cut_foreign()
+
+    def _open_form(self) -> None:
+        """Let the user say other tools and another stock."""
+        if self._foreign is not None and self.cut is not None and self.cut.given is not None:
+            self._form.ask(
+                MissingSetup("Other tools, or another stock, give another cut.", self._foreign, self.cut.given)
+            )
+            self.changed.emit()
+
+    def _leave_form(self) -> None:
+        self._form.ask(None)
+        if self.cut is None or self.cut.given is None:
+            self.back()
+        self.changed.emit()
+
+    def _show_own(self, cut: ShownCut | None) -> None:
+        self._own = cut
+        if self._foreign is None:
+            self._show(cut)
+
+    def _show(self, cut: ShownCut | None) -> None:
+        self.cut = cut
+        self._view.show_cut(cut.picture if cut is not None else None)
+        self.zoom_controller.follow(ZoomTarget(cut.cut) if cut is not None else None)
+        self._panel.show_cut(cut)
+        self.player.follow(cut, self._panel.entries)
+        self._tell()
+        self._show_key()
+        self.changed.emit()
+
+    def _tell(self) -> None:
+        """The job's own cut is headed by the badge's verdict, or by that it is out of date."""
+        made, own = self._computation.made, self.cut is not None and self.cut is self._own
+        if not own or made is None:
+            self._panel.show_told(None)
+        elif self._computation.outdated:
+            self._panel.show_told(VerdictSummary(VerdictLevel.NONE, "Out of date: compute again"))
+        else:
+            self._panel.show_told(verdict_summary(made.findings, made.report.data))
+
+    def _show_key(self) -> None:
+        """The histogram has the colours of the deviation, whatever the metal's tell."""
+        if self.cut is not None and self.cut.histogram is not None:
+            picture = self.cut.picture
+            self._panel.show_key(
+                key_of(picture, CutColourBy.DEVIATION, colormap_of(self._view.colours.theme), picture.span)
+            )
+
+    def _go_to(self, entry: CutFinding) -> None:
+        """Glide to a place; gouges and metal left are seen best by their deviation. On the way of the cut, go to when
+        it was done.
+        """
+        if not self.player.at_end:
+            self.player.go(entry.motion + 1 if entry.motion >= 0 else self.player.length)
+        if entry.place is None:
+            return
+        if (
+            entry.colour is not FindingColour.ACCIDENT
+            and self._view.model.picture is not None
+            and self._view.model.picture.deviation is not None
+        ):
+            self._view.set_colour(CutColourBy.DEVIATION)
+        theme = self._view.colours.theme
+        self._view.go_to(PlacePin(entry.place, entry.title, entry.words, colour_of(entry.colour, theme)), entry.field)
+
+    def _on_done(self, answer: JobOutcome) -> None:
+        result = answer.value
+        if isinstance(result, MissingSetup):
+            self._form.ask(result)
+            self.changed.emit()
+        elif isinstance(result, ShownCut) and result.given is not None:
+            self._form.ask(None)
+            self._shown_foreign = self._foreign
+            self._show(result)
+        elif isinstance(result, ShownCut):
+            self._show_own(result)
+
+    def _on_failed(self, answer: JobOutcome) -> None:
+        self.failed.emit(answer.error or "")
+        if self._form.asked is None:
+            self._foreign = self._shown_foreign
+
+    def _on_played(self) -> None:
+        """A finer look shows the moment that the cut rests at; within a motion there is none."""
+        at, cut = self.player.at, self.cut
+        if cut is None or self.player.playing or (at is not None and at.fraction > 0):
+            self.zoom_controller.follow(None)
+        else:
+            self.zoom_controller.follow(ZoomTarget(cut.cut, None if at is None or self.player.at_end else at.motion))

@@ -1,0 +1,273 @@
+"""Beside the cut: the verdict, the places to look at, the NC text of the one that was picked, and how far all is from
+the part.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+
+from ...framework.fields import restyle
+from ...framework.figures import TIMES
+from ...framework.labels import Elided, muted
+from ...framework.section import EDGE, ListRow, hairline, heading
+from ...framework.theme import LIGHT, Theme
+from ...framework.verdict import VerdictLevel, VerdictSummary
+from ...panels.side_panel import WIDTH
+from ..nc.text_view import NcTextView
+from .cell_colours import ColourKey
+from .findings import CutFinding, FindingColour, findings_of, level_of, sentences_of, title_of
+from .histogram_plot import HistogramPlot
+from .overlay_text import pitch_words
+from .shown_cut import ShownCut
+
+_ROLES = {VerdictLevel.OK: "ok", VerdictLevel.BAD: "error", VerdictLevel.REMARK: "warning", VerdictLevel.NONE: ""}
+_TEXT_PX, _LEAST_LIST_PX, _ROOM_PX = 100, 112, 700
+
+_TITLE_PX = 230
+"""So wide a place's title is shown whole; the words of where it lies give way first."""
+
+
+class Dot(QWidget):
+    """A spot of an entry's colour; a ring for what is out of reach."""
+
+    def __init__(self, colour: FindingColour) -> None:
+        super().__init__()
+        self._theme, self._colour = LIGHT, colour
+        self.setFixedSize(10, 16)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Paint the spot."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        ink = colour_of(self._colour, self._theme)
+        painter.setPen(ink)
+        painter.setBrush(QColor(ink) if self._colour is not FindingColour.UNREACHABLE else Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(1, 4, 8, 8)
+
+
+def colour_of(colour: FindingColour, theme: Theme) -> QColor:
+    """Return an entry's colour by day or by night."""
+    ink: QColor = getattr(theme, colour.value)
+    return ink
+
+
+class _Title(Elided):
+    """A place's title; where room is short its middle gives way: the figure at its end is what it is read for."""
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw as much as fits."""
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideMiddle, self.width())
+        painter.drawText(self.rect(), self.alignment(), text)
+
+
+class CutPanel(QWidget):
+    """What is known of the cut.
+
+    Signals:
+        picked(CutFinding): the user wants to see this place. line_requested(motion): and its line in the NC view.
+        form_requested(): tools and stock shall be others. left(): the job's own cut shall be shown.
+
+    Attributes:
+        shown: what it tells of; None = nothing. entries: the places. chosen: the one that was picked last.
+    """
+
+    picked = Signal(CutFinding)
+    line_requested = Signal(int)
+    form_requested = Signal()
+    left = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("sidePanel")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setFixedWidth(WIDTH)
+        self._theme = LIGHT
+        self.shown: ShownCut | None = None
+        self.entries: tuple[CutFinding, ...] = ()
+        self.chosen: CutFinding | None = None
+        self.rows: list[ListRow] = []
+        self.title, self.name, self.verdict, self.cells = heading("Cut"), Elided(role="muted"), QLabel(), muted()
+        self.counted, self.sentence, self.go = heading("Places"), muted(), QPushButton("Show the line")
+        self.text, self.histogram = NcTextView(), HistogramPlot()
+        self.inner, self.list, self.details = QWidget(), QScrollArea(), QWidget()
+        self._rows = QVBoxLayout(self.inner)
+        self.foreign, self.form, self.back = (
+            QWidget(),
+            QPushButton("Tools and stock…"),
+            QPushButton("Back to the job's cut"),
+        )
+        self._lay_out()
+        self.go.clicked.connect(self._want_line)
+        self.form.clicked.connect(self.form_requested)
+        self.back.clicked.connect(self.left)
+
+    def _lay_out(self) -> None:
+        for label in (self.verdict, self.sentence):
+            label.setWordWrap(True)
+        self.name.setAlignment(Qt.AlignmentFlag.AlignRight)
+        head = QHBoxLayout()
+        head.addWidget(self.title)
+        head.addSpacing(12)
+        head.addWidget(self.name, 1)
+        self._rows.setContentsMargins(0, 0, 0, 0)
+        self._rows.setSpacing(0)
+        self._rows.addStretch(1)
+        self.list.setWidget(self.inner)
+        self.list.setWidgetResizable(True)
+        self.list.setMinimumHeight(_LEAST_LIST_PX)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.text.setFixedHeight(_TEXT_PX)
+        details = QVBoxLayout(self.details)
+        details.setContentsMargins(0, 0, 0, 0)
+        details.setSpacing(6)
+        details.addLayout(_indented(self.sentence))
+        details.addWidget(self.text)
+        details.addLayout(_indented(self.go, stretch=True))
+        self.details.hide()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(1, 12, 0, 8)
+        column.setSpacing(6)
+        column.addLayout(_indented(head))
+        for widget in (self.verdict, self.cells):
+            column.addLayout(_indented(widget))
+        row = QHBoxLayout(self.foreign)
+        row.setContentsMargins(EDGE - 4, 0, EDGE, 0)
+        for button in (self.form, self.back):
+            button.setProperty("role", "link")
+            row.addWidget(button)
+        row.addStretch(1)
+        column.addWidget(self.foreign)
+        column.addWidget(hairline())
+        column.addLayout(_indented(self.counted))
+        column.addWidget(self.list, 1)
+        column.addWidget(self.details)
+        self.line = hairline()
+        column.addWidget(self.line)
+        column.addLayout(_indented(self.histogram))
+
+    def show_cut(self, shown: ShownCut | None) -> None:
+        """Tell of another cut."""
+        self.shown, self.chosen = shown, None
+        self.entries = findings_of(shown) if shown is not None else ()
+        self._fill()
+        self.details.hide()
+        if shown is None:
+            return
+        grid = shown.cut.cut.before.grid
+        self.name.setText(", ".join(shown.names))
+        self.foreign.setVisible(shown.given is not None)
+        self.verdict.setText(sentences_of(shown))
+        self.cells.setText(f"{grid.cols} {TIMES} {grid.rows} cells of {pitch_words(grid.pitch)}")
+        self.show_told(None)
+        self.counted.setText(f"Places ({len(self.entries)})" if self.entries else "No places to look at")
+        self._make_room()
+
+    def show_told(self, told: VerdictSummary | None) -> None:
+        """Head the panel with the badge's verdict; None = there is none on this cut."""
+        if self.shown is None:
+            return
+        self.title.setText(title_of(self.shown, told))
+        self.title.setProperty("role", _ROLES[level_of(self.shown, told)])
+        restyle(self.title)
+
+    def show_key(self, key: ColourKey) -> None:
+        """Give the histogram the colours of the deviation."""
+        if self.shown is not None and self.shown.histogram is not None:
+            self.histogram.show_histogram(self.shown.histogram, key)
+
+    def choose(self, entry: CutFinding) -> None:
+        """Show what there is to say about a place, and tell that it should be seen."""
+        self.chosen = entry
+        for row, each in zip(self.rows, self.entries, strict=True):
+            row.set_chosen(each is entry)
+        self.sentence.setText(entry.sentence.replace("mm2", "mm²"))
+        self.show_line(entry.motion)
+        self.details.show()
+        self._make_room()
+        self.picked.emit(entry)
+
+    def show_line(self, motion: int) -> None:
+        """Show the NC line of a motion among its neighbours; nothing where there is none."""
+        known = self.shown is not None and motion >= 0
+        self.text.setVisible(known)
+        self.go.setVisible(known)
+        if self.shown is None or not known:
+            return
+        file = self.shown.file_of(motion)
+        if self.text.text is not self.shown.texts[file]:
+            self.text.show_text(self.shown.texts[file])
+        row = int(self.shown.picture.moves.line[motion]) - 1 if self.shown.picture.moves is not None else 0
+        self.text.pick(row, tell=False)
+        self.go.setText(f"Show line {row + 1} in the NC view")
+
+    def set_theme(self, theme: Theme) -> None:
+        """Follow the theme."""
+        self._theme = theme
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Show as much as there is room for."""
+        self._make_room()
+
+    def _make_room(self) -> None:
+        """Where there is little room, what is said of a place takes that of the histogram."""
+        room = self.details.isHidden() or self.height() > _ROOM_PX
+        for widget in (self.histogram, self.line):
+            widget.setVisible(room and self.shown is not None and self.shown.histogram is not None)
+
+    def _fill(self) -> None:
+        for row in self.rows:
+            self._rows.removeWidget(row)
+            row.hide()
+            row.deleteLater()
+        self.rows = [self._row(entry) for entry in self.entries]
+        for k, row in enumerate(self.rows):
+            self._rows.insertWidget(k, row)
+
+    def _row(self, entry: CutFinding) -> ListRow:
+        dot = Dot(entry.colour)
+        dot.set_theme(self._theme)
+        title = _Title(entry.title)
+        title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        title.setMinimumWidth(min(title.sizeHint().width(), _TITLE_PX))
+        where = Elided(entry.words, role="muted")
+        row = ListRow(dot, title, where, stretch_after=-1, wide=1)
+        row.setToolTip(f"{entry.sentence}\n{entry.words}".strip())
+        row.setAccessibleName(f"{entry.title}, {entry.words}")
+        row.clicked.connect(partial(self.choose, entry))
+        row.stepped.connect(partial(self._step, entry))
+        return row
+
+    def _step(self, entry: CutFinding, way: int) -> None:
+        """Go to the neighbour of a row."""
+        at = self.entries.index(entry) + way
+        if 0 <= at < len(self.rows):
+            self.choose(self.entries[at])
+            self.rows[at].setFocus()
+
+    def _want_line(self) -> None:
+        if self.chosen is not None and self.chosen.motion >= 0:
+            self.line_requested.emit(self.chosen.motion)
+
+
+def _indented(what: QWidget | QHBoxLayout, stretch: bool = False) -> QHBoxLayout:
+    """Return a row that keeps the panel's margins."""
+    line = QHBoxLayout()
+    line.setContentsMargins(EDGE, 0, EDGE, 0)
+    if isinstance(what, QWidget):
+        line.addWidget(what)
+    else:
+        line.addLayout(what, 1)
+    if stretch:
+        line.addStretch(1)
+    return line

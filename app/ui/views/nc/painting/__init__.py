@@ -1,0 +1,1 @@
+"""What the NC view paints: motions, their key, lines of text."""

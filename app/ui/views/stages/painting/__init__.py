@@ -1,0 +1,1 @@
+"""What the Stages view paints: pixels, and the key of their codes."""

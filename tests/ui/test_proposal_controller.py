@@ -1,0 +1,212 @@
+"""Operations proposed and chosen in the window: a step each, undone as one, right at the first F5."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.model.operation import ContourOperation, DrillOperation, PocketOperation, Side
+from app.ui.framework.computation import ComputationState
+from app.ui.panels.changes import Subject, SubjectKind
+from app.ui.shell.proposal_controller import NOTHING_DRAWN, NOTHING_SELECTED
+
+WAIT_MS = 20_000
+PLATE = ("rectangle 0,0 80,50", "rectangle 25,15 55,35", "circle 12,25 3", "circle 68,25 3")
+
+
+@pytest.fixture
+def plate(wiring):
+    """A plate with an inner rectangle and two holes of 6 mm."""
+    for line in PLATE:
+        wiring.document.run(line)
+    return wiring
+
+
+def proposed(qtbot, wiring, command="propose"):
+    with qtbot.waitSignal(wiring.proposal_controller.worker.done, timeout=WAIT_MS):
+        wiring.window_.actions_[command].trigger()
+    return wiring.document.job
+
+
+def test_a_plate_comes_out_right_at_the_first_compute(qtbot, plate):
+    job = proposed(qtbot, plate)
+    kinds = [type(each) for each in job.operations]
+    assert kinds[0] is DrillOperation
+    assert PocketOperation in kinds
+    assert isinstance(job.operations[-1], ContourOperation)
+    assert job.operations[-1].side is Side.OUTSIDE
+    notes = [line for line in plate.log.lines if line.command.startswith("propose ")]
+    assert len(notes) == len(kinds)
+    assert "2 holes of 6 mm" in notes[0].reply
+    plate.window_.notice.buttons[0].click()
+    qtbot.waitUntil(lambda: plate.computation.state is not ComputationState.RUNNING, timeout=WAIT_MS)
+    assert plate.computation.state is ComputationState.CURRENT, plate.computation.error
+    assert [each.text for each in plate.computation.made.findings if each.counts] == []
+
+
+def test_one_undo_brings_back_operations_tools_and_stock(qtbot, plate):
+    before = plate.document.job
+    assert proposed(qtbot, plate) != before
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == before
+
+
+def test_as_in_1986_gives_back_the_rule_that_a_job_begins_with(qtbot, plate):
+    before = plate.document.job
+    proposed(qtbot, plate)
+    after = proposed(qtbot, plate, "propose_1986")
+    assert (after.operations, after.tools) == (before.operations, before.tools)
+
+
+def test_nothing_drawn_is_said(wiring):
+    wiring.window_.actions_["propose"].trigger()
+    assert not wiring.proposal_controller.worker.busy
+    assert wiring.window_.status.message.toolTip() == NOTHING_DRAWN
+
+
+def test_an_opened_drawing_offers_a_proposal_and_keeps_its_operations(qtbot, wiring, tmp_path):
+    path = tmp_path / "plate.draw"
+    path.write_text("\n".join(PLATE) + "\n")
+    before = wiring.document.job.operations
+    with qtbot.waitSignal(wiring.files.open_controller.opened, timeout=WAIT_MS):
+        wiring.files.open_file(path)
+    notice = wiring.window_.notice
+    assert notice.isVisible()
+    assert [each.text() for each in notice.buttons] == ["Propose operations"]
+    assert wiring.document.job.operations == before
+    with qtbot.waitSignal(wiring.proposal_controller.worker.done, timeout=WAIT_MS):
+        notice.buttons[0].click()
+    assert isinstance(wiring.document.job.operations[0], DrillOperation)
+
+
+def test_the_plus_menu_of_the_operations_proposes(qtbot, plate):
+    entries = {each.text(): each for each in plate.window_.panel.operations.menu.actions()}
+    with qtbot.waitSignal(plate.proposal_controller.worker.done, timeout=WAIT_MS):
+        entries["Propose operations"].trigger()
+    assert isinstance(plate.document.job.operations[0], DrillOperation)
+
+
+def machined(qtbot, wiring, way, *numbers):
+    wiring.document.select(numbers)
+    with qtbot.waitSignal(wiring.proposal_controller.worker.done, timeout=WAIT_MS):
+        wiring.window_.actions_[f"machine_{way}"].trigger()
+    return wiring.document.job
+
+
+@pytest.fixture
+def numbers(plate):
+    """Numbers of the curves: outline, inner rectangle, holes."""
+    ids = [entity.id for entity in plate.document.part.entities]
+    assert len(ids) == 10
+    return ids[:4], ids[4:8], ids[8:]
+
+
+WAYS = {
+    "pocket": (PocketOperation, None, 1),
+    "outside": (ContourOperation, Side.OUTSIDE, 0),
+    "inside": (ContourOperation, Side.INSIDE, 1),
+    "on": (ContourOperation, Side.ON, 1),
+    "drill": (DrillOperation, None, 2),
+    "engrave": (ContourOperation, Side.ON, 1),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_selection_becomes_an_operation_of_its_own_curves(qtbot, plate, numbers, way):
+    kind, side, which = WAYS[way]
+    before = plate.document.job
+    job = machined(qtbot, plate, way, *numbers[which])
+    shown = plate.window_.panel.subject
+    new = job.operations[shown.key]
+    assert isinstance(new, kind)
+    assert side is None or new.side is side
+    wanted = numbers[which] if way == "drill" else numbers[which][:1]
+    assert [each.text for each in new.cut.curves] == [f"#{number}" for number in wanted]
+    assert len(job.operations) == len(before.operations) + 1
+    assert job.tool(new.cut.tool) in job.tools
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == before
+
+
+def test_saying_what_each_curve_is_makes_a_plate_that_is_right_at_once(qtbot, plate, numbers):
+    outline, inner, holes = numbers
+    machined(qtbot, plate, "outside", *outline)
+    plate.window_.notice.buttons[0].click()
+    machined(qtbot, plate, "pocket", *inner)
+    plate.document.select(holes)
+    job = machined(qtbot, plate, "drill", *holes)
+    on = [each for each in job.operations if each.cut.enabled]
+    assert [type(each) for each in on] == [DrillOperation, PocketOperation, ContourOperation]
+    plate.compute()
+    qtbot.waitUntil(lambda: plate.computation.state is not ComputationState.RUNNING, timeout=WAIT_MS)
+    assert plate.computation.state is ComputationState.CURRENT, plate.computation.error
+    assert [each.kind for each in plate.computation.made.findings if each.counts] == []
+
+
+def test_an_empty_selection_is_said(plate):
+    plate.document.select(())
+    before = plate.document.job
+    plate.window_.actions_["machine_pocket"].trigger()
+    assert not plate.proposal_controller.worker.busy
+    assert plate.document.job == before
+    assert plate.window_.status.message.toolTip() == NOTHING_SELECTED
+
+
+def test_what_is_no_circle_is_not_drilled(qtbot, plate, numbers):
+    plate.document.select(numbers[1])
+    with qtbot.waitSignal(plate.proposal_controller.worker.failed, timeout=WAIT_MS):
+        plate.window_.actions_["machine_drill"].trigger()
+    assert "no circle" in plate.window_.notice.text.text()
+
+
+def test_the_menu_at_the_mouse_offers_it_for_a_selection_alone(plate, numbers):
+    menu = plate.context_menu
+    plate.document.select(())
+    assert "Machine this" not in [each.text() for each in menu.made(None).actions()]
+    plate.document.select(numbers[1])
+    made = menu.made(None)
+    (sub,) = [each.menu() for each in made.actions() if each.text() == "Machine this"]
+    assert [each.objectName() for each in sub.actions()] == [f"machine_{way}" for way in WAYS]
+
+
+def test_the_curves_of_the_chosen_operation_are_marked(qtbot, plate, numbers):
+    panel, canvas = plate.window_.panel, plate.window_.canvas
+    machined(qtbot, plate, "pocket", *numbers[1])
+    qtbot.waitUntil(lambda: not canvas.owned.isEmpty(), timeout=WAIT_MS)
+    box = canvas.owned.boundingRect()
+    assert (box.left(), box.top(), box.right(), box.bottom()) == (25, 15, 55, 35)
+    panel.choose(Subject(SubjectKind.OPERATION, 0 if panel.subject.key else 1))
+    assert canvas.owned.isEmpty(), "one that machines all marks none"
+
+
+def test_an_operation_takes_the_selected_curves_in_one_step(qtbot, plate, numbers):
+    panel, canvas = plate.window_.panel, plate.window_.canvas
+    panel.choose(Subject(SubjectKind.OPERATION, 0))
+    before = plate.document.job
+    plate.document.select(numbers[2])
+    with qtbot.waitSignal(plate.proposal_controller.worker.done, timeout=WAIT_MS):
+        panel.operation_form.use.click()
+    own = plate.document.job.operations[0].cut.curves
+    assert [each.text for each in own] == [f"#{number}" for number in numbers[2]]
+    qtbot.waitUntil(lambda: canvas.owned.boundingRect().right() == pytest.approx(71), timeout=WAIT_MS)
+    plate.window_.actions_["undo"].trigger()
+    assert plate.document.job == before
+    assert canvas.owned.isEmpty()
+
+
+def test_an_operation_takes_nothing_from_an_empty_selection(plate):
+    plate.window_.panel.choose(Subject(SubjectKind.OPERATION, 0))
+    plate.document.select(())
+    before = plate.document.job
+    plate.window_.panel.operation_form.use.click()
+    assert plate.document.job == before
+    assert plate.window_.status.message.toolTip() == NOTHING_SELECTED
+
+
+def test_circles_that_drills_make_are_not_marked_as_a_pocket(qtbot, plate):
+    job = proposed(qtbot, plate)
+    panel, canvas = plate.window_.panel, plate.window_.canvas
+    (pocket,) = [k for k, each in enumerate(job.operations) if each.COARSE]
+    panel.choose(Subject(SubjectKind.OPERATION, pocket))
+    qtbot.waitUntil(lambda: canvas.owned.boundingRect().left() == 25, timeout=WAIT_MS)
+    panel.choose(Subject(SubjectKind.OPERATION, 0))
+    qtbot.waitUntil(lambda: canvas.owned.boundingRect().left() == pytest.approx(9), timeout=WAIT_MS)
