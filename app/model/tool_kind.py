@@ -66,6 +66,8 @@ class ToolKind(Keyword):
         square: whether its lower edge is sharp, so that walls and floor come out as drawn.
         drills: whether it only goes straight down.
         assumed_angle: full angle of its point where nobody tells it, radians; 0 = it must be told.
+        usual_angle: full angle, radians, that a tool gets which becomes one of these and has none; 0 = it needs none.
+        short_title: its name for people where there is little room; "" = the title.
         aliases: other words for it in spreadsheets.
     """
 
@@ -79,6 +81,8 @@ class ToolKind(Keyword):
     square: bool = False
     drills: bool = False
     assumed_angle: float = 0.0
+    usual_angle: float = 0.0
+    short_title: str = ""
     aliases: tuple[str, ...] = ()
 
     FLAT: ClassVar[ToolKind]
@@ -97,6 +101,11 @@ class ToolKind(Keyword):
     def conical(self) -> bool:
         """Whether it has a cone, so that its angle gives it its shape."""
         return "tip_angle" in self.keys
+
+    @property
+    def needs_tip(self) -> bool:
+        """Whether the diameter of its tip is part of what makes it one of these; else 0 will do."""
+        return "tip_diameter" in self.given
 
     def spelled(self, diameter: str = "D") -> str:
         """Return how an option tells such a tool: "bull:D:CORNER"; with all that may be left out."""
@@ -155,7 +164,13 @@ ToolKind.FLAT = register(
     )
 )
 ToolKind.BALL = register(
-    ToolKind("ball", "Ball end mill", lambda shape: ToolProfile(0.0, shape.radius), aliases=("ball-nose", "ballnose"))
+    ToolKind(
+        "ball",
+        "Ball end mill",
+        lambda shape: ToolProfile(0.0, shape.radius),
+        short_title="Ball",
+        aliases=("ball-nose", "ballnose"),
+    )
 )
 ToolKind.BULL = register(
     ToolKind(
@@ -165,6 +180,7 @@ ToolKind.BULL = register(
         keys=frozenset({"corner_radius"}),
         given=("diameter", "corner_radius"),
         level=True,
+        short_title="Bull-nose",
         aliases=("bull-nose", "bullnose"),
     )
 )
@@ -175,6 +191,8 @@ ToolKind.V = register(
         lambda shape: ToolProfile(shape.tip_radius, 0.0, shape.cone),
         keys=frozenset({"tip_angle", "tip_diameter"}),
         given=("diameter", "tip_angle"),
+        usual_angle=math.radians(90.0),
+        short_title="V",
         aliases=("v-bit",),
     )
 )
@@ -188,6 +206,7 @@ ToolKind.DRILL = register(
         omissible=1,
         drills=True,
         assumed_angle=math.radians(118.0),  # the trade's usual grind
+        usual_angle=math.radians(118.0),
     )
 )
 ToolKind.TAPER = register(
@@ -197,5 +216,7 @@ ToolKind.TAPER = register(
         lambda shape: ToolProfile(0.0, shape.tip_radius, shape.cone),
         keys=frozenset({"tip_angle", "tip_diameter"}),
         given=("tip_diameter", "tip_angle", "diameter"),
+        usual_angle=math.radians(10.0),
+        short_title="Tapered ball",
     )
 )

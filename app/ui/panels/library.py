@@ -20,7 +20,7 @@ from ..framework.labels import Elided, muted
 from ..framework.section import ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
 from .changes import for_material, row_for
-from .tool_kinds import KINDS, icon_of, use_of
+from .tool_kinds import icon_of, listed_kinds, use_of
 
 LEAST_ROWS, MOST_ROWS = 4, 14
 ROW_PX = 28
@@ -31,7 +31,7 @@ def matches(tool: Tool, text: str) -> bool:
     """Tell whether every word of a search stands in a tool's name, kind or remark, or is its diameter; numbers are
     whole ones there.
     """
-    about = f"{tool.label} {KINDS[tool.kind]} {tool.remark}".casefold()
+    about = f"{tool.label} {tool.kind.title} {tool.remark}".casefold()
     size = f"{tool.diameter:g}"
     return all(
         word in (size, f"{size}mm") or word in (about.split() if word[0].isdigit() else about)
@@ -178,7 +178,8 @@ class LibrarySection(PanelSection):
             row.hide()
             row.deleteLater()
         found = [tool for library in self._libraries for tool in library.tools if matches(tool, self.search.text())]
-        found.sort(key=lambda tool: (list(KINDS).index(tool.kind), tool.diameter))
+        order = listed_kinds()
+        found.sort(key=lambda tool: (order.index(tool.kind), tool.diameter))
         self._rows = [(tool, self._row(tool)) for tool in found]
         for at, (_, row) in enumerate(self._rows):
             self._column.insertWidget(at, row)
@@ -196,7 +197,7 @@ class LibrarySection(PanelSection):
             muted(f"{grouped(shown.spindle_speed, 0)} rpm"),
             stretch_after=1,
         )
-        row.setToolTip(f"{KINDS[tool.kind]}. Enter: add to the job")
+        row.setToolTip(f"{tool.kind.title}. Enter: add to the job")
         row.clicked.connect(lambda: self.choose(tool))
         row.stepped.connect(lambda way: self._step(tool, way))
         row.installEventFilter(self)
@@ -251,7 +252,7 @@ def _about(tool: Tool, row: FeedRow | None) -> str:
     feeds = f"F {grouped(tool.feed_rate, 0)}, down {grouped(tool.plunge_rate, 0)} mm/min"
     chip = f", {row.feed_per_tooth:g} a tooth" if row is not None else ""
     lines = [
-        ", ".join([KINDS[tool.kind], counted(tool.flutes, "flute"), *shape]),
+        ", ".join([tool.kind.title, counted(tool.flutes, "flute"), *shape]),
         ", ".join(lengths),
         feeds + chip,
         use_of(tool.kind),

@@ -17,7 +17,7 @@ from ..framework.samples import LineSample, Switch, sample_of
 from ..framework.section import ListRow, PanelSection, theme_children
 from ..framework.theme import Theme
 from .changes import Subject, SubjectKind, operation_name, refusal
-from .tool_kinds import KINDS, icon_of
+from .tool_kinds import icon_of
 
 
 def _bold(text: str) -> QLabel:
@@ -162,7 +162,7 @@ class ToolSection(ListSection):
             number.setMinimumWidth(24)
             speed = muted(f"{grouped(tool.spindle_speed, 0)} rpm")
             row = ListRow(IconLabel(icon_of(tool.kind)), number, Elided(tool.label), speed, stretch_after=2)
-            row.setToolTip(KINDS[tool.kind])
+            row.setToolTip(tool.kind.title)
             self.add_row(Subject(SubjectKind.TOOL, tool.number), row)
 
 

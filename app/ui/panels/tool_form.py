@@ -15,7 +15,7 @@ from ..framework.fields import ListField, NumberField, NumberSpec
 from ..framework.form import FormSection
 from .changes import for_material, material_of, with_tool
 from .tool_assembly_group import ToolAssemblyGroup
-from .tool_kinds import KINDS, USUAL_ANGLES
+from .tool_kinds import listed_kinds
 
 
 class ToolForm(FormSection):
@@ -27,7 +27,7 @@ class ToolForm(FormSection):
         self.number = self._add(
             NumberSpec("T number", "", 1, 9999, 0, False), lambda tool, v: replace(tool, number=int(v))
         )
-        self.kind = ListField("Kind", list(KINDS.items()))
+        self.kind = ListField("Kind", [(kind, kind.title) for kind in listed_kinds()])
         self.add_choice("Kind", self.kind, lambda job, v: self._edit(job, lambda tool: _as_kind(tool, tool_kind(v))))
         self.diameter = self._add(
             NumberSpec("Diameter", low=0.001, high=1000), lambda tool, v: replace(tool, diameter=v)
@@ -102,7 +102,7 @@ class ToolForm(FormSection):
 def _as_kind(tool: Tool, kind: ToolKind) -> Tool:
     """Return the tool with another end; a point or a cone has the usual angle where the tool had none."""
     made = tool.as_kind(kind)
-    return replace(made, tip_angle=made.tip_angle or USUAL_ANGLES.get(kind, 0.0))
+    return replace(made, tip_angle=made.tip_angle or kind.usual_angle)
 
 
 def chip_load_words(tool: Tool) -> str:

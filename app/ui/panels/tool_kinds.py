@@ -1,40 +1,43 @@
-"""What the window calls each kind of tool, its icon, and what it is for."""
+"""How the window lists the registered kinds of tools: in which order, with which icon, and what each is for."""
 
 from __future__ import annotations
 
-import math
+from contextlib import suppress
 
-from ...model.tool import ToolKind
+from ...core.resources import resource
+from ...model.tool_kind import ToolKind, ToolShape, tool_kinds
 
-KINDS: dict[ToolKind, str] = {
-    ToolKind.FLAT: "Flat end mill",
-    ToolKind.BULL: "Bull-nose mill",
-    ToolKind.BALL: "Ball end mill",
-    ToolKind.TAPER: "Tapered ball mill",
-    ToolKind.V: "V cutter",
-    ToolKind.DRILL: "Drill",
-}
-"""In the order in which they are listed."""
+_SAMPLE = ToolShape(radius=3.0, corner_radius=1.0, tip_radius=1.0, half_angle=0.5)
+"""A cutter with every number that a kind may have, mm and radians: its profile tells whether the end is rounded."""
 
-USUAL_ANGLES: dict[ToolKind, float] = {
-    ToolKind.V: math.radians(90),
-    ToolKind.DRILL: math.radians(118),
-    ToolKind.TAPER: math.radians(10),
-}
-"""Full angles of the point or cone, radians, that a tool gets which becomes one of these kinds."""
+
+def listed_kinds() -> tuple[ToolKind, ...]:
+    """Return all kinds in the order of lists: end mills from sharp to round, then cones, then drills."""
+    return tuple(sorted(tool_kinds(), key=_rank))
+
+
+def _rank(kind: ToolKind) -> tuple[bool, ...]:
+    rounded = kind.profile(_SAMPLE).fillet > 0
+    return kind.drills, kind.conical, not kind.square, not kind.level, not rounded
 
 
 def icon_of(kind: ToolKind) -> str:
-    """Return the name of a kind's icon."""
-    return f"cutter-{kind.value}"
+    """Return the name of a kind's icon; one that has none of its own is shown by that of the kind most like it."""
+    with suppress(FileNotFoundError):
+        return resource("icons", f"cutter-{kind.value}.svg").stem
+    if kind.drills:
+        like = ToolKind.DRILL
+    elif kind.conical:
+        like = ToolKind.TAPER if kind.profile(_SAMPLE).fillet > 0 else ToolKind.V
+    elif kind.level:
+        like = ToolKind.FLAT if kind.square else ToolKind.BULL
+    else:
+        like = ToolKind.BALL
+    return f"cutter-{like.value}"
 
 
 def use_of(kind: ToolKind) -> str:
-    """Return what operations take a kind of tool for; "" of flat ones, which mill everything."""
-    if kind is ToolKind.FLAT:
-        return ""
-    return (
-        "For drill operations."
-        if kind is ToolKind.DRILL
-        else "For paths on the line; along walls it is led as a flat one."
-    )
+    """Return what operations take a kind of tool for; "" of those that mill everything."""
+    if kind.drills:
+        return "For drill operations."
+    return "" if kind.square else "For paths on the line; along walls it is led as a flat one."

@@ -14,12 +14,11 @@ from app.model.job import Job
 from app.model.operation import CutParameters, DrillOperation
 from app.model.part import Part, Units
 from app.model.tool import FeedRow, Tool, ToolKind, shape_keys
-from app.model.tool_kind import tool_kinds
 from app.simulation.cutter import cutter_of
 from app.ui.framework.icons import IconLabel
 from app.ui.panels.changes import Subject, SubjectKind, for_material, material_of
 from app.ui.panels.side_panel import SidePanel
-from app.ui.panels.tool_kinds import KINDS, USUAL_ANGLES, icon_of, use_of
+from app.ui.panels.tool_kinds import icon_of, listed_kinds, use_of
 from app.ui.shell.tool_exchange import ToolExchange
 
 
@@ -56,13 +55,13 @@ def test_it_opens_in_the_place_of_the_properties_and_closes_again(panel):
 
 def test_the_list_holds_every_kind_with_its_icon_and_words(qtbot, panel):
     library = panel.library
-    assert [kind for kind, _ in groupby(tool.kind for tool in library.shown)] == list(KINDS), "kind by kind"
-    assert set(KINDS) == set(tool_kinds())
+    assert [kind for kind, _ in groupby(tool.kind for tool in library.shown)] == list(listed_kinds()), "kind by kind"
+    assert [kind.value for kind in listed_kinds()] == ["flat", "bull", "ball", "taper", "v", "drill"]
     for _, kind in groupby(library.shown, lambda tool: tool.kind):
         diameters = [tool.diameter for tool in kind]
         assert diameters == sorted(diameters)
     for tool, row in library._rows:
-        assert row.toolTip() == f"{KINDS[tool.kind]}. Enter: add to the job"
+        assert row.toolTip() == f"{tool.kind.title}. Enter: add to the job"
         assert row.findChild(IconLabel).name == icon_of(tool.kind)
         assert resource("icons", f"{icon_of(tool.kind)}.svg").is_file()
     search(qtbot, panel, "no such tool")
@@ -244,14 +243,14 @@ def test_the_jobs_tools_are_exported(tmp_path, exchange, workspace, name, units)
     assert "tools are read and written as .toml, .csv, .tbl" in workspace.notice.text.text()
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", listed_kinds())
 def test_every_kind_has_its_fields_and_can_be_cut_with(document, panel, kind):
     panel.switch_library()
     panel.choose(Subject(SubjectKind.TOOL, 2))
     form = panel.tool_form
-    form.kind.box.activated.emit(list(KINDS).index(kind))
+    form.kind.box.activated.emit(listed_kinds().index(kind))
     tool = document.job.tools[1]
-    assert (tool.kind, tool.tip_angle) == (kind, USUAL_ANGLES.get(kind, 0.0))
+    assert (tool.kind, tool.tip_angle) == (kind, kind.usual_angle)
     shown = {
         name
         for name, field in (("corner_radius", form.corner), ("tip_angle", form.angle), ("tip_diameter", form.tip))

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QScrollArea, QVB
 
 from ....core.errors import HitofudeError
 from ....model.tool import Tool, ToolKind, shape_keys
-from ....model.tool_kind import tool_kind
+from ....model.tool_kind import tool_kind, tool_kinds
 from ...framework.fields import ListField, NumberField, NumberSpec
 from ...framework.labels import Elided, muted
 from ...framework.samples import Switch
@@ -23,14 +23,6 @@ from ...panels.side_panel import WIDTH
 from .foreign_program import MissingSetup
 from .user_setup import Box, UserSetup
 
-_KINDS = {
-    ToolKind.FLAT: "Flat end mill",
-    ToolKind.BALL: "Ball",
-    ToolKind.BULL: "Bull-nose",
-    ToolKind.V: "V",
-    ToolKind.DRILL: "Drill",
-    ToolKind.TAPER: "Tapered ball",
-}
 _ANGLE, _FAR = np.radians(60.0), 100_000.0
 _AXES = ("X from", "Y from", "Z from", "X to", "Y to", "Z to")
 
@@ -41,7 +33,7 @@ class ToolFields(PanelSection):
     def __init__(self, number: int, tool: Tool) -> None:
         super().__init__(f"T{number}" if number else "The tool")
         self.tool = tool
-        self.kind = ListField("Kind", list(_KINDS.items()))
+        self.kind = ListField("Kind", [(kind, kind.short_title or kind.title) for kind in tool_kinds()])
         self.kind.chosen.connect(lambda kind: self._change(lambda tool: as_kind(tool, tool_kind(kind))))
         self.add_indented(self.kind)
         self.fields = {
@@ -88,11 +80,10 @@ class ToolFields(PanelSection):
 
 def as_kind(tool: Tool, kind: ToolKind) -> Tool:
     """Return a tool of another kind; what its shape needs and nobody has said is what is usual."""
-    tip = tool.diameter / 4 if kind is ToolKind.TAPER else 0.0
     usual = {
         "corner_radius": tool.diameter / 8,
-        "tip_angle": _ANGLE if kind is not ToolKind.DRILL else 0.0,
-        "tip_diameter": tip,
+        "tip_angle": 0.0 if kind.drills else _ANGLE,
+        "tip_diameter": tool.diameter / 4 if kind.needs_tip else 0.0,
     }
     made = tool.as_kind(kind)
     missing = {key: usual[key] for key in shape_keys(kind) if not getattr(made, key) and usual[key]}

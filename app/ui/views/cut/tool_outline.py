@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
 
-from ....model.tool import Tool, ToolKind
+from ....model.tool import Tool
 from .camera import Floats
 
 
@@ -20,10 +20,7 @@ class ToolPart(IntEnum):
     HOLDER = 2
 
 
-USUAL_ANGLE = {ToolKind.DRILL: math.radians(118.0), ToolKind.V: math.radians(90.0), ToolKind.TAPER: math.radians(10.0)}
-"""Full angle of a point or a cone that nobody tells: the trade's usual ones."""
-
-_FLUTES, _MOST_OF_LENGTH, _CONES = 3.0, 0.6, (ToolKind.V, ToolKind.TAPER)
+_FLUTES, _MOST_OF_LENGTH = 3.0, 0.6
 """Flutes that nobody tells the length of: so many diameters, and not more than this share of a length that is known; a
 cone's are as long as it is.
 """
@@ -94,7 +91,8 @@ def outline_of(tool: Tool) -> ToolOutline:
     """
     profile, shank = profile_of(tool), tool.shank_diameter / 2 or tool.radius
     shoulder, known = float(profile[-1, 0]), tool.stick_out or tool.overall_length
-    usual = 0.0 if tool.kind in _CONES else min(_FLUTES * tool.diameter, _MOST_OF_LENGTH * known if known else math.inf)
+    tapers = tool.kind.conical and not tool.kind.drills
+    usual = 0.0 if tapers else min(_FLUTES * tool.diameter, _MOST_OF_LENGTH * known if known else math.inf)
     flutes = tool.flute_length or max(usual, shoulder)
     neck = max(flutes, shoulder)
     if tool.holder:
@@ -121,19 +119,17 @@ def outline_of(tool: Tool) -> ToolOutline:
 def profile_of(tool: Tool) -> Floats:
     """Return (n, 2) height over the tip and radius of the cutter's end, mm, from the axis to where it is as wide as the
     tool.
+
+    It is the profile by which the kind is cut with; a cone whose angle nobody tells has the kind's usual one.
     """
-    radius = tool.radius
-    if tool.kind is ToolKind.FLAT:
-        return np.array([[0.0, 0.0], [0.0, radius]])
-    if tool.kind in (ToolKind.BALL, ToolKind.BULL):
-        corner = radius if tool.kind is ToolKind.BALL else tool.corner_radius
-        return _without_doubles(np.vstack([[0.0, 0.0], _rounding(radius - corner, corner, math.pi / 2)]))
-    half = (tool.tip_angle or USUAL_ANGLE[tool.kind]) / 2
-    fillet = tool.tip_diameter / 2 if tool.kind is ToolKind.TAPER else 0.0
-    flat = 0.0 if tool.kind is ToolKind.TAPER else tool.tip_diameter / 2
-    end = _rounding(flat, fillet, math.pi / 2 - half)
-    rise = (radius - end[-1, 1]) / math.tan(half)
-    return _without_doubles(np.vstack([[0.0, 0.0], end, [end[-1, 0] + rise, radius]]))
+    shape = tool.shape
+    if tool.kind.conical and not shape.half_angle:
+        shape = replace(shape, half_angle=tool.kind.usual_angle / 2)
+    profile = tool.kind.profile(shape)
+    turn = math.pi / 2 - (math.atan(1.0 / profile.cone) if profile.cone else 0.0)
+    end = _rounding(profile.flat, profile.fillet, turn)
+    rise = (tool.radius - end[-1, 1]) * profile.cone
+    return _without_doubles(np.vstack([[0.0, 0.0], end, [end[-1, 0] + rise, tool.radius]]))
 
 
 def _rounding(flat: float, radius: float, turn: float) -> Floats:

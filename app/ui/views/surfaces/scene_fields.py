@@ -12,8 +12,8 @@ from ....formats.job.toml import ORIGIN_XY, ORIGIN_Z
 from ....formats.job.write import word_of
 from ....model.scene import LineType, Passes, Scene, Strategy, Surface
 from ....model.scene_shapes import ProfileOrientation, Shape
-from ....model.tool import LEAST_RATE, Tool, ToolKind, shape_keys
-from ....model.tool_kind import tool_kind
+from ....model.tool import LEAST_RATE, Tool, shape_keys
+from ....model.tool_kind import tool_kind, tool_kinds
 
 Place = tuple[str | int, ...]
 Choices = tuple[tuple[object, str], ...]
@@ -101,13 +101,6 @@ _LINES: Choices = (
 )
 _KEEP: Choices = ((ProfileOrientation.PARALLEL, "Parallel"), (ProfileOrientation.FOLLOW, "Follows"))
 _STRATEGIES: Choices = ((Strategy.ZIGZAG, "Zigzag"), (Strategy.ONE_WAY, "One way"))
-_TOOLS: Choices = (
-    ("ball", "Ball end mill"),
-    ("flat", "Flat end mill"),
-    ("bull", "Bull-nose mill"),
-    ("v", "V cutter"),
-    ("taper", "Tapered ball mill"),
-)
 _ORIGINS: Choices = (("drawing", "Scene"), ("lower-left", "Lower left"), ("centre", "Centre"))
 _HEIGHTS: Choices = ((None, "Scene"), ("top", "Top"), ("bottom", "Bottom"))
 
@@ -201,9 +194,7 @@ def curve_texts(shape: Shape) -> str:
 
 def passes_fields(passes: Passes, scene: Scene) -> tuple[SceneField, ...]:
     """Return what is asked of a family of passes."""
-    tools = tuple(
-        (tool.number, f"T{tool.number} {tool.label}") for tool in scene.tools if tool.kind is not ToolKind.DRILL
-    )
+    tools = tuple((tool.number, f"T{tool.number} {tool.label}") for tool in scene.tools if not tool.kind.drills)
     by_pitch, apart = passes.pitch is not None, passes.pitch if passes.pitch is not None else passes.scallop
 
     def other(name: object) -> Mapping[Place, object]:
@@ -305,18 +296,24 @@ def _rate(name: str, key: str, value: float | None, unit: str) -> SceneField:
     return SceneField(SceneFieldKind.NUMBER, name, (key,), value, unit, low=LEAST_RATE, decimals=0, auto="tool's")
 
 
+def _tool_choices() -> Choices:
+    """Return the kinds that machine surfaces, round ends first: what a drill leaves is a hole."""
+    kinds = sorted((kind for kind in tool_kinds() if not kind.drills), key=lambda kind: (kind.conical, kind.level))
+    return tuple((kind.value, kind.title) for kind in kinds)
+
+
 def tool_fields(tool: Tool) -> tuple[SceneField, ...]:
     """Return what is asked of a tool."""
     keys = shape_keys(tool.kind)
 
-    def as_kind(kind: object) -> Mapping[Place, object]:
-        wanted = shape_keys(tool_kind(kind))
-        fresh = {
+    def as_kind(word: object) -> Mapping[Place, object]:
+        kind = tool_kind(word)
+        usual = {
             "corner_radius": tool.diameter / 8,
-            "tip_angle": 90.0 if kind == "v" else 10.0,
-            "tip_diameter": 0.0 if kind == "v" else tool.diameter / 4,
+            "tip_angle": round(math.degrees(kind.usual_angle), 6),
+            "tip_diameter": tool.diameter / 4 if kind.needs_tip else 0.0,
         }
-        return {("kind",): kind, **{(key,): fresh[key] if key in wanted else None for key in fresh}}
+        return {("kind",): word, **{(key,): usual[key] if key in shape_keys(kind) else None for key in usual}}
 
     shape = {
         "corner_radius": SceneField(
@@ -345,7 +342,7 @@ def tool_fields(tool: Tool) -> tuple[SceneField, ...]:
     }
     return (
         SceneField(SceneFieldKind.NUMBER, "T number", ("number",), tool.number, "", 1, 9999, 0),
-        SceneField(SceneFieldKind.LIST, "Kind", ("kind",), tool.kind.value, choices=_TOOLS, edits=as_kind),
+        SceneField(SceneFieldKind.LIST, "Kind", ("kind",), tool.kind.value, choices=_tool_choices(), edits=as_kind),
         SceneField(SceneFieldKind.NUMBER, "Diameter", ("diameter",), tool.diameter, low=0.001, high=1000),
         *(ask for key, ask in shape.items() if key in keys),
         SceneField(SceneFieldKind.NUMBER, "Speed", ("spindle_speed",), tool.spindle_speed, "rpm", 1, 200_000, 0),
