@@ -62,7 +62,8 @@ def _cover_false_holes(
     """
     d = abs(distance)
     nearest = d * (1 - _NEARER) - 2 * d * (1 - math.cos(math.pi / 4 / quad_segs))
-    lines = np.asarray(shapely.boundary(shapes) if distance < 0 else shapes, dtype=object)
+    # shapes of one's own: to prepare what other threads look at as well is no good
+    lines = np.asarray(shapely.boundary(shapes) if distance < 0 else shapely.reverse(shapes), dtype=object)
     parts, owner = shapely.get_parts(found, return_index=True)
     rings, part = shapely.get_rings(parts, return_index=True)
     if len(rings) == 0:
@@ -96,6 +97,14 @@ def _guarded(shapes: NDArray[np.object_], distance: float) -> NDArray[np.object_
     kinds = shapely.get_type_id(shapes)
     if not (np.isin(kinds, _AREAS).all() or np.isin(kinds, _LINES).all()):
         return shapes
+    parts, owner = shapely.get_parts(shapes, return_index=True)
+    full = np.bincount(owner, minlength=len(shapes)) > 0
+    full[owner[shapely.is_empty(parts)]] = False  # shapely breaks down when it makes parts that are empty
+    if not full.all():
+        guarded = shapes.copy()
+        if full.any():
+            guarded[full] = _guarded(shapes[full], distance)
+        return guarded
     kind, points, offsets = shapely.to_ragged_array(shapes, include_z=False)
     first, second = _beside_short(points, offsets[0], _GUARD * distance)
     if not (first.any() or second.any()):

@@ -72,6 +72,14 @@ def test_shapes_of_all_kinds_keep_their_kind_and_number() -> None:
     assert buffered(shapely.Polygon(), 1.0, 8).is_empty  # type: ignore[union-attr]
 
 
+def test_empty_shapes_stay_empty_among_others() -> None:
+    steep = shapely.Polygon([(71, 60), (71, 48.58), (71.025, 48.574), (90, 40)])
+    shapes = np.array([shapely.Polygon(), steep, shapely.MultiPolygon([steep, shapely.box(0, 0, 9, 9)])], dtype=object)
+    found = buffered(shapes, -0.5, CHORDS)
+    assert isinstance(found, np.ndarray)
+    assert shapely.is_empty(found).tolist() == [True, False, False]
+
+
 def test_a_hole_that_geos_leaves_in_a_tight_turn_is_none() -> None:
     rng = np.random.default_rng(5)
     line = [random_line(rng) for _ in range(66)][65]
