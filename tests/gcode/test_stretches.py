@@ -20,12 +20,18 @@ def found(text: str) -> FoundStretches:
 
 @pytest.mark.parametrize("line", ["X2", "x2.", "X+2.0 Y0", "N7 G1 X2", "g01x2", "X 2", "\t G1 X2 F100", "X2\n\n"])
 def test_a_line_that_says_where_to_go_is_in_a_stretch(line: str) -> None:
-    """All of these end at X 2; a feed begins a stretch."""
+    """All of these end at X 2."""
     made = found(f"{HEAD}G1 X1 F100\n{line}\nX3\nM2\n").stretches
     assert len(made) == 1
     assert made[0].last_line == 5 + line.count("\n")
     assert made[0].points[-1].tolist() == [3, 0, 0]
     assert made[0].feed == "100"
+
+
+def test_a_feed_that_is_said_again_ends_no_stretch_and_another_one_does() -> None:
+    made = found(f"{HEAD}G1 X1 F100\nX2 F100.0\nG1 X3 F100\nX4 F50\nX5 F50\nM2\n").stretches
+    assert [(each.first_line, each.last_line, each.feed) for each in made] == [(3, 5, "100"), (6, 7, "50")]
+    assert len(found(f"{HEAD}F100\nG1 X1\nX2 F100\nX3 F100\nM2\n").stretches) == 1
 
 
 @pytest.mark.parametrize("line", ["X2 (a)", "G1 X2 M8", "X[1+1]", "X2 ; b"])

@@ -46,7 +46,7 @@ class FeedStretch:
         first, stop: rows of the program's motions, `stop` excluded.
         points: (stop - first + 1, 3) from its start on, mm from the zero of the table of work offsets.
         first_line, last_line: 1-based lines of the text; between them there are no others but empty ones.
-        feed: text of the F word that one of its lines has, or "".
+        feed: text of the F word that its first line has, or ""; further ones of the same feed say nothing.
         coded: whether its first line says G1 itself.
         resumed: whether the next line that says anything says G0 to G3 itself, so that G1 need not be in force behind
             the stretch.
@@ -88,7 +88,7 @@ def find_stretches(program: NcProgram, text: ProgramBuffer, progress: Progress =
     left = {reason: int(np.sum(reasons == k)) for k, reason in enumerate(SkipReason)}
     free = reasons == _FREE
     on = np.zeros(len(motions), np.bool_)
-    on[1:] = free[1:] & free[:-1] & ~(spoken.feeds[1:, 0] >= 0) & _goes_on(motions, spoken.filled)
+    on[1:] = free[1:] & free[:-1] & _goes_on(motions, spoken.filled)
     first = np.flatnonzero(free & ~on)
     stop = np.append(first[1:], len(motions))
     behind = np.concatenate([[0], np.cumsum(free)])
