@@ -160,7 +160,7 @@ def _prepared_when_shown(wiring: WindowController) -> tuple[object, ...]:
     form = window.panel.operation_form
     return (
         *(views.nc.path, views.curves.path),
-        *(cut, cut.model, cut.render_scheduler, cut.playing, cut.overlay, cut.legend.key, window.cut_panel.histogram),
+        *(cut, cut.model, cut.render_scheduler, cut.playback, cut.overlay, cut.legend.key, window.cut_panel.histogram),
         *(reading.per_inch, reading.only, reading.layers, reading.types),
         *(curves.tolerance, curves.middle, curves.corner, curves.bend, wiring.smoothing_controller),
         *(each.field for each in form.fields.values()),
