@@ -193,37 +193,10 @@ def query_box(order, nodes, boxes, box, found):
     return count
 
 
-@kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
-def nearest(rows, order, nodes, x, y, limit):
-    """Return (distance, row) of the row nearest to a point; (limit, -1) when none is nearer than `limit`."""
-    leaves = (len(nodes) + 1) // 2
-    best, row = limit, -1
-    stack = np.empty(64, np.int64)
-    stack[0], top = 0, 1
-    while top > 0:
-        top -= 1
-        k = stack[top]
-        if box_distance(nodes, k, x, y) >= best:
-            continue
-        if k < leaves - 1:
-            left, right = 2 * k + 1, 2 * k + 2
-            if box_distance(nodes, left, x, y) > box_distance(nodes, right, x, y):
-                left, right = right, left
-            stack[top], stack[top + 1] = right, left
-            top += 2
-            continue
-        first = (k - leaves + 1) * LEAF
-        for place in range(first, min(first + LEAF, len(order))):
-            d = point_distance(rows, order[place], x, y)
-            if d < best:
-                best, row = d, order[place]
-    return best, row
-
-
 @kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64, float64)")
 def nearest_between(rows, order, nodes, x, y, enough, limit):
-    """Return what `nearest` does, but the first row that is found no farther than `enough`: it need not be the
-    nearest.
+    """Return (distance, row) of the row nearest to a point, or of the first one found no farther than `enough`; (limit,
+    -1) when none is nearer than `limit`.
     """
     leaves = (len(nodes) + 1) // 2
     best, row = limit, -1
@@ -358,6 +331,12 @@ def crossings(rows, x, y):
     for j in range(len(rows)):
         count += _crossings(rows, j, x, y)
     return count
+
+
+@kernel("Tuple((float64, int64))(float64[:, ::1], int64[::1], float64[:, ::1], float64, float64, float64)")
+def nearest(rows, order, nodes, x, y, limit):
+    """Return (distance, row) of the row nearest to a point; (limit, -1) when none is nearer than `limit`."""
+    return nearest_between(rows, order, nodes, x, y, -1.0, limit)
 
 
 _TREE = "float64[:, ::1], int64[::1], float64[:, ::1]"
