@@ -179,6 +179,11 @@ class _SmoothingRun:
             )
             self._classes[k] = classes
             points, spent = classes.passed, classes.off
+            if len(points) < 2:  # a closed path that one range holds: only its seam is effective
+                raise InputError(
+                    f"Lines {' to '.join(map(str, self._source.lines(stretch)))} are one facet for this epsilon: only "
+                    "the point where they close is effective. Use a smaller epsilon."
+                )
             if not self._tube.radius > slack + spent:
                 raise InputError(
                     f"Points of lines {' to '.join(map(str, self._source.lines(stretch)))} are up to {spent:.4g} mm "

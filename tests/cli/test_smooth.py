@@ -212,6 +212,27 @@ def test_points_within_facets_are_left_out_or_moved_within_the_tolerance(tmp_pat
     assert np.sum(cut) <= 6 and np.abs(radius - 50).max() < 0.08, "a circle again, and not the polygon"
 
 
+def test_effective_points_go_by_sides_between_corners(tmp_path: Path) -> None:
+    """A rectangle, each side one chord from corner to corner, and then an arc of facets."""
+    sides = "G1 X30 Y0 F600\nX30 Y20\nX0 Y20\nX0 Y0\n"
+    arc = "".join(f"X{-5 * math.sin(a):.4f} Y{5 * math.cos(a) - 5:.4f}\n" for a in np.linspace(0, 3, 61)[1:])
+    options = ["--method", "effective-points", "--epsilon", "0.01", "--tolerance", "0.02"]
+    head = HEAD.replace("G0 X50 Y0", "G0 X0 Y0")
+    text, report = smoothed(tmp_path, head + sides + arc + TAIL, *options)
+    assert report["tolerance"]["proven_mm"] <= 0.02  # type: ignore[index]
+    after = read_program(text.encode()).motions
+    for corner in ((30, 0), (30, 20), (0, 20), (0, 0)):
+        assert np.hypot(*(after.end[:, :2] - corner).T).min() < 1e-3
+
+
+def test_a_ring_that_is_one_facet_has_no_points_to_go_by(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, out = tmp_path / "in.ngc", tmp_path / "out.ngc"
+    source.write_text(HEAD.replace("X50", "X1") + "G1 X1 Y0\n" + ring(60, 1.0) + TAIL)
+    options = ["--method", "effective-points", "--epsilon", "3", "--tolerance", "9", "--corner", "180"]
+    assert main(["smooth", str(source), "-o", str(out), *options]) == 2
+    assert "one facet" in capsys.readouterr().err and not out.exists()
+
+
 def test_for_another_control_every_number_is_in_its_words(tmp_path: Path) -> None:
     """`G0 X50` beside `G3 X-50.` would be 0.050 mm on a Fanuc."""
     source = HEAD + ring() + "G0 Z5\nG4 P1.5\nG83 X20 Y5 Z-3 R1 Q2 F80\nG80\n" + TAIL

@@ -52,7 +52,8 @@ def _goes_on(points: Floats) -> bool:
 
 def _between_corners(points: Floats, closed: bool, fine: float, between: float) -> Floats:
     size = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    beside = np.concatenate([size[:1] if len(size) == 1 else size[1:2], size, size[-2:-1]])
+    alone = len(size) == 1
+    beside = np.concatenate([size[:1] if alone else size[1:2], size, size if alone else size[-2:-1]])
     straight = size > _SIDE * np.maximum(beside[:-2], beside[2:])
     while True:
         filled, off = _filled(points, straight, closed, fine)
