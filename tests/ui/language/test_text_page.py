@@ -38,7 +38,8 @@ def shown(wiring):
 
 def test_the_key_opens_the_page_and_the_keyboard_is_there(qtbot, wiring) -> None:
     wiring.window_.actions_["text"].trigger()
-    assert wiring.window_.side.page == "Text" and wiring.language.control.page.editor.hasFocus()
+    assert wiring.window_.side.page == "Text"
+    qtbot.waitUntil(wiring.language.control.page.editor.hasFocus)
 
 
 def test_what_is_typed_is_shown_before_it_is_drawn(qtbot, wiring, text) -> None:
