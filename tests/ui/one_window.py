@@ -5,7 +5,7 @@ not.
 from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.core.settings import Settings, ThemeChoice
@@ -102,11 +102,27 @@ def _undress() -> None:
 
 def _activate(qtbot: QtBot, wiring: WindowController) -> None:
     window = wiring.window_
+
+    if window.windowHandle() is not None and not window.isVisible():
+        _take_activity(qtbot)
     with qtbot.waitActive(window):
         window.show()
         window.activateWindow()
     window.canvas.setFocus()
     QApplication.processEvents()
+    assert window.isActiveWindow()
+
+
+def _take_activity(qtbot: QtBot) -> None:
+    """Have another window be active for a moment: to the platform one that was hidden still is, and so never becomes
+    it.
+    """
+    other = QWidget()
+    with qtbot.waitActive(other):
+        other.show()
+        other.activateWindow()
+    other.close()
+    other.deleteLater()
 
 
 def reset(wiring: WindowController, view: CanvasView) -> None:
