@@ -13,9 +13,9 @@ from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
 from ..model.curve_selectors import HELP, Selector, read_selector
 from ..model.fields import Parameter, ParameterPlace, Unit
-from ..model.operation import parameters
+from ..model.operation_kinds import parameters
 
-_METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N"}
+_METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N", Unit.TIME: "S"}
 
 
 def add_parameter_options(group: argparse._ArgumentGroup, groups: tuple[str, ...]) -> None:
@@ -136,9 +136,16 @@ def _count(text: str, declared: Parameter) -> int:
     return int(text)
 
 
+def _seconds(text: str, declared: Parameter) -> float:
+    if not re.fullmatch(r"\s*\d{1,9}(\.\d{0,9})?\s*", text):
+        raise argparse.ArgumentTypeError(f"is '{text}'; write seconds, such as 0.5")
+    return float(text)
+
+
 _READERS: dict[Unit, Callable[[str, Parameter], Any]] = {
     Unit.LENGTH: _length,
     Unit.ANGLE: _angle,
     Unit.SHARE: _share,
     Unit.COUNT: _count,
+    Unit.TIME: _seconds,
 }

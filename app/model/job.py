@@ -228,6 +228,12 @@ class Job:
                 is to carve.
         """
         tool = self.tool(operation.cut.tool)
+        if tool.kind.value != operation.TOOL and (operation.TOOL or tool.kind.work):
+            needs = f"needs a {operation.TOOL}" if operation.TOOL else "needs a drill or a mill"
+            raise ParameterError(
+                f"T{tool.number} {tool.label} is a {tool.kind.value}; a {operation.WORD} operation {needs}: choose "
+                "another tool, or give it another kind."
+            )
         if tool.kind.drills and not operation.DRILLS:
             raise ParameterError(
                 f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "

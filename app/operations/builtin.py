@@ -2,6 +2,18 @@
 
 from __future__ import annotations
 
-from . import adaptive, contour, drill, pocket, rest, vcarve
+from . import adaptive, bore, contour, countersink, drill, pocket, ream, rest, tap, thread, vcarve
 
-__all__ = ["adaptive", "contour", "drill", "pocket", "rest", "vcarve"]
+__all__ = [
+    "adaptive",
+    "bore",
+    "contour",
+    "countersink",
+    "drill",
+    "pocket",
+    "ream",
+    "rest",
+    "tap",
+    "thread",
+    "vcarve",
+]

@@ -136,7 +136,7 @@ def _only_followed(job: Job, parts: DrawnContours) -> set[int]:
     for operation in at_work:
         found = selected(parts, operation.cut.curves)
         contours = (*found.closed, *found.open) if operation.wall_side is Side.ON else found.closed
-        if not operation.DRILLS:
+        if not operation.HOLES:
             numbers[operation.wall_side is Side.ON].update(n for each in contours for n in each.entity_ids)
     return numbers[True] - numbers[False]
 

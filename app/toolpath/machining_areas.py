@@ -21,7 +21,7 @@ from ..model.curve_selectors import Selector
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import ContourOperation, DrillOperation, Operation, Side
+from ..model.operation import ContourOperation, HoleOperation, Operation, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours
@@ -111,8 +111,9 @@ class MachiningAreas:
         return tuple(self._area(operation) for operation in self.job.operations)
 
     def _area(self, operation: Operation) -> Area:
-        if isinstance(operation, DrillOperation):
-            return Area(hole_regions(self.job, self.drawn, operation)) if operation.cut.enabled else Area()
+        if isinstance(operation, HoleOperation):
+            regions = hole_regions(self.job, self.drawn, operation) if operation.cut.enabled else ()
+            return Area(regions, whole=operation.CLEARS)
         area = self.of(operation) if operation.cut.enabled else None
         if area is None:
             return Area()

@@ -68,7 +68,7 @@ def bounds_of(program: Program, job: Job) -> list[OperationBound]:
             areas[group[0]],
             leave,
             floor,
-            job.operations[group[0]].DRILLS,
+            job.operations[group[0]].HOLES,
             carves,
         )
         for (_, _, leave, floor, carves), group in found.items()
@@ -76,17 +76,19 @@ def bounds_of(program: Program, job: Job) -> list[OperationBound]:
 
 
 def deepest(operation: Operation, job: Job) -> float:
-    """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked
-    for.
+    """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked for; what
+    sinks cones, as deep as its cone is high: how wide it may be at the surface says the rest.
     """
-    return (
-        operation.cut.floor + operation.beyond + (tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0)
-    )
+    tool = job.tool(operation.cut.tool)
+    if operation.DRILLS and operation.CARVES:
+        return (tool.radius - tool.tip_diameter / 2) * tool.profile.cone
+    return operation.cut.floor + operation.beyond + (tip_length(tool) if operation.DRILLS else 0.0)
 
 
 def tip_length(tool: Tool) -> float:
     """Return the length of a drill's tip, mm; 0 of other tools."""
-    return tool.radius / tan((tool.tip_angle or tool.kind.assumed_angle) / 2) if tool.kind.drills else 0.0
+    angle = (tool.tip_angle or tool.kind.assumed_angle) if tool.kind.drills else 0.0
+    return tool.radius / tan(angle / 2) if angle else 0.0
 
 
 def cutting_radius(moves: Moves, job: Job) -> Floats:

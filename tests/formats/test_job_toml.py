@@ -29,8 +29,8 @@ from app.model.operation import (
     RestOperation,
     Side,
     VcarveOperation,
-    declared,
 )
+from app.model.operation_kinds import declared
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
 from tests.examples import examples

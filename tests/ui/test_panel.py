@@ -13,7 +13,6 @@ from app.gcode.posts.posts import post_titles
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
 from app.model.operation import (
-    OPERATION_KINDS,
     ContourOperation,
     CutParameters,
     DrillOperation,
@@ -21,6 +20,7 @@ from app.model.operation import (
     PocketOperation,
     Side,
 )
+from app.model.operation_kinds import OPERATION_KINDS
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style

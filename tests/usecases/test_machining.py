@@ -24,8 +24,8 @@ from app.model.operation import (
     PocketOperation,
     RestOperation,
     Side,
-    parameters,
 )
+from app.model.operation_kinds import parameters
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind
 from app.usecases.machining import MachiningOptions, check_order

@@ -74,7 +74,7 @@ _SHORT = 12  # letters
 _NAMED = 6
 """Selectors of curves that an operator is told one by one."""
 
-_ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck")
+_ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck", "thread")
 """Parameters that are told also where they have their default."""
 
 

@@ -241,7 +241,7 @@ def _beside(job: Job, operation: Operation) -> list[Operation]:
         each
         for each in job.operations
         if each.cut.enabled
-        and not (each.CARVES or each.DRILLS)
+        and not (each.CARVES or each.HOLES)
         and each.wall_side is operation.wall_side
         and each.cut.curves == operation.cut.curves
     ]

@@ -7,7 +7,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QMenu
 
 from ...model.job import Job
-from ...model.operation import OPERATION_KINDS, Operation
+from ...model.operation import Operation
+from ...model.operation_kinds import OPERATION_KINDS
 from ...model.tool import Tool
 from ..framework.dropping import drop
 from ..framework.figures import TIMES, clock, grouped
