@@ -102,6 +102,10 @@ class CountersinkOperation(HoleOperation):
         """Return the diameter at the surface, mm."""
         return drawn if self.diameter is None else self.diameter
 
+    def deepest(self, tool: Tool) -> float:
+        """Return how deep the tip may go, mm: as deep as the cone is high; how wide it may be at the surface says the rest."""
+        return (tool.radius - tool.tip_diameter / 2) * tool.profile.cone
+
     def tip_depth(self, drawn: float, tool: Tool) -> float:
         """Return how deep the tip goes in a circle of a diameter, mm."""
         return (self.made(drawn, tool) - tool.tip_diameter) / 2 / math.tan(tool.tip_angle / 2)

@@ -164,6 +164,14 @@ DWELL = ("dwell", "Dwell", "how long the tool turns at the bottom of the hole", 
 """Declared alike by all kinds that may wait there."""
 
 
+SIDE = (
+    "side",
+    "Side",
+    "where the contour tool runs: inside the areas, outside, or on the lines",
+    Unit.CHOICE,
+)
+"""Declared alike by all kinds that follow contours on one of their sides."""
+
 STRAIGHT_DOWN = frozenset(
     {"stepdown", "stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"}
 )
@@ -229,6 +237,15 @@ class Operation:
         """How far below its floor its tool goes on purpose, mm."""
         return 0.0
 
+    def deepest(self, tool: Tool) -> float:
+        """Return how deep its tool goes, mm, without the point of a drill."""
+        return self.cut.floor + self.beyond
+
+    @property
+    def over_edge(self) -> float:
+        """How far its cutter reaches beyond the drawn lines at the surface on purpose, mm."""
+        return 0.0
+
     @property
     def dwell_s(self) -> float:
         """How long its tool waits at the bottom of a hole, s."""
@@ -249,15 +266,7 @@ class Operation:
 class ContourOperation(Operation):
     """Follow the walls with the contour tool (step 120); on the line it also follows open lines (engraving, slots)."""
 
-    side: Side = parameter(
-        Side.INSIDE,
-        "side",
-        "Side",
-        "where the contour tool runs: inside the areas, outside, or on the lines",
-        Unit.CHOICE,
-        option=True,
-        choices=("Inside", "Outside", "On line"),
-    )
+    side: Side = parameter(Side.INSIDE, *SIDE, option=True, choices=("Inside", "Outside", "On line"))
     lead: Lead = part(Lead)
     tabs: Tabs = part(Tabs)
     spring_passes: int = parameter(

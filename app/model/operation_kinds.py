@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .chamfer_operation import ChamferOperation
 from .fields import ParameterPlace, declared_of, parameters_of
 from .hole_operations import (
     BoreOperation,
@@ -40,6 +41,7 @@ for _kind in (
     RestOperation,
     ContourOperation,
     VcarveOperation,
+    ChamferOperation,
     DrillOperation,
     ReamOperation,
     TapOperation,

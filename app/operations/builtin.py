@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from . import adaptive, bore, contour, countersink, drill, pocket, ream, rest, tap, thread, vcarve
+from . import adaptive, bore, chamfer, contour, countersink, drill, pocket, ream, rest, tap, thread, vcarve
 
 __all__ = [
     "adaptive",
     "bore",
+    "chamfer",
     "contour",
     "countersink",
     "drill",

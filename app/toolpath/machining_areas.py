@@ -134,7 +134,7 @@ class MachiningAreas:
         outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (
             () if side is Side.INSIDE else (frame,)
         )
-        bare = _lies_on(primitives, outlines)
+        bare = lies_on(primitives, outlines)
         return MachiningArea(
             regions,
             primitives,
@@ -191,7 +191,7 @@ class MachiningAreas:
         return 2 * wall + lead_size(operation.lead, tool) + _SPARE
 
 
-def _lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
+def lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
     """Return (n,) which rows lie on some contours, by their ends and middles."""
     if not contours:
         return np.zeros(len(primitives.rows), np.bool_)
