@@ -40,7 +40,9 @@ class ChamferOperation(Operation):
     WORD = "chamfer"
     CARVES = True
     LEVELS = False
-    UNUSED = frozenset({"depth", "stepdown", "stock_to_leave", "finish_depth", "floor_to_leave", "entry", "entry_angle"})
+    UNUSED = frozenset(
+        {"depth", "stepdown", "stock_to_leave", "finish_depth", "floor_to_leave", "entry", "entry_angle"}
+    )
 
     def __post_init__(self) -> None:
         check_ranges(self)

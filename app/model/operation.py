@@ -181,7 +181,7 @@ ALIKE = 0.1
 """mm; circles whose diameter is this near to a drill's are its own."""
 
 _SAME = 1e-6
-_STEPOVER = (
+STEPOVER = (
     "stepover",
     "Stepover",
     "distance between rings: a length, or per cent of the diameter; every stepover clears everything",
@@ -342,7 +342,7 @@ class PocketOperation(Operation):
     stepover.
     """
 
-    stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
+    stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     outside_in: bool = parameter(
         False,
         "outside_in",
@@ -416,7 +416,7 @@ class AdaptiveOperation(Operation):
 class RestOperation(Operation):
     """Clear what the operations before it in the list have left within reach of its tool."""
 
-    stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
+    stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     most_engaged: float = parameter(
         1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )

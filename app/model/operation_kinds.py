@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .chamfer_operation import ChamferOperation
+from .face_operation import FaceOperation
 from .fields import ParameterPlace, declared_of, parameters_of
 from .hole_operations import (
     BoreOperation,
@@ -48,6 +49,7 @@ for _kind in (
     CountersinkOperation,
     BoreOperation,
     ThreadOperation,
+    FaceOperation,
 ):
     register(_kind)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import adaptive, bore, chamfer, contour, countersink, drill, pocket, ream, rest, tap, thread, vcarve
+from . import adaptive, bore, chamfer, contour, countersink, drill, face, pocket, ream, rest, tap, thread, vcarve
 
 __all__ = [
     "adaptive",
@@ -11,6 +11,7 @@ __all__ = [
     "contour",
     "countersink",
     "drill",
+    "face",
     "pocket",
     "ream",
     "rest",

@@ -48,6 +48,7 @@ from .plausible import read_for
 from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
+from .face_proofs import face_proofs
 from .thread_proofs import thread_proofs
 from .written import write_and_check
 
@@ -272,6 +273,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     proofs = engagement_proofs(program, job, written, progress.part(0.2, 0.21))
     carvings = carving_proofs(program, job, written, progress.part(0.21, 0.22))
     threads = thread_proofs(program, job, written)
+    faced = face_proofs(program, job, written)
     depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
@@ -285,6 +287,7 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
         *(finding for proof in proofs.values() for finding in proof.findings()),
         *(finding for carving in carvings.values() for finding in carving.findings()),
         *(finding for thread in threads.values() for finding in thread.findings()),
+        *(finding for each in faced.values() for finding in each.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -294,7 +297,9 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     )
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
-    measured = ReportData(program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads)
+    measured = ReportData(
+        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced
+    )
     report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 

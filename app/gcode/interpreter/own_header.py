@@ -70,6 +70,7 @@ def own_notes(comments: Comments) -> ProgramNotes:
             if len(numbers := _floats(values)) == 2
         ),
         max(_first(noted.get("under_mm", [])) or 0.0, 0.0),
+        max(_first(noted.get("above_mm", [])) or 0.0, 0.0),
     )
     return ProgramNotes(
         tuple(_tools(noted.get("tool", []))), _stock(noted.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header

@@ -127,7 +127,9 @@ def _beside_neighbours(
     for walls, wide in ((others, cone.top), (held, tool.radius)):
         if walls:
             field = DistanceField.of(within_half_turn(np.concatenate([contour_rows(each) for each in walls])))
-            ways = CarvedPass(ways.z, tuple(_clear_trails(ways, field, wide, cone, lost)), tuple(_clear(ways, field, wide, lost)))
+            ways = CarvedPass(
+                ways.z, tuple(_clear_trails(ways, field, wide, cone, lost)), tuple(_clear(ways, field, wide, lost))
+            )
     return ways, lost
 
 
