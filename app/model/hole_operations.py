@@ -73,8 +73,8 @@ class TapOperation(HoleOperation):
 
 @dataclass(frozen=True, slots=True)
 class CountersinkOperation(HoleOperation):
-    """Sink a cone into the circles' edges, as wide at the surface as they are drawn, or as `diameter` says; a narrow one
-    spots.
+    """Sink a cone into the circles' edges, as wide at the surface as they are drawn, or as `diameter` says; a narrow
+    one spots.
     """
 
     diameter: float | None = parameter(None, *_DIAMETER, low=LEAST_LENGTH, option=True, auto="the circle's own")
@@ -103,7 +103,9 @@ class CountersinkOperation(HoleOperation):
         return drawn if self.diameter is None else self.diameter
 
     def deepest(self, tool: Tool) -> float:
-        """Return how deep the tip may go, mm: as deep as the cone is high; how wide it may be at the surface says the rest."""
+        """Return how deep the tip may go, mm: as deep as the cone is high; how wide it may be at the surface says the
+        rest.
+        """
         return (tool.radius - tool.tip_diameter / 2) * tool.profile.cone
 
     def tip_depth(self, drawn: float, tool: Tool) -> float:

@@ -211,8 +211,8 @@ class Job:
             )
         if self.stock.above and not self.stock.above + LEAST_LENGTH <= self.retract_z:
             raise ParameterError(
-                f"The stock stands {self.stock.above:g} mm above Z 0, and retract Z is only {self.retract_z:g} mm above "
-                "it; raise safe Z and retract Z, which count from Z 0."
+                f"The stock stands {self.stock.above:g} mm above Z 0, and retract Z is only {self.retract_z:g} mm "
+                "above it; raise safe Z and retract Z, which count from Z 0."
             )
         if not 0 <= self.join_tolerance <= LARGEST_JOIN:
             raise ParameterError(f"Join tolerance is {self.join_tolerance:g} mm; use 0 to {LARGEST_JOIN:g} mm.")

@@ -126,5 +126,7 @@ class ThreadSize(Enum):
 
     @property
     def tap_drill(self) -> float:
-        """Diameter of the drill before the tap, mm, to the tenth: a little more than the core, so that the tap turns."""
+        """Diameter of the drill before the tap, mm, to the tenth: a little more than the core, so that the tap
+        turns.
+        """
         return round(max(self.major - self.pitch, self.nut_core), 1)

@@ -62,7 +62,9 @@ def helix(
 def half_circle(
     start: tuple[float, float], end: tuple[float, float], heights: tuple[float, float], ccw: bool
 ) -> HelixRows:
-    """Return a half circle between two places along X, as two quarters, that meets a turn about either in its tangent."""
+    """Return a half circle between two places along X, as two quarters, that meets a turn about either in its
+    tangent.
+    """
     middle = (start[0] + end[0]) / 2, start[1]
     radius = abs(end[0] - start[0]) / 2
     below = (end[0] > start[0]) == ccw

@@ -15,11 +15,9 @@ from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Purpose
 from ..model.operation import HoleOperation
-
 from ..toolpath.build import Stroke, StrokeLabel
 from ..toolpath.drawn_contours import DrawnContours
 from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of
-
 from ..toolpath.operation_context import OperationContext
 from ..toolpath.ordering.tour import in_short_order
 

@@ -128,8 +128,9 @@ def cutter_of(tool: Tool) -> Cutter:
     """Return the cutter that a tool is.
 
     A drill whose angle is not known has the usual one of its kind. Drills, balls, V tools and tapered mills cut at
-    their centre; flat and bull-nose mills with two or three flutes are taken to, with more they are not; nor are those that cut threads. Such a tool is the cylinder within its teeth: what it leaves is a hole as
-    wide as the thread's core.
+    their centre; flat and bull-nose mills with two or three flutes are taken to, with more they are not; nor are those
+    that cut threads. Such a tool is the cylinder within its teeth: what it leaves is a hole as wide as the thread's
+    core.
 
     Raises:
         ParameterError: the tool lacks what its shape needs, or its numbers make no shape.

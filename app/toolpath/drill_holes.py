@@ -129,8 +129,8 @@ def _half(operation: HoleOperation, tool: Tool, hole: CircleHole) -> float:
 
 
 def tip_depth(job: Job, operation: HoleOperation) -> float:
-    """Return how deep the tool's tip goes, mm: a drill's full width goes to the depth where its angle is known, else the
-    tip does.
+    """Return how deep the tool's tip goes, mm: a drill's full width goes to the depth where its angle is known, else
+    the tip does.
     """
     length = tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0
     return operation.cut.floor + operation.beyond + length
@@ -142,8 +142,8 @@ def tip_length(tool: Tool) -> float:
 
 
 def hole_regions(job: Job, drawn: DrawnContours, operation: HoleOperation) -> tuple[Region, ...]:
-    """Return the discs that the cutter of an operation on holes stays in: what it makes, or the circle where that is wider
-    by up to `ALIKE`.
+    """Return the discs that the cutter of an operation on holes stays in: what it makes, or the circle where that is
+    wider by up to `ALIKE`.
     """
     tool = job.tool(operation.cut.tool)
     return tuple(

@@ -1,4 +1,6 @@
-"""What is proven of facing: on the written text, as read back, the area of the stock's top that no pass at Z 0 clears."""
+"""What is proven of facing: on the written text, as read back, the area of the stock's top that no pass at Z 0
+clears.
+"""
 
 from __future__ import annotations
 

@@ -41,6 +41,7 @@ from .carving_proofs import carving_proofs
 from .cut import CutProgram
 from .cut_job import cut_job, news
 from .engagement_proofs import engagement_proofs
+from .face_proofs import face_proofs
 from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
@@ -48,7 +49,6 @@ from .plausible import read_for
 from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
-from .face_proofs import face_proofs
 from .thread_proofs import thread_proofs
 from .written import write_and_check
 

@@ -25,8 +25,8 @@ from ..verify.verdict import Gouge, RapidInMaterial
 from .carving_proofs import CarvingProof
 from .cut import CutProgram
 from .engagement_proofs import OperationProof
-from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
 from .face_proofs import FaceProof
+from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
 from .thread_proofs import ThreadProof
 from .written import WrittenProgram
 

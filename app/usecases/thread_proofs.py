@@ -1,8 +1,8 @@
 """What is proven of threads: on the written text, as read back.
 
-Of milled ones, each arc about a hole's axis: how far it goes along the axis for its angle, and how wide the gap is at the
-pitch diameter, where tooth and gap are half a pitch wide each. The gap is what a tooth covers that goes round on the
-helix as it was read, by its own shape: as wide at the mill's edge as a thread without error has it there. Of tapped
+Of milled ones, each arc about a hole's axis: how far it goes along the axis for its angle, and how wide the gap is at
+the pitch diameter, where tooth and gap are half a pitch wide each. The gap is what a tooth covers that goes round on
+the helix as it was read, by its own shape: as wide at the mill's edge as a thread without error has it there. Of tapped
 ones, how far the tap is fed for each turn of the spindle.
 """
 
@@ -29,7 +29,9 @@ from .written import WrittenProgram
 Floats = NDArray[np.float64]
 
 REPORTED = 0.01
-"""mm by which a thread's lead or its pitch diameter may be off before it counts: a fifth of the usual tolerance of M3."""
+"""mm by which a thread's lead or its pitch diameter may be off before it counts: a fifth of the usual tolerance of
+M3.
+"""
 
 _ABOUT = 5e-3
 """mm; an arc whose centre is this near to a hole's axis goes round it."""

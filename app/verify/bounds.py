@@ -77,7 +77,9 @@ def bounds_of(program: Program, job: Job) -> list[OperationBound]:
 
 
 def deepest(operation: Operation, job: Job) -> float:
-    """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked for."""
+    """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked
+    for.
+    """
     tool = job.tool(operation.cut.tool)
     return operation.deepest(tool) + (tip_length(tool) if operation.DRILLS else 0.0)
 

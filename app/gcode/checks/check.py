@@ -20,7 +20,7 @@ from ...model.motion import Floats, MotionKind, Plane
 from ...model.moves import MoveKind, Moves, Program
 from ...model.stock_box import stock_box, work_origin
 from ..interpreter.options import ReadOptions, ToolOffset
-from ..interpreter.program import EventKind, NcProgram, ProgramProblem
+from ..interpreter.program import Event, EventKind, NcProgram, ProgramProblem
 from ..interpreter.reader import read_program
 from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
@@ -342,9 +342,8 @@ class _Sections:
                 changes[section].append(event.before)
             elif event.kind is EventKind.DWELL and between:
                 dwell[section] += event.value
-            elif not (event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) and expected.stops):
-                if not pauses.takes(event):
-                    yield _problem(event.line, "", f"there is a {event.kind.value} here that was not meant.")
+            elif not (self._may_stop(event) or pauses.takes(event)):
+                yield _problem(event.line, "", f"there is a {event.kind.value} here that was not meant.")
         yield from pauses.missing(self.compared.file.nc.lines)
         for section, tool in enumerate(numbers):
             line = int(self.compared.file.nc.lines[self.compared.begins[section]])
@@ -360,6 +359,10 @@ class _Sections:
                 yield _problem(line, "", f"T{tool} does not go to clearance height before it moves in X or Y.")
             if section and changes[section] and not self._left(section, min(changes[section])):
                 yield _problem(line, "", f"the tool before T{tool} is not lifted to clearance before it is changed.")
+
+    def _may_stop(self, event: Event) -> bool:
+        """Tell whether an event is a stop, and the post's own blocks may stop."""
+        return event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) and self.compared.expected.stops
 
     def _clear(self, section: int, changed: int) -> bool:
         """Tell whether a tool goes to clearance by Z alone between its change and its first motion level."""

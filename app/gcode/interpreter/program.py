@@ -200,8 +200,8 @@ class HeaderNote:
         keep_out: layers of clamps, and how high these are, mm.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
         plunge_rates: T numbers, and how fast each may be fed straight down, mm/min.
-        under: thickness of the waste below the stock that may be cut into, mm. above: what of the stock stands above Z 0
-            of the drawing, mm.
+        under: thickness of the waste below the stock that may be cut into, mm. above: what of the stock stands above Z
+            0 of the drawing, mm.
     """
 
     origin: tuple[float, float, float] | None = None

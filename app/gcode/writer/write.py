@@ -238,8 +238,8 @@ class _ProgramWriter:
         self.waits = waits_of(moves, rules, self.holes)
         if untapped(moves, rules, self.holes):
             raise ParameterError(
-                f"{post.title} has no cycle that taps: the spindle would not turn back; mill the thread, or take the tap "
-                "operation out."
+                f"{post.title} has no cycle that taps: the spindle would not turn back; mill the thread, or take the "
+                "tap operation out."
             )
         self.arc_rules = ArcRules(
             digits.X,

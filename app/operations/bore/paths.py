@@ -1,4 +1,5 @@
-"""Boring: down on a helix, once round at the floor, then a finishing turn at the full width, in and out on half circles.
+"""Boring: down on a helix, once round at the floor, then a finishing turn at the full width, in and out on half
+circles.
 
 A mill of radius r whose centre goes round at R clears the ring from R - r to R + r. So the first helix is no wider than
 r, that no core stays, and each one after it at most r wider than the one before.

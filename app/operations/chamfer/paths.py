@@ -64,8 +64,8 @@ def cone_of(job: Job, operation: ChamferOperation) -> ChamferCone:
     if top > tool.radius + _SAME:
         raise ParameterError(
             f"A chamfer of {operation.width:g} mm with the tip {operation.tip_offset:g} mm below it needs a cone of "
-            f"{2 * top:.3f} mm, and T{tool.number} {tool.label} is {tool.diameter:g} mm wide; take a wider cutter, or less "
-            "of either."
+            f"{2 * top:.3f} mm, and T{tool.number} {tool.label} is {tool.diameter:g} mm wide; take a wider cutter, "
+            "or less of either."
         )
     if depth > job.stock.thickness + job.stock.under + _SAME:
         raise ParameterError(
@@ -119,7 +119,9 @@ def _at_bare(way: AxisBranch, area: MachiningArea) -> bool:
 def _beside_neighbours(
     ways: CarvedPass, drawn: DrawnContours, operation: ChamferOperation, tool: Tool, cone: ChamferCone
 ) -> tuple[CarvedPass, list[tuple[float, float, float]]]:
-    """Return the ways on which the cone keeps off all other contours and clamps, and (x, y, length, mm) of the others."""
+    """Return the ways on which the cone keeps off all other contours and clamps, and (x, y, length, mm) of the
+    others.
+    """
     own = {id(contour) for contour in selected(drawn, operation.cut.curves).closed}
     others = [contour for contour in drawn.closed if id(contour) not in own]
     held = [contour for region in drawn.clamps for contour in region.contours]
@@ -189,8 +191,8 @@ def _stopped_short(lost: Sequence[tuple[float, float, float]], tool: Tool, cone:
         x, y, _ = max(lost, key=lambda each: each[2])
         length = sum(each[2] for each in lost)
         text = (
-            f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at ({x:.3f}, {y:.3f}) for one: a "
-            f"wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the cone reaches; take less "
-            "tip offset, a narrower chamfer or a more pointed cone."
+            f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at ({x:.3f}, {y:.3f}) for "
+            f"one: a wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the cone "
+            "reaches; take less tip offset, a narrower chamfer or a more pointed cone."
         )
         yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=length)

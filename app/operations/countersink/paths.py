@@ -31,8 +31,9 @@ def countersink(context: OperationContext, index: int, progress: Progress) -> No
         depth = operation.tip_depth(hole.diameter, tool)
         if depth > job.stock.thickness + job.stock.under + 1e-9:
             raise ParameterError(
-                f"T{tool.number} {tool.label} is {operation.made(hole.diameter, tool):g} mm wide {depth:.3f} mm above its "
-                f"tip, but the stock is {job.stock.thickness:g} mm thick; take a blunter cone, or a smaller diameter."
+                f"T{tool.number} {tool.label} is {operation.made(hole.diameter, tool):g} mm wide {depth:.3f} mm "
+                f"above its tip, but the stock is {job.stock.thickness:g} mm thick; take a blunter cone, or a smaller "
+                "diameter."
             )
         over_hole(context, (hole.x, hole.y), label)
         builder.straight((hole.x, hole.y, -depth), Purpose.DRILL, label)

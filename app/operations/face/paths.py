@@ -60,8 +60,8 @@ def stepover_of(operation: FaceOperation, tool: Tool) -> float:
     most = wide * (math.sqrt(0.5) if operation.pattern is FacePattern.SPIRAL else 1.0)
     if step > most + _SAME:
         raise ParameterError(
-            f"Stepover is {step:g} mm; rows of T{tool.number}, whose end is level over {wide:g} mm, meet in this pattern up "
-            f"to {most:.3f} mm: use less."
+            f"Stepover is {step:g} mm; rows of T{tool.number}, whose end is level over {wide:g} mm, meet in this "
+            f"pattern up to {most:.3f} mm: use less."
         )
     return step
 

@@ -43,7 +43,7 @@ def ream(context: OperationContext, index: int, progress: Progress) -> None:
         first = solid[0]
         text = (
             f"No operation before it drills {'the hole' if len(solid) == 1 else f'{len(solid)} of the holes'} at "
-            f"({first.x:.3f}, {first.y:.3f}) to a little less than T{operation.cut.tool} and as deep; a reamer takes off "
-            f"{MOST_LEFT:g} mm of the diameter at the most: drill first."
+            f"({first.x:.3f}, {first.y:.3f}) to a little less than T{operation.cut.tool} and as deep; a reamer takes "
+            f"off {MOST_LEFT:g} mm of the diameter at the most: drill first."
         )
         context.findings.append(Finding(FindingKind.ENGAGEMENT, text, first.x, first.y, amount=float(len(solid))))

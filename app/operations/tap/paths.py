@@ -38,8 +38,8 @@ def tap(context: OperationContext, index: int, progress: Progress) -> None:
     tool, thread = job.tool(operation.cut.tool), operation.thread
     if abs(tool.diameter - thread.major) > _SAME:
         raise ParameterError(
-            f"T{tool.number} {tool.label} is {tool.diameter:g} mm wide, and a tap for {thread.value} is {thread.major:g} "
-            "mm; choose the thread or another tap."
+            f"T{tool.number} {tool.label} is {tool.diameter:g} mm wide, and a tap for {thread.value} is "
+            f"{thread.major:g} mm; choose the thread or another tap."
         )
     bottom, feed = -tip_depth(job, operation), tapping_feed(operation, tool)
     unready: list[CircleHole] = []

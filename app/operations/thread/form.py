@@ -1,8 +1,8 @@
 """What the width of a thread mill does to the thread's form.
 
-A tooth of half width w(d) = (r - d) tan(a) at distance d from the mill's axis, r its radius, a half the angle between the
-flanks, goes round on a helix of radius R and pitch P. In a plane through the hole's axis, at distance q from that, it is
-q - R deep at angle 0 of the mill, and at angle t it is P t / 2 pi higher and its distance there is
+A tooth of half width w(d) = (r - d) tan(a) at distance d from the mill's axis, r its radius, a half the angle between
+the flanks, goes round on a helix of radius R and pitch P. In a plane through the hole's axis, at distance q from that,
+it is q - R deep at angle 0 of the mill, and at angle t it is P t / 2 pi higher and its distance there is
 d(t) = sqrt(R^2 + q^2 - 2 R q cos t). So its flank cuts, beside what it is meant to, up to
 
     f(q) = max over t of  P t / 2 pi - (d(t) - d(0)) tan(a)  >= 0
@@ -44,7 +44,8 @@ def flank_error(thread: ThreadSize, radius: float, way: float, place: float) -> 
 
 
 def correction(thread: ThreadSize, radius: float, external: bool) -> float:
-    """Return by how much farther from the wall a mill keeps than it is wide, mm, so that the thread has its pitch diameter.
+    """Return by how much farther from the wall a mill keeps than it is wide, mm, so that the thread has its pitch
+    diameter.
 
     Args:
         thread: that is cut. radius: of the mill, mm. external: on a boss, and not in a hole.

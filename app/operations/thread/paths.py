@@ -52,7 +52,9 @@ class ThreadWay:
 
 
 def teeth_of(tool: Tool, pitch: float) -> int:
-    """Return how many turns of a thread a mill cuts at once: as many as its flutes are pitches long; 1 = a single point."""
+    """Return how many turns of a thread a mill cuts at once: as many as its flutes are pitches long; 1 = a single
+    point.
+    """
     return max(1, math.floor(tool.flute_length / pitch + 1e-9))
 
 
@@ -154,8 +156,8 @@ def _turns_finding(operation: ThreadOperation, tool: Tool, way: ThreadWay) -> Fi
     short = correction(operation.thread, tool.radius, operation.external)
     moved = f", {short:.4f} mm farther from the wall for the form of the flanks"
     text = (
-        f"T{tool.number} mills {operation.thread.value} {'on the boss' if operation.external else 'in the hole'}: {how}, "
-        f"{'up' if way.ccw else 'down'}{moved}. The cut shows no turns of a thread, only the "
+        f"T{tool.number} mills {operation.thread.value} {'on the boss' if operation.external else 'in the hole'}: "
+        f"{how}, {'up' if way.ccw else 'down'}{moved}. The cut shows no turns of a thread, only the "
         "core within the mill's teeth."
     )
     return Finding(FindingKind.ASSUMED, text, counts=False)

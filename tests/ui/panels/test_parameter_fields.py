@@ -6,8 +6,8 @@ import pytest
 
 from app.drafting.document import Document
 from app.model import operation_kinds as operations
-from app.model.job import Job
 from app.model.fields import parameters_of
+from app.model.job import Job
 from app.model.operation import CutParameters
 from app.model.operation_kinds import OPERATION_KINDS, register
 from app.model.part import Part
