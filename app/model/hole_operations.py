@@ -161,7 +161,7 @@ class ThreadOperation(HoleOperation):
     external: bool = parameter(
         False,
         "external",
-        "Thread",
+        "On the boss",
         "the circle is a boss, and its outside gets the thread",
         Unit.FLAG,
         option=True,
