@@ -17,6 +17,9 @@ from ..model.operation_kinds import parameters
 
 _METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N", Unit.TIME: "S"}
 
+_MANY = 12
+"""Choices; more are not listed in the line of usage."""
+
 
 def add_parameter_options(group: argparse._ArgumentGroup, groups: tuple[str, ...]) -> None:
     """Add an option for every parameter that has one and stands in one of the groups of forms."""
@@ -43,6 +46,7 @@ def _add(group: argparse._ArgumentGroup, key: str, placed: ParameterPlace) -> No
             option,
             dest=key,
             choices=[each.value for each in placed.enum],
+            metavar=key.upper() if len(placed.enum) > _MANY else None,
             help=f"{declared.help} (default {placed.default.value})",
         )
     else:
