@@ -80,7 +80,9 @@ def test_inner_corners_are_broken_to_their_points() -> None:
 def test_a_hole_too_small_for_the_tip_offset_is_a_plunge() -> None:
     program = program_of(ChamferOperation(CutParameters(1), Side.INSIDE, 1.0, 2.0), circle(1.5, 5, 5))
     low = program.moves.end[program.moves.end[:, 2] < 0]
-    assert low == pytest.approx(np.array([[5.0, 5.0, -2.5]]))  # touches the wall 1 mm down, and is 2.5 mm wide at the top
+    assert low == pytest.approx(
+        np.array([[5.0, 5.0, -2.5]])
+    )  # touches the wall 1 mm down, and is 2.5 mm wide at the top
 
 
 def test_a_neighbour_wall_stops_it_short_and_is_told() -> None:

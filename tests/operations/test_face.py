@@ -26,7 +26,12 @@ PATTERNS = pytest.mark.parametrize("pattern", list(FacePattern))
 def job_of(width: float = 60.0, height: float = 40.0, tool: Tool | None = None, **values: object) -> Job:
     stock = Stock(5.0, 10.0, above=0.8)
     operation = FaceOperation(CutParameters(1, stepdown=0.5), **values)
-    return Job(layered_part({"a": [polygon_contour([(0, 0), (width, 0), (width, height), (0, height)])]}), (tool or Tool(1, 10.0),), (operation,), stock=stock)
+    return Job(
+        layered_part({"a": [polygon_contour([(0, 0), (width, 0), (width, height), (0, height)])]}),
+        (tool or Tool(1, 10.0),),
+        (operation,),
+        stock=stock,
+    )
 
 
 def cleared(program: Program, radius: float, height: float) -> shapely.Geometry:

@@ -12,9 +12,6 @@ from ...model.moves import MoveKind, Purpose
 from ..posts.post import DrillingWords
 from .work_moves import MoveLists, WorkMoves
 
-NEAR = 1
-"""Counts of the last decimal by which a rounded height between two pecks may be off."""
-
 Step = tuple[MoveKind, int]
 """A move along Z and where it ends, counts of the last decimal."""
 
@@ -53,6 +50,7 @@ class CycleRules:
         words: its G words.
         scale: counts of the last decimal of Z in an out unit.
         peck_gap, chip_gap: counts.
+        near: counts by which a rounded height between two pecks may be off.
         dwells: how long the operations wait at the bottom, by index, s; those that do not are left out.
         taps: the blocks before a tapping cycle, by the index of the operations that tap.
     """
@@ -61,6 +59,7 @@ class CycleRules:
     scale: int
     peck_gap: int
     chip_gap: int
+    near: int = 1
     dwells: Mapping[int, float] = field(default_factory=dict)
     taps: Mapping[int, str] = field(default_factory=dict)
 
@@ -130,7 +129,7 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHo
         (rules.words.tap if taps else "" if wait else rules.words.feed_out, fed_out, 0),
     )
     for word, steps, q in ways:
-        if word and level and _alike(steps, done):
+        if word and level and _alike(steps, done, rules.near):
             pause = f"P{wait.rpartition('P')[2]}" if wait else ""
             start = rules.taps.get(operation, "")
             return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], stop, pause, start)
@@ -214,8 +213,8 @@ def _steps(depths: tuple[int, int, int], rules: CycleRules, by_r: bool) -> Itera
         height -= peck
 
 
-def _alike(steps: list[Step], done: list[Step]) -> bool:
+def _alike(steps: list[Step], done: list[Step], near: int) -> bool:
     """Tell whether two sequences are the same but for the rounding of heights; where they end is that of both."""
     return len(steps) == len(done) and all(
-        a is b and abs(z - w) <= NEAR for (a, z), (b, w) in zip(steps, done, strict=True)
+        a is b and abs(z - w) <= near for (a, z), (b, w) in zip(steps, done, strict=True)
     )
