@@ -16,8 +16,8 @@ from app.formats.job.toml import read_job
 from app.formats.job.write import job_lines
 from app.formats.readers import read_drawing
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber
-from app.model.job import Copies, Job
 from app.model.hole_operations import BoreOperation
+from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.tool import Tool, ToolKind
 from app.toolpath.coverage.flat import region_shapes
