@@ -12,7 +12,7 @@ _SAMPLE = ToolShape(radius=3.0, corner_radius=1.0, tip_radius=1.0, half_angle=0.
 
 
 def listed_kinds() -> tuple[ToolKind, ...]:
-    """Return all kinds in the order of lists: end mills from sharp to round, then cones, what cuts threads, then drills."""
+    """Return all kinds in the order of lists: end mills from sharp to round, cones, what cuts threads, drills."""
     return tuple(sorted(tool_kinds(), key=_rank))
 
 
