@@ -171,6 +171,18 @@ _STEPOVER = (
 
 
 @dataclass(frozen=True, slots=True)
+class HoleDiameters:
+    """Of which circles of the drawing holes are made.
+
+    Attributes:
+        least, most: diameters, mm, > 0; both None: the tool's own, one None: no limit there.
+    """
+
+    least: float | None = None
+    most: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Operation:
     """What is to be done with one tool. A kind of operation is a subclass with parameters of its own, which `register`
     makes known.
@@ -219,6 +231,31 @@ class Operation:
     def proven_angle(self) -> float | None:
         """Engaged angle, radians, that the written program must not exceed anywhere; None = there is no such limit."""
         return None
+
+    @property
+    def holes(self) -> HoleDiameters | None:
+        """Of which circles it makes holes at their centres; None where circles are contours to it."""
+        return None
+
+    @property
+    def outer_lead(self) -> Lead | None:
+        """How its paths round the outside of the drawing come to the walls; None where it has none there."""
+        return None
+
+    @property
+    def roughed_allowance(self) -> float:
+        """Metal that its first passes leave on the walls, mm: what stays there, and what its last pass takes."""
+        return self.cut.stock_to_leave
+
+    @property
+    def ring_stepover(self) -> float | None:
+        """Distance between its rings as it was asked for, mm; None = automatic, or it has no rings."""
+        return None
+
+    @property
+    def on_pixels(self) -> bool:
+        """Whether the way of 1986, on pixels alone, makes its paths too."""
+        return False
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,6 +339,21 @@ class ContourOperation(Operation):
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
 
+    @property
+    def outer_lead(self) -> Lead | None:
+        """How it comes to the walls where it runs outside of them."""
+        return self.lead if self.side is Side.OUTSIDE else None
+
+    @property
+    def roughed_allowance(self) -> float:
+        """Metal that it leaves on the walls before its finish pass, mm."""
+        return self.cut.stock_to_leave + self.finish_width
+
+    @property
+    def on_pixels(self) -> bool:
+        """Whether it runs inside the walls."""
+        return self.side is Side.INSIDE
+
 
 @dataclass(frozen=True, slots=True)
 class PocketOperation(Operation):
@@ -335,6 +387,16 @@ class PocketOperation(Operation):
     def engagement_limit(self) -> float:
         """Share of the diameter beyond which the feed is slowed."""
         return self.most_engaged
+
+    @property
+    def ring_stepover(self) -> float | None:
+        """Distance between its rings as it was asked for, mm; None = automatic."""
+        return self.stepover
+
+    @property
+    def on_pixels(self) -> bool:
+        """Pockets are what the way of 1986 was made for."""
+        return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -393,6 +455,11 @@ class RestOperation(Operation):
 
     def __post_init__(self) -> None:
         check_ranges(self)
+
+    @property
+    def ring_stepover(self) -> float | None:
+        """Distance between its rings as it was asked for, mm; None = automatic."""
+        return self.stepover
 
     @property
     def engagement_limit(self) -> float:
@@ -477,6 +544,11 @@ class DrillOperation(Operation):
     def beyond(self) -> float:
         """How far the drill goes on below the depth, mm."""
         return self.through
+
+    @property
+    def holes(self) -> HoleDiameters:
+        """The circles that it drills."""
+        return HoleDiameters(self.least, self.most)
 
 
 OPERATION_KINDS: dict[str, type[Operation]] = {}
