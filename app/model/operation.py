@@ -171,18 +171,6 @@ _STEPOVER = (
 
 
 @dataclass(frozen=True, slots=True)
-class HoleDiameters:
-    """Of which circles of the drawing holes are made.
-
-    Attributes:
-        least, most: diameters, mm, > 0; both None: the tool's own, one None: no limit there.
-    """
-
-    least: float | None = None
-    most: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class Operation:
     """What is to be done with one tool. A kind of operation is a subclass with parameters of its own, which `register`
     makes known.
@@ -230,11 +218,6 @@ class Operation:
     @property
     def proven_angle(self) -> float | None:
         """Engaged angle, radians, that the written program must not exceed anywhere; None = there is no such limit."""
-        return None
-
-    @property
-    def holes(self) -> HoleDiameters | None:
-        """Of which circles it makes holes at their centres; None where circles are contours to it."""
         return None
 
     @property
@@ -544,11 +527,6 @@ class DrillOperation(Operation):
     def beyond(self) -> float:
         """How far the drill goes on below the depth, mm."""
         return self.through
-
-    @property
-    def holes(self) -> HoleDiameters:
-        """The circles that it drills."""
-        return HoleDiameters(self.least, self.most)
 
 
 OPERATION_KINDS: dict[str, type[Operation]] = {}

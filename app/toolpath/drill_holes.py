@@ -13,7 +13,7 @@ from ..geometry.as_circle import as_circle
 from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
-from ..model.operation import HoleDiameters, Operation
+from ..model.operation import DrillOperation
 from ..model.part import Contour, Region
 from ..model.tool import Tool
 from .coverage.flat import region_shapes
@@ -63,15 +63,13 @@ def circle_of(contour: Contour) -> CircleHole | None:
     return None if circle is None else CircleHole(*circle.centre, 2 * circle.radius)
 
 
-def holes_of(job: Job, drawn: DrawnContours, operation: Operation) -> DrillHoles:
-    """Return the circles of an operation that makes holes, in the order of the drawing; none of another one."""
-    if operation.holes is None:
-        return DrillHoles()
+def holes_of(job: Job, drawn: DrawnContours, operation: DrillOperation) -> DrillHoles:
+    """Return the circles of a drill operation, in the order of the drawing."""
     tool = job.tool(operation.cut.tool)
     circles = [
         hole for contour in selected(drawn, operation.cut.curves).closed if (hole := circle_of(contour)) is not None
     ]
-    least, most = _diameters(operation.holes, tool)
+    least, most = _asked(operation, tool)
     requested = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
     others = tuple(hole for hole in circles if not least - 1e-6 <= hole.diameter <= most + 1e-6)
     fit = [hole for hole in requested if tool.diameter <= hole.diameter + ALIKE + 1e-6]
@@ -80,11 +78,11 @@ def holes_of(job: Job, drawn: DrawnContours, operation: Operation) -> DrillHoles
     return DrillHoles(tuple(free), narrow, tuple(held), others)
 
 
-def _diameters(requested: HoleDiameters, tool: Tool) -> tuple[float, float]:
+def _asked(operation: DrillOperation, tool: Tool) -> tuple[float, float]:
     """Return the least and the largest diameter of an operation's circles, mm."""
-    if requested.least is None and requested.most is None:
+    if operation.least is None and operation.most is None:
         return tool.diameter - ALIKE, tool.diameter + ALIKE
-    return requested.least or 0.0, math.inf if requested.most is None else requested.most
+    return operation.least or 0.0, math.inf if operation.most is None else operation.most
 
 
 def _once_a_place(holes: Iterable[CircleHole]) -> list[CircleHole]:
@@ -101,7 +99,7 @@ def _once_a_place(holes: Iterable[CircleHole]) -> list[CircleHole]:
 
 
 def _free(
-    holes: list[CircleHole], job: Job, drawn: DrawnContours, operation: Operation
+    holes: list[CircleHole], job: Job, drawn: DrawnContours, operation: DrillOperation
 ) -> tuple[list[CircleHole], list[CircleHole]]:
     """Return the holes that no clamp is in the way of, and the others."""
     if not drawn.clamps or not holes:
@@ -123,11 +121,11 @@ def _reach(tool: Tool, depth: float, height: float) -> float:
     return max([tool.radius, *(radius for _, radius in tool.holder)]) if low else tool.radius
 
 
-def tip_depth(job: Job, operation: Operation) -> float:
+def tip_depth(job: Job, operation: DrillOperation) -> float:
     """Return how deep the drill's tip goes, mm: its full width goes to the depth where its angle is known, else the tip
     does.
     """
-    return operation.cut.floor + operation.beyond + tip_length(job.tool(operation.cut.tool))
+    return operation.cut.floor + operation.through + tip_length(job.tool(operation.cut.tool))
 
 
 def tip_length(tool: Tool) -> float:
@@ -135,7 +133,7 @@ def tip_length(tool: Tool) -> float:
     return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind.drills and tool.tip_angle else 0.0
 
 
-def hole_regions(job: Job, drawn: DrawnContours, operation: Operation) -> tuple[Region, ...]:
+def hole_regions(job: Job, drawn: DrawnContours, operation: DrillOperation) -> tuple[Region, ...]:
     """Return the discs that a drill operation's cutter stays in: its circles, or its own width where it is wider by up
     to `ALIKE`.
     """
@@ -150,10 +148,10 @@ def made_by_drills(job: Job, drawn: DrawnContours) -> frozenset[CircleHole]:
     """Return the circles that drill operations make as wide as they are drawn: for mills these are no walls, and no
     lines to follow.
     """
+    drills = [each for each in job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
     return frozenset(
         hole
-        for each in job.operations
-        if each.cut.enabled
+        for each in drills
         for hole in holes_of(job, drawn, each).drilled
         if hole.diameter <= job.tool(each.cut.tool).diameter + ALIKE + 1e-6
     )

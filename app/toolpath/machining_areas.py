@@ -22,7 +22,7 @@ from ..model.entry import Lead
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import Operation, Side
+from ..model.operation import DrillOperation, Operation, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours
@@ -112,7 +112,7 @@ class MachiningAreas:
         return tuple(self._area(operation) for operation in self.job.operations)
 
     def _area(self, operation: Operation) -> Area:
-        if operation.holes is not None:
+        if isinstance(operation, DrillOperation):
             return Area(hole_regions(self.job, self.drawn, operation)) if operation.cut.enabled else Area()
         area = self.of(operation) if operation.cut.enabled else None
         if area is None:
