@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from shapely import Geometry as Shape
 
+from ...core.durations import minutes_words
 from ...core.errors import ParameterError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.primitives import TURN, R, pack, points_at, signed_area
@@ -234,13 +235,13 @@ def _why(tools: tuple[Tool, Tool], regions: Sequence[RegionAdvice], choices: Seq
         return f"No tool fits: {_named(contour.tool)} is the smallest, and the largest disc is {_measured(widest)}."
     if pocket is contour:
         return (
-            f"{_bounds(contour, regions)} It takes about {_clock(pocket.times.total)} min by itself; "
+            f"{_bounds(contour, regions)} It takes about {minutes_words(pocket.times.total)} min by itself; "
             "a larger one before it saves no time."
         )
     return (
         f"{_bounds(contour, regions)} {_named(pocket.tool)} reaches {pocket.share:.0%} of the area; with it first the "
-        f"job takes about {_clock(pocket.times.total)} min, with {_named(contour.tool)} alone "
-        f"{_clock(contour.times.total)} min."
+        f"job takes about {minutes_words(pocket.times.total)} min, with {_named(contour.tool)} alone "
+        f"{minutes_words(contour.times.total)} min."
     )
 
 
@@ -261,8 +262,3 @@ def _measured(spot: SizedPlace) -> str:
 
 def _named(tool: Tool) -> str:
     return tool.name or f"T{tool.number} {tool.label}"
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02d}"
