@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..core.errors import InputError
+from ..core.file_bytes import FileBytes
 from ..core.progress import Progress
 from ..formats.job.toml import read_job
 from ..formats.tools.files import read_rows, read_tools
@@ -78,7 +79,7 @@ def setup_request(arguments: argparse.Namespace) -> SetupRequest:
         reported.append(ToolSource("the job file", {tool.number: tool for tool in job.job.tools}))
     if arguments.tools is not None:
         reported.append(_tools(arguments))
-    against = (arguments.against.name, read_input(arguments.against)) if arguments.against else None
+    against = FileBytes(arguments.against.name, read_input(arguments.against)) if arguments.against else None
     beside = None if against is None else lambda name: read_input(arguments.against.parent / name)
     return _with_stock(
         SetupRequest(

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from ..drafting.expressions.numbers import length
-from ..formats.job.toml import ORIGIN_HELP, parse_origin, read_out_units, read_units
+from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
 from ..model.operation import LEAST_LENGTH, Direction, Order
 from ..model.tool import LEAST_DIAMETER, LEAST_RATE
@@ -224,7 +224,7 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         raise InputError(f"--{option} has no effect without --propose; add that, or leave it away")
     if arguments.propose and bitmap is not None:
         raise InputError("--propose has no effect on pixels, where all is pockets; leave it away, or --bitmap")
-    origin_xy, origin_z = arguments.origin or (None, None)
+    origin = arguments.origin or StatedOrigin()
     return MakeOptions(
         contour_diameter=arguments.contour_tool,
         pocket_diameter=arguments.pocket_tool,
@@ -239,8 +239,8 @@ def make_options(arguments: argparse.Namespace) -> MakeOptions:
         machine=arguments.machine,
         out_units=arguments.out_units,
         units=arguments.units,
-        origin_xy=origin_xy,
-        origin_z=origin_z,
+        origin_xy=origin.xy,
+        origin_z=origin.z,
         layers=tuple(arguments.layer),
         join_tolerance=arguments.join_tolerance,
         exact_path=arguments.exact_path,

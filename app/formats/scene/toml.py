@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ...core.errors import HitofudeError, InputError
+from ...core.file_bytes import FileBytes
 from ...core.toml_tables import spelled, tables_of, write_tables
 from ...model.job import Job, OriginZ
 from ...model.part import Part
@@ -90,7 +91,7 @@ def read_scene(name: str, data: bytes) -> Scene:
     shared = {key: tree.pop(key) for key in JOB_TABLES if key in tree}
     own_height = "z" in shared.get("origin", {})
     job = read_job_tables(text, shared).job
-    tables = tables_of(_Tables, tree, (name, data), {})
+    tables = tables_of(_Tables, tree, FileBytes(name, data), {})
     if not shared.get("tool"):
         job = replace(job, tools=() if "tool" in shared else Scene().tools)
     return _scene(text, tables, job, job.origin_z if own_height else None)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, get_type_hints
 
 from ...core.errors import HitofudeError, InputError
+from ...core.file_bytes import FileBytes
 from ...core.resources import resource
 from ...core.settings import config_folder
 from ...core.toml_tables import read_tree, tables_of, write_tables
@@ -126,7 +127,7 @@ def read_library(name: str, data: bytes) -> ToolLibrary:
     """
     tree = read_tree(name, data)
     _draw_holders(name, tree)
-    read: Any = tables_of(_File, tree, (name, data), RANGES)
+    read: Any = tables_of(_File, tree, FileBytes(name, data), RANGES)
     tools = tuple(map(_tool, read.tool))
     check_numbers(name, tools)
     return ToolLibrary(read.name, tools, read.remark)
