@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -159,7 +160,9 @@ def advise(
     where = centres(pack(regions), sorted(requested), progress.part(0.3, 0.6))
     shapes = [shapely.union_all(region_shapes([region], _CHORD)) for region in regions]
     bare = [_region(walls, found, k, number) for k, number in enumerate(numbers)]
-    advised = _with_reaches(bare, shapes, (usable, where), progress.part(0.6, 0.9))
+    advised = _with_reaches(
+        bare, shapes, [_ToolCentres(tool, where[tool.radius - FITS]) for tool in usable], progress.part(0.6, 0.9)
+    )
     taken: dict[int, CuttingTimes] = {}
     for done, tool in enumerate(clearing):
         progress.step(0.9 + 0.1 * done / len(clearing), f"Time with T{tool.number}")
@@ -169,18 +172,24 @@ def advise(
     return Advice(advised, choices, pocket, contour, taken[pocket.number], _why((pocket, contour), advised, choices))
 
 
+class _ToolCentres(NamedTuple):
+    """A tool, and where its centre can be."""
+
+    tool: Tool
+    centres: CentreArea
+
+
 def _with_reaches(
     regions: Sequence[RegionAdvice],
     shapes: Sequence[Shape],
-    tools: tuple[Sequence[Tool], Mapping[float, CentreArea]],
+    centres_of: Sequence[_ToolCentres],
     progress: Progress,
 ) -> tuple[RegionAdvice, ...]:
-    """Return the regions with what each tool reaches of them; where its centre can be comes with the tools."""
+    """Return the regions with what each tool reaches of them."""
     found: list[list[RegionReach]] = [[] for _ in regions]
-    for done, tool in enumerate(tools[0]):
-        at = tools[1][tool.radius - FITS]
+    for done, (tool, at) in enumerate(centres_of):
         for k, (region, shape) in enumerate(zip(regions, shapes, strict=True)):
-            progress.step((done + k / len(regions)) / len(tools[0]), f"What T{tool.number} reaches")
+            progress.step((done + k / len(regions)) / len(centres_of), f"What T{tool.number} reaches")
             if region.number in at.shapes:
                 found[k].append(reach(shape, tool.diameter, at.shapes[region.number]))
             else:
