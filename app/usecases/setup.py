@@ -399,8 +399,8 @@ def _job(
         join_tolerance=base.join_tolerance if join is None else join,
         layer_names=layers,
         copies=copies if request.job and "copies" in request.job.tables else header.copies or Copies(),
-        keep_out_layers=clamps or header.keep_out[0],
-        keep_out_height=height or header.keep_out[1],
+        keep_out_layers=clamps or header.keep_out.layers,
+        keep_out_height=height or header.keep_out.height,
     )
 
 
