@@ -45,7 +45,7 @@ class StyledPath(NamedTuple):
     rows: Rows
 
 
-class LegendRow(NamedTuple):
+class PictureLegendRow(NamedTuple):
     """An entry of the legend; without a style a patch of the colour."""
 
     label: str
@@ -103,10 +103,10 @@ def layout(picture: PathPicture) -> PictureLayout:
     return PictureLayout(scale, float(across - scale * x0), float(MARGIN + scale * y1), height)
 
 
-def legend_rows(picture: PathPicture) -> list[LegendRow]:
+def legend_rows(picture: PathPicture) -> list[PictureLegendRow]:
     """Return the entries of the legend."""
-    rows = [LegendRow(style.name, style.colour, style) for style in picture.styles()]
-    rows += [LegendRow("Plunge", PLUNGE)] if len(picture.plunges) else []
-    rows += [LegendRow("Left, within reach", LEFT)] if picture.left else []
-    rows += [LegendRow("Out of reach", UNREACHABLE)] if picture.unreachable else []
+    rows = [PictureLegendRow(style.name, style.colour, style) for style in picture.styles()]
+    rows += [PictureLegendRow("Plunge", PLUNGE)] if len(picture.plunges) else []
+    rows += [PictureLegendRow("Left, within reach", LEFT)] if picture.left else []
+    rows += [PictureLegendRow("Out of reach", UNREACHABLE)] if picture.unreachable else []
     return rows

@@ -155,7 +155,7 @@ def places(moves: Moves, chosen: Indices, radius: float) -> PathPlaces:
     )
 
 
-class _Cells(NamedTuple):
+class _ChainCells(NamedTuple):
     """Cells of chains: where each begins, its size, and the number of its block."""
 
     begin: Floats
@@ -163,7 +163,7 @@ class _Cells(NamedTuple):
     block: Indices
 
 
-def _cells(begin: Floats, length: Floats, radius: float) -> _Cells:
+def _cells(begin: Floats, length: Floats, radius: float) -> _ChainCells:
     """Return the cells of some chains."""
     going = length > 0
     begin, length = begin[going], length[going]
@@ -174,7 +174,7 @@ def _cells(begin: Floats, length: Floats, radius: float) -> _Cells:
     number = np.arange(len(chain)) - np.repeat(np.cumsum(count) - count, count)
     size = (length / count)[chain]
     block = (np.cumsum(blocks) - blocks)[chain] + number // each[chain]
-    return _Cells(begin[chain] + number * size, size, block)
+    return _ChainCells(begin[chain] + number * size, size, block)
 
 
 def _heights(moves: Moves, index: Indices, fraction: Floats) -> Floats:
