@@ -78,9 +78,9 @@ class CurvesPathView(PathView):
         why = self.curves.why(motion) if self.curves is not None else ""
         return f"{super().described(motion)}{f' · stays as it was: {why}' if why else ''}"
 
-    def paint_overlay(self, painter: QPainter) -> None:
+    def _paint_overlay(self, painter: QPainter) -> None:
         """Paint what follows the mouse, and the place that is marked."""
-        super().paint_overlay(painter)
+        super()._paint_overlay(painter)
         if self.spot is not None and self.picture is not None:
             painter.setClipRect(self.area)
             overlay.paint_place(painter, self.view.to_screen(self._on_side(self.spot)), self._how.theme.accent_text)
