@@ -24,7 +24,7 @@ from .grips import GRIP_PX, GripDragTool, SelectionDragTool
 from .interactive_viewport import PICK_PX, InteractiveViewport, MouseAnswers
 from .modes import CanvasMode, CanvasTool, PathColourBy, PathLayers
 from .painting import overlay
-from .painting.annotation_layer import paint_note
+from .painting.annotation_layer import NoteLook, paint_note
 from .painting.curve_path import MANY, curve_path
 from .painting.grid import (
     cells_shown,
@@ -220,7 +220,7 @@ class Canvas(InteractiveViewport):
             self.around.paint_clamps(painter, self.view, box, theme)
         if program is None or PathLayers.PART in look.layers:
             self.picture.fine = self.picture.count(whole) > MANY
-            self.around.paint_copies(painter, self.view, self.picture, (box, theme))
+            self.around.paint_copies(painter, self.view, self.picture, box, theme)
             yield
             yield from self.picture.steps(painter, self.view, box, theme)
         paint_origin(painter, self.view, theme)
@@ -261,7 +261,7 @@ class Canvas(InteractiveViewport):
         if self._mode is CanvasMode.DRAW:
             overlay.paint_owned(painter, self.view, self.owned, theme)
         if isinstance(self._lit, Note):
-            paint_note(painter, self.view, self._lit, (theme.accent_text, 2.2), self.area)
+            paint_note(painter, self.view, self._lit, NoteLook(theme.accent_text, 2.2), self.area)
         elif self._lit is not None and not self.runner.shows_change:
             overlay.paint_highlight(painter, self.view, self._lit_path, (theme.accent, theme.accent_text))
         overlay.paint_findings(painter, self.view, self._findings, theme)
@@ -337,7 +337,8 @@ class Canvas(InteractiveViewport):
             return
         at = self.entry.at
         if self.aim is not None:
-            overlay.paint_tracking(painter, self.view, (self.aim.tracked, self.snap_state.acquired), self.area, theme)
+            aids = overlay.TrackingAids(self.aim.tracked, self.snap_state.acquired)
+            overlay.paint_tracking(painter, self.view, aids, self.area, theme)
         end = typed.answer(tool, at)
         end = end if isinstance(end, tuple) else at
         if isinstance(tool, SelectionDragTool):

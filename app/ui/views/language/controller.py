@@ -20,6 +20,7 @@ from ...framework.commands import Commands
 from ...framework.controller import Controller
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
+from .blocks import KnownName
 from .command_runner import CommandRunner
 from .page import TextPage
 from .trial_runner import TextProblem, TextTrial, TrialRunner
@@ -168,9 +169,9 @@ class TextController(Controller):
         self.page.set_replaces(True)
         self.page.editor.setFocus()
 
-    def _names(self) -> list[tuple[str, bool]]:
+    def _names(self) -> list[KnownName]:
         session = self._document.session
-        return [*((name, False) for name in session.names), *((name, True) for name in session.commands)]
+        return [*map(KnownName, session.names), *(KnownName(name, True) for name in session.commands)]
 
     @property
     def _in_front(self) -> bool:
