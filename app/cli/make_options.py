@@ -277,7 +277,7 @@ def _with_tools(options: MakeOptions, path: Path | None) -> MakeOptions:
     from ..formats.tools.files import read_tools
 
     own = options.job.tools if options.job is not None else ()
-    tools = own if path is None else read_tools(path.name, read_input(path))[0].tools
+    tools = own if path is None else read_tools(path.name, read_input(path)).library.tools
     return replace(options, propose=replace(options.propose, tools=tuple(tools)))
 
 

@@ -58,7 +58,9 @@ def add_tools_options(parser: OptionParser) -> None:
 
 def advice_options(arguments: argparse.Namespace) -> AdviceOptions:
     """Return what was asked for, the tools to choose from read."""
-    tools = () if arguments.tools is None else read_tools(arguments.tools.name, read_input(arguments.tools))[0].tools
+    tools = (
+        () if arguments.tools is None else read_tools(arguments.tools.name, read_input(arguments.tools)).library.tools
+    )
     plan = CuttingPlan(depth=arguments.depth, stepdown=min(arguments.stepdown, arguments.depth))
     return AdviceOptions(
         tuple(tools), plan, arguments.units, tuple(arguments.layer), arguments.join_tolerance, reading(arguments)

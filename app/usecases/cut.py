@@ -21,7 +21,7 @@ from ..simulation.cutter import Cutter, cutter_of
 from ..simulation.engines import Engine, EngineReport, Graphics, HeightEngine, Job, hardware
 from ..simulation.field.workpiece import Grid, Heights, StockShape, Workpiece, ensure_memory
 from ..simulation.sweeps.course import TrimOptions
-from ..simulation.sweeps.probe import PathProbe
+from ..simulation.sweeps.probe import LowestReach, PathProbe
 from ..simulation.sweeps.trim import CutResult, trim
 from ..verify.accidents import ProgramStage, accidents
 from ..verify.certify import certify
@@ -335,8 +335,8 @@ class _CutRun:
         """All that the programs cut along, to be asked at single points; made when somebody asks."""
         return PathProbe.of([known.course for known in self.courses], self.cutters)
 
-    def _lowest(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
-        """Return the lowest height that all programs reach at points, and which of all their motions."""
+    def _lowest(self, points: Floats) -> LowestReach:
+        """Return the lowest height that all programs reach at points; motions are counted through all of them."""
         return self._path.lowest(points)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import starmap
 from pathlib import PurePath
 
 from ...core.errors import InputError
@@ -13,7 +14,7 @@ from ...model.finding import Finding, FindingKind
 from ...model.part import Layer, Part, Units
 from ...model.read_options import AS_DRAWN, DrawingOptions
 from ...model.reading import ReadingOptions
-from ..drawing import Drawing
+from ..drawing import Drawing, LeftOutKind
 from ..drawing_account import (
     MOVE,
     UsableCurves,
@@ -127,7 +128,9 @@ def read_svg(
     question = strays_or_none(found, reading, placed)
     if question is None and not (page.named or units or how.pixels_per_inch):
         question = _about_pixels(root, density, size_of(part), page.to, reading)
-    return Drawing(part, tuple(findings), tuple(sorted(left_out.items())), page.named, contents, question)
+    return Drawing(
+        part, tuple(findings), tuple(starmap(LeftOutKind, sorted(left_out.items()))), page.named, contents, question
+    )
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import MISSING, dataclass, make_dataclass
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, NamedTuple, get_type_hints
 
 from ...core.errors import HitofudeError, InputError
 from ...core.file_bytes import FileBytes
@@ -54,6 +54,13 @@ class ToolLibrary:
     name: str = ""
     tools: tuple[Tool, ...] = ()
     remark: str = ""
+
+
+class ReadTools(NamedTuple):
+    """Tools of a file, and a sentence for each thing in it that is left out."""
+
+    library: ToolLibrary
+    left_out: tuple[str, ...] = ()
 
 
 def _tool(entry: Any) -> Tool:
