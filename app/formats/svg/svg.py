@@ -30,7 +30,15 @@ from ..drawing_account import (
     usable_curves,
     without_length,
 )
-from ..reading_question import FileContents, ReadingQuestion, Size, UndecidedError, far_question, pixels_question
+from ..reading_question import (
+    AssumedDensity,
+    FileContents,
+    ReadingQuestion,
+    Size,
+    UndecidedError,
+    far_question,
+    pixels_question,
+)
 from .generator import CSS_PER_INCH, KNOWN_PER_INCH, PixelDensity, density_of
 from .numbers import MM, UnreadableError, ViewBox, WrittenLength, fitted, length, numbers, view_box
 from .walk import SvgContent, SvgWalker
@@ -172,7 +180,7 @@ def _about_pixels(
         made = _page(root, other.units, PixelDensity(per_inch).pixel if per_inch else density.pixel).to
         return wide * made.xx / to.xx, high * made.yy / to.yy
 
-    return pixels_question((density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
+    return pixels_question(AssumedDensity(density.per_inch, density.editor), KNOWN_PER_INCH, size_in, reading)
 
 
 def _anchors(content: SvgContent, layers: tuple[str, ...], without: tuple[str, ...]) -> Callable[[str], bool]:
