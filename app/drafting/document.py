@@ -414,7 +414,7 @@ class _HistorySteps(NamedTuple):
     """Whether to go back in the history, and how many steps."""
 
     back: bool
-    count: int
+    times: int
 
 
 def _step_of(statements: tuple[Statement, ...]) -> _HistorySteps | None:

@@ -14,7 +14,7 @@ class LeftOutKind(NamedTuple):
     """What is left out of a drawing: its type, such as TEXT, and how many there are."""
 
     kind: str
-    count: int
+    number: int
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ class _RowTree(NamedTuple):
     """
 
     first: int
-    count: int
+    rows: int
     node: int
     leaves: int
 
@@ -77,7 +77,7 @@ class _FlatCuts:
             self._note(height)
         last = self._trees.pop() if self._trees and not self._trees[-1].leaves else None
         loose = last or _RowTree(first, 0, self._nodes_used(), 0)
-        self._trees.append(loose._replace(count=self._count - loose.first))
+        self._trees.append(loose._replace(rows=self._count - loose.first))
         if self._count - loose.first > _LOOSE:
             self._plant()
         self._forest = None
@@ -122,7 +122,7 @@ class _FlatCuts:
         """Make one tree of the loose rows and of all trees before them that are no larger."""
         first, count, node, _ = self._trees.pop()
         self._boxes[first : self._count] = boxes(self._rows[first : self._count])
-        while self._trees and self._trees[-1].count <= count:
+        while self._trees and self._trees[-1].rows <= count:
             first, more, node, _ = self._trees.pop()
             count += more
         order, nodes = build_tree(self._boxes[first : self._count])

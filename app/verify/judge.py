@@ -181,7 +181,7 @@ class _FoundGouges(NamedTuple):
     """Gouges, the deepest first, and how many there are."""
 
     spots: tuple[Spot, ...]
-    count: int
+    number: int
 
 
 def _gouges(judging: JudgementInput, deviation: NDArray[np.float32]) -> _FoundGouges:

@@ -41,7 +41,7 @@ class FoundPlaces(NamedTuple):
     """Places, that with the largest value first, not more than MOST, and how many there are."""
 
     places: tuple[CellPlace, ...]
-    count: int
+    number: int
 
 
 def places_of(mask: NDArray[np.bool_], value: NDArray[np.float32], grid: Grid) -> FoundPlaces:

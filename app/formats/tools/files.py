@@ -110,7 +110,7 @@ def _read_table(name: str, data: bytes, units: Units) -> ReadTools:
 register(
     ToolFormat(
         ".toml",
-        lambda name, data, units: (read_library(name, data), ()),
+        lambda name, data, units: ReadTools(read_library(name, data)),
         lambda library, units: write_library(library),
     )
 )

@@ -60,7 +60,7 @@ def without_crossings(contours: Sequence[Contour]) -> OverlayResult:
     """
     pieces = pieces_of(*_together([contour_rows(contour) for contour in contours]))
     meet = _meeting(pieces, len(contours))
-    made = [(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
+    made = [_MadeOf(k, contours[k]) for k in np.flatnonzero(~meet).tolist()]
     pieces = settled(_part(pieces, meet[pieces.contour]))
     if not len(pieces.rows):  # what meets is smaller than what is merged
         return OverlayResult(_in_order(made))
@@ -72,7 +72,7 @@ def without_crossings(contours: Sequence[Contour]) -> OverlayResult:
     for numbers, loops in zip(net.members, net.loops(odd, counts), strict=True):
         members = [contours[k] for k in numbers]
         parts = net.contours(loops, members)
-        made += [(numbers[0], part) for part in parts]
+        made += [_MadeOf(numbers[0], part) for part in parts]
         findings += differing(even_odd(members), even_odd(parts).area, members)
     return OverlayResult(_in_order(made), tuple(findings))
 

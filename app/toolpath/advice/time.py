@@ -116,7 +116,7 @@ def _areas(centres: CentreArea) -> int:
 class _Strokes(NamedTuple):
     """How many strokes there are, and the share of them that goes down into metal."""
 
-    count: int
+    number: int
     into_metal: float
 
 

@@ -102,7 +102,7 @@ class JobWithOperation(NamedTuple):
     """A job, and the place of an operation in its list."""
 
     job: Job
-    index: int
+    place: int
 
 
 def with_new_tool(job: Job) -> JobWithTool:

@@ -10,6 +10,7 @@ from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, QS
 from PySide6.QtGui import QFontMetrics, QPainter
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
+from ....drafting.commands.command import DraftingSession
 from ...framework.theme import LIGHT, Theme, mixed, mono_font, text_font
 from .blocks import KnownName
 from .usage import WordKind, usage_of, usages
@@ -35,6 +36,11 @@ def word_before(line: str) -> str:
         return ""
     found = _WORD_BEFORE.search(line)
     return found[0] if found and not line[: found.start()].endswith((".", "_")) else ""
+
+
+def names_of(session: DraftingSession) -> list[KnownName]:
+    """Return the names that a session knows."""
+    return [*map(KnownName, session.names), *(KnownName(name, True) for name in session.commands)]
 
 
 def offers(line: str, names: Iterable[KnownName]) -> list[CompletionItem]:

@@ -22,6 +22,7 @@ from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from .blocks import KnownName
 from .command_runner import CommandRunner
+from .completion import names_of
 from .page import TextPage
 from .trial_runner import TextProblem, TextTrial, TrialRunner
 
@@ -170,8 +171,7 @@ class TextController(Controller):
         self.page.editor.setFocus()
 
     def _names(self) -> list[KnownName]:
-        session = self._document.session
-        return [*map(KnownName, session.names), *(KnownName(name, True) for name in session.commands)]
+        return names_of(self._document.session)
 
     @property
     def _in_front(self) -> bool:
