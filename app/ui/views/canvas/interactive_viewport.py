@@ -35,7 +35,7 @@ _DRAG_PX = 4.0
 _ADDING = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MouseAnswers:
     """What the picture does for the mouse and the keys.
 

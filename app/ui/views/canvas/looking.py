@@ -15,7 +15,7 @@ from .viewport import Viewport
 _CLICK_PX, _STEP = 4.0, 1.5
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LookingAnswers:
     """What a picture does for the mouse and the keys.
 
@@ -23,11 +23,13 @@ class LookingAnswers:
         hover: looks at what lies under a screen position while nothing is dragged.
         click: picks what lies there.
         fit: shows everything.
+        fit_keys: that ask for it.
     """
 
     hover: Callable[[QPointF], None]
     click: Callable[[QPointF], None]
     fit: Callable[[], None]
+    fit_keys: tuple[Qt.Key, ...] = (Qt.Key.Key_F, Qt.Key.Key_Home)
 
 
 class LookingHand:
@@ -76,10 +78,9 @@ class LookingHand:
         self._viewport.update()
 
     def key(self, event: QKeyEvent) -> bool:
-        """F and Home fit, + and - zoom; return whether it was one of these."""
+        """Fit, or zoom by + and -; return whether the key asks for one of these."""
         keys: dict[int, Callable[[], None]] = {
-            Qt.Key.Key_F: self._answers.fit,
-            Qt.Key.Key_Home: self._answers.fit,
+            **dict.fromkeys(self._answers.fit_keys, self._answers.fit),
             Qt.Key.Key_Plus: lambda: self._viewport.zoom_by(_STEP),
             Qt.Key.Key_Minus: lambda: self._viewport.zoom_by(1 / _STEP),
         }

@@ -54,7 +54,7 @@ _NOTCH = 1.2
 _SPARE = 0.45
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FarScene:
     """A coarse picture of everything, kept where painting takes so long that it is worth it.
 
@@ -68,7 +68,7 @@ class FarScene:
     steps: Callable[[QPainter, ViewTransform], Iterator[None]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ViewportScene:
     """What a viewport shows, by the functions that paint it.
 

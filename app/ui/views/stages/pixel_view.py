@@ -68,7 +68,7 @@ class PixelView(Viewport):
         self.marks: tuple[PixelMark, ...] = ()
         self.pixel: tuple[int, int] | None = None
         self._rows, self._lit, self._starts = QPainterPath(), QPainterPath(), QPainterPath()
-        self._hand = LookingHand(self, LookingAnswers(self._look, self._click, self.fit))
+        self._hand = LookingHand(self, LookingAnswers(self._look, self._click, self.fit, (Qt.Key.Key_F,)))
         self.setMinimumSize(220, 160)
         self.setAccessibleName("Display memory")
 
@@ -228,7 +228,7 @@ class PixelView(Viewport):
         self._tell(None)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """F and Home fit, + and - zoom."""
+        """F fits, + and - zoom."""
         if not self._hand.key(event):
             super().keyPressEvent(event)
 
