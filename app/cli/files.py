@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import time
 from collections.abc import Mapping, Sequence
@@ -65,6 +66,11 @@ def check_outputs(outputs: Mapping[str, Path], inputs: Sequence[Path]) -> None:
             taken.append(identity(path))
     for folder in {path.parent for path in outputs.values()}:
         sweep(folder)
+
+
+def named_files(arguments: argparse.Namespace, *options: str) -> dict[str, Path]:
+    """Return the files that some options name, by option; those that were not given are not among them."""
+    return {option: path for option in options if (path := getattr(arguments, option)) is not None}
 
 
 def identity(path: Path) -> object:

@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,8 +31,14 @@ if TYPE_CHECKING:
 Cutters = Mapping[int, Cutter]
 """By T number."""
 
-Job = tuple[Workpiece, Course, Cutters]
-"""What is cut, along what, with what."""
+
+class CutStep(NamedTuple):
+    """What is cut, along what, with what."""
+
+    workpiece: Workpiece
+    course: Course
+    cutters: Cutters
+
 
 Compute = Callable[["moderngl.Context", Workpiece, Course, Cutters, Progress], Heights]
 """Heights that a course leaves, on a graphics context that is current."""
@@ -130,7 +136,7 @@ def trial_of(graphics: Graphics, engine: Engine) -> EngineTrial:
     try:
         with graphics.current() as context:
             renderer = renderer_of(context)
-            found = tried(lambda *job: _computed(compute, context, job, NO_PROGRESS), allowed)
+            found = tried(lambda *job: _computed(compute, context, CutStep(*job), NO_PROGRESS), allowed)
     except HitofudeError as error:
         return EngineTrial(renderer, str(error).rstrip("."))
     except Exception as error:  # whatever a driver comes up with
@@ -201,7 +207,7 @@ class HeightEngine:
         """Whether heights beside those of the engine of record are to be computed."""
         return self._compute is not None
 
-    def alone(self, job: Job, progress: Progress = NO_PROGRESS) -> Heights | None:
+    def alone(self, step: CutStep, progress: Progress = NO_PROGRESS) -> Heights | None:
         """Return what a course leaves of a work piece; None: the engine of record must compute it.
 
         Raises:
@@ -216,25 +222,25 @@ class HeightEngine:
                 self._fall_back(f"{self.report.renderer} cannot be had again ({_words(error)})")
                 return None
             try:
-                return _computed(self._compute, context, job, progress)
+                return _computed(self._compute, context, step, progress)
             except HitofudeError:
                 raise
             except Exception as error:
                 self._fall_back(f"{self.report.renderer} fails ({_words(error)})")
                 return None
 
-    def beside(self, record: Heights, job: Job, progress: Progress = NO_PROGRESS) -> Heights:
+    def beside(self, record: Heights, step: CutStep, progress: Progress = NO_PROGRESS) -> Heights:
         """Return what a course leaves of a work piece, compared with the heights of the engine of record.
 
         Args:
             record: heights of the engine of record; they are returned where others fail or disagree.
-            job: what is cut.
+            step: what is cut.
         """
-        heights = self.alone(job, progress)
+        heights = self.alone(step, progress)
         if heights is None:
             return record
-        error = published_error(*job) if self.report.engine is Engine.PATENT else 0.0
-        found = height_difference(record, heights, _allowed(record, error, job[0].grid.pitch))
+        error = published_error(*step) if self.report.engine is Engine.PATENT else 0.0
+        found = height_difference(record, heights, _allowed(record, error, step.workpiece.grid.pitch))
         if not found.agrees:
             self._fall_back(
                 f"{self.report.renderer} computes heights up to {found.largest:.3g} mm off, in {found.astray} cells by "
@@ -271,13 +277,13 @@ def _allowed(record: Heights, error: float, pitch: float) -> float | Floats:
     return np.asarray(TOLERANCE + 1.25 * error * np.hypot(1.0, steep) + EIGHT_BITS * pitch * steep)
 
 
-def _computed(compute: Compute, context: moderngl.Context, job: Job, progress: Progress) -> Heights:
+def _computed(compute: Compute, context: moderngl.Context, step: CutStep, progress: Progress) -> Heights:
     """Compute heights; a graphics system that tells of an error has failed.
 
     Raises:
         RuntimeError: it does.
     """
-    heights = compute(context, *job, progress)
+    heights = compute(context, *step, progress)
     if (error := context.error) != "GL_NO_ERROR":
         raise RuntimeError(error)
     return heights

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.durations import minutes_words
 from ..gcode.interpreter.program import Severity
 from ..gcode.timing.duration import TIME_METHOD
 from ..model.finding import Finding, FindingKind, worst_first
@@ -417,7 +418,7 @@ def _summary(data: Json) -> Iterator[str]:
     )
     yield (
         f"{names}: {data['removed_mm3']:.1f} mm3 removed; {part}; {path}, {sum(data['length_mm'].values()):.0f} mm, "
-        f"{_clock(data['time_s'])} min"
+        f"{minutes_words(data['time_s'])} min"
     )
     if certificate is not None and certificate["gouge_mm"] - gouge["max_mm"] < _TELLING * certificate["pitch_mm"]:
         yield (
@@ -437,7 +438,7 @@ def _summary(data: Json) -> Iterator[str]:
     for tool in data["tools"]:
         yield (
             f"  T{tool['number']} {tool['kind']} {tool['diameter_mm']:g} mm ({tool['from']}): "
-            f"{tool['removed_mm3']:.1f} mm3, {_clock(tool['time_s'])} min{_held(tool)}"
+            f"{tool['removed_mm3']:.1f} mm3, {minutes_words(tool['time_s'])} min{_held(tool)}"
         )
 
 
@@ -461,8 +462,3 @@ def _words(box: Json) -> str:
 
 def _counted(count: int, what: str) -> str:
     return f"{count} {what}{'' if count == 1 else 's'}"
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02d}"

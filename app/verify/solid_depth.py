@@ -5,6 +5,7 @@ away.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,13 @@ class CutColumns:
     def only(self, rows: NDArray[np.int64] | slice) -> CutColumns:
         """Return some of them."""
         return CutColumns(self.places[rows], self.low[rows], self.high[rows])
+
+
+class _ColumnParts(NamedTuple):
+    """Parts of columns: which column each is of, and x, y, low, high (k, 4), mm."""
+
+    column: NDArray[np.int64]
+    segments: Floats
 
 
 class DepthInSolid:
@@ -78,8 +86,8 @@ class DepthInSolid:
         winds = np.bincount(point, np.where(heights < before[point, 2], -up, 0.0), len(before))
         return np.asarray(triangles[winds < 0.5])
 
-    def _in_solid(self, columns: CutColumns) -> tuple[NDArray[np.int64], Floats]:
-        """Return what of columns lies in the solid, by the winding number: which column, and x, y, low, high (k, 4)."""
+    def _in_solid(self, columns: CutColumns) -> _ColumnParts:
+        """Return what of columns lies in the solid, by the winding number."""
         point, heights, up = self._rays.met(columns.places + np.array([ASIDE, ASIDE * 0.7]))
         order = np.lexsort((heights, point))
         point, heights, up = point[order], heights[order], up[order]
@@ -92,4 +100,4 @@ class DepthInSolid:
             np.minimum(heights[inside + 1], columns.high[column]),
         )
         some = high > low
-        return column[some], np.column_stack([columns.places[column], low, high])[some]
+        return _ColumnParts(column[some], np.column_stack([columns.places[column], low, high])[some])

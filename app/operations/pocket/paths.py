@@ -14,7 +14,7 @@ from ...geometry.distance import DistanceField
 from ...geometry.offset.offset import OffsetLevel, offset_levels
 from ...geometry.primitives import path_length
 from ...model.job import Job
-from ...model.operation import CutParameters, PocketOperation, Side
+from ...model.operation import CutParameters, Operation, PocketOperation, Side
 from ...model.tool import Tool
 from ...toolpath.build import Stroke
 from ...toolpath.linking.link import LinkOptions, link
@@ -146,7 +146,7 @@ def shortest(
     return best
 
 
-def wall_distance(job: Job, operation: PocketOperation) -> float:
+def wall_distance(job: Job, operation: Operation) -> float:
     """Return how far A' lies inside the walls, mm: the contour tool's radius and the stock it leaves (step 120).
 
     Without a contour operation that goes inside the walls of the same curves, as deep, the pocket goes up to the walls
@@ -155,7 +155,7 @@ def wall_distance(job: Job, operation: PocketOperation) -> float:
     return max((job.tool(cut.tool).radius + cut.stock_to_leave for cut in _followers(job, operation)), default=0.0)
 
 
-def _followers(job: Job, operation: PocketOperation) -> list[CutParameters]:
+def _followers(job: Job, operation: Operation) -> list[CutParameters]:
     """Return the contour operations inside the walls of the same curves, as deep."""
     cuts = (
         each.cut for each in job.operations if each.FOLLOWS_WALLS and each.cut.enabled and each.wall_side is Side.INSIDE
@@ -175,7 +175,7 @@ def _left_to_contours(disc: float, job: Job, operation: PocketOperation) -> bool
     )
 
 
-def stepover_of(operation: PocketOperation, tool: Tool) -> float:
+def stepover_of(operation: Operation, tool: Tool) -> float:
     """Return the distance between rings, mm: as asked, or the largest at which rings cover everything by themselves.
 
     A stepover s <= R leaves no point farther than R from some ring. Overlap of the 1986 text = 2 R - s.
@@ -183,14 +183,14 @@ def stepover_of(operation: PocketOperation, tool: Tool) -> float:
     Raises:
         ParameterError: the stepover is larger than the tool.
     """
-    if operation.stepover is None:
+    if operation.ring_stepover is None:
         return tool.radius
-    if operation.stepover > tool.diameter:
+    if operation.ring_stepover > tool.diameter:
         raise ParameterError(
-            f"Stepover is {operation.stepover:g} mm, more than the diameter of T{tool.number} ({tool.diameter:g} mm); "
-            "use that or less."
+            f"Stepover is {operation.ring_stepover:g} mm, more than the diameter of T{tool.number} "
+            f"({tool.diameter:g} mm); use that or less."
         )
-    return operation.stepover
+    return operation.ring_stepover
 
 
 def pocket_distances(outermost: float, stepover: float, field: DistanceField) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ from app.raster.steps import STEPS
 from app.ui.framework.theme import LIGHT
 from app.ui.framework.view import View
 from app.ui.views.stages.code_colours import step_colours
+from app.ui.views.stages.film_player import SPEEDS
 from app.ui.views.stages.painting.pixel_painter import LETTER_PX, RASTER_PX
 from app.ui.views.stages.panel import FillRules
 from app.ui.views.stages.step_notes import note
@@ -82,7 +83,7 @@ def test_keys_step_and_the_rail_ticks_what_was_reached(qtbot, staged):
 
 def test_space_plays_to_the_end_and_pauses(qtbot, staged):
     view = staged.window_.views.stages
-    view.player.set_speed(60)
+    view.player.speed.setCurrentIndex(SPEEDS.index(60))
     seen = []
     view.shown.connect(lambda: seen.append(view.at))
     qtbot.keyClick(view.pixels, Qt.Key.Key_Space)

@@ -19,9 +19,9 @@ from ...framework.computation import ComputationState
 from ...framework.controller import Controller
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
-from .jobs import ProjectedProgram, compared, framed, projected, restarted
+from .jobs import ComparedWith, ProjectedProgram, compared, framed, projected, restarted
 from .motion_shapes import ViewSide
-from .places import ComparedProgram, difference_places
+from .places import difference_places
 from .program_reader import FILTER, ProgramReader, ProgramSource, ShownProgram
 from .program_text import program_text
 from .view import NcView
@@ -151,11 +151,11 @@ class NcController(Controller):
         self._view.show_comparison(None)
         self.changed.emit()
 
-    def _on_compared(self, answer: tuple[ShownProgram, ComparedProgram]) -> None:
+    def _on_compared(self, answer: ComparedWith) -> None:
         shown, both = answer
         if shown is not self._view.shown:
             return
-        title = difference_places(both.differences)[0]
+        title = difference_places(both.differences).title
         self._log.note(f"compare {both.other.source.name}", title)
         self._view.other.head.show_dialect(both.other.guessed, both.other.source.dialect, free=False)
         self.front_requested.emit()
