@@ -245,6 +245,42 @@ def merge(pairs, group):
         group[k] = _head(group, k)
 
 
+@kernel("void(float64[:, ::1], int64[::1], int64[::1], int64, float64, int64[::1])")
+def merge_within(points, owner, cell, columns, reach, group):
+    """Write for each owner of points the lowest of those that it is joined with by points within a distance.
+
+    Args:
+        points: (n, 2) by their cell. owner: (n,) whose each one is.
+        cell: (n,) row * columns + column of a grid of squares as wide as the distance, whose first and last columns
+            are empty.
+        reach: mm.
+    """
+    for k in range(len(group)):
+        group[k] = k
+    most, first, last = reach * reach * (1 + 1e-12), 0, 0
+    for i in range(len(points)):
+        x, y, a = points[i, 0], points[i, 1], owner[i]
+        while first < len(points) and cell[first] < cell[i] + columns - 1:
+            first += 1
+        last = max(last, first)
+        while last < len(points) and cell[last] <= cell[i] + columns + 1:
+            last += 1
+        j = i + 1
+        while j < last:
+            if j < first and cell[j] > cell[i] + 1:  # on to the next row
+                j = first
+                continue
+            if owner[j] != a:
+                dx, dy = points[j, 0] - x, points[j, 1] - y
+                square = dx * dx + dy * dy
+                if square <= most and math.sqrt(square) <= reach:
+                    one, other = _head(group, a), _head(group, owner[j])
+                    group[max(one, other)] = min(one, other)
+            j += 1
+    for k in range(len(group)):
+        group[k] = _head(group, k)
+
+
 @kernel("Tuple((float64, int64))(float64[:, ::1], float64, float64)")
 def nearest_of_few(rows, x, y):
     """Return (distance, row) of the row nearest to a point, without a tree."""
