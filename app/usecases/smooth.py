@@ -10,11 +10,12 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.effort import announce
 from ..core.errors import HitofudeError, InputError
 from ..core.progress import NO_PROGRESS, Progress
-from ..fitting.fitted import FittedPath
+from ..fitting.fitted import FittedPath, RefusalReason, SplineRefusal
 from ..fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from ..fitting.point_curves.corners import bends, corners
 from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, without_repeats
@@ -37,7 +38,15 @@ from ..geometry.coincident_points import near
 from ..model.motion import Floats, MotionKind, Motions, Nurbs
 from .effort import smooth_effort
 from .smooth_report import certificate
-from .smooth_result import REACH, TOLERANCES, OutputForm, SmoothedProgram, SmoothedStretch, SmoothOptions
+from .smooth_result import (
+    REACH,
+    TOLERANCES,
+    OutputForm,
+    SmoothedProgram,
+    SmoothedStretch,
+    SmoothOptions,
+    WrittenKinds,
+)
 from .smooth_source import SourceProgram, read_source
 
 __all__ = ["TOLERANCES", "OutputForm", "SmoothOptions", "SmoothedProgram", "SmoothedStretch", "smooth"]
@@ -65,6 +74,11 @@ def smooth(name: str, data: bytes, options: SmoothOptions, progress: Progress = 
         Cancelled: the job was asked to stop.
     """
     ready = read_source(name, data, options.dialect, options.post, progress.part(0.0, 0.15))
+    if options.insist and ready.post.nurbs.form is NurbsForm.NONE:
+        raise InputError(
+            f"{ready.post.title} knows no splines, so none can be insisted on; leave --insist out, or name a post "
+            "that has them, --post fanuc or --post linuxcnc."
+        )
     found = find_stretches(ready.program, ProgramBuffer(ready.data), progress.part(0.15, 0.2))
     announce(smooth_effort(found.stretches, options.form, options.effective), progress)
     work = _SmoothingRun(options, ready, found)
@@ -108,6 +122,7 @@ class _JudgedStretch:
     Attributes:
         curve: what is driven along. judgement: of it. near: of it by the points of method D alone; None without it.
         cut: whether a corner is kept no more. rounded: how many bends beside shorter legs are not.
+        kinds: what was read back.
     """
 
     curve: SpaceCurve
@@ -115,6 +130,7 @@ class _JudgedStretch:
     near: TubeJudgement | None
     cut: bool
     rounded: int
+    kinds: WrittenKinds
 
     @property
     def fault(self) -> str:
@@ -140,6 +156,7 @@ class _SmoothingRun:
         ]
         self._tube = ToleranceTube(options.tolerance, options.middle)
         self._classes: dict[int, PointClasses] = {}
+        self._refusals: dict[int, tuple[SplineRefusal, ...]] = {}
 
     def written(self, progress: Progress) -> tuple[dict[int, tuple[str, ...]], dict[int, str]]:
         """Return the new blocks of stretches, and why others stay."""
@@ -154,10 +171,13 @@ class _SmoothingRun:
             share = progress.part(k / count, (k + 1) / count)
             state = self._program.states[self._program.motions.state[stretch.first]]
             spelling = BlockFormat(self._post, state, stretch.feed, stretch.resumed)
-            made = curve_blocks(self._fitted(k, self._options.form, share).motions, spelling)
-            if len(made) >= len(stretch.points) - 1 and self._options.form is OutputForm.NURBS:
+            path = self._fitted(k, self._options.form, share)
+            made, self._refusals[k] = curve_blocks(path.motions, spelling), path.refusals
+            if len(made) >= len(stretch.points) - 1 and self._options.form is OutputForm.NURBS and not self._insists:
+                tried = len(made)
                 made = curve_blocks(self._fitted(k, OutputForm.ARCS, share).motions, spelling)
-            if len(made) >= len(stretch.points) - 1:
+                self._refusals[k] = (SplineRefusal(RefusalReason.BLOCKS, tried, len(made)),)
+            if len(made) >= len(stretch.points) - 1 and not self._insists:
                 kept[k] = "it would not take fewer blocks"
             else:
                 blocks[k] = made
@@ -204,7 +224,7 @@ class _SmoothingRun:
             tube.radius, self._options.corner, largest, form is not OutputForm.LINES, tube.middle, self._options.bend
         )
         if form is not OutputForm.NURBS or nurbs is NurbsForm.NONE:
-            return fit_arcs(points, arcs, progress)
+            return self._without_splines(fit_arcs(points, arcs, progress), form)
         level = nurbs is NurbsForm.BEZIER
         blocks, uncut = _quarters if level else _knots, replace(arcs, corner=math.pi)
         cubic = _FOR_CUBICS * tube.radius if self._options.degree != 3 else 0.0
@@ -217,8 +237,19 @@ class _SmoothingRun:
             blocks,
             level,
             lambda part, share: fit_arcs(part, uncut, share),
+            self._options.insist,
         )
         return fit_splines(points, splines, progress)
+
+    @property
+    def _insists(self) -> bool:
+        return self._options.insist
+
+    def _without_splines(self, path: FittedPath, form: OutputForm) -> FittedPath:
+        """Return a path of lines and arcs, with the reason where splines were asked for."""
+        if form is not OutputForm.NURBS:
+            return path
+        return replace(path, refusals=(SplineRefusal(RefusalReason.CONTROL, 0, len(path.motions)),))
 
     def _near(self, method: EffectiveMethod, slack: float, between: float) -> ToleranceTube:
         """Return the region round the points that method D goes by: near to them, as wide as may be between them."""
@@ -241,7 +272,8 @@ class _SmoothingRun:
             curve, ends = self._driven(after.motions, row, stop), after.motions.end[row:stop]
             near_by = self._judged_near(k, curve)
             judgement = judge(curve, self._points[k], self._tube)
-            answers[k] = _JudgedStretch(curve, judgement, near_by, *self._lost(self._points[k], ends))
+            kinds = _kinds(after.motions.kind[row:stop])
+            answers[k] = _JudgedStretch(curve, judgement, near_by, *self._lost(self._points[k], ends), kinds)
         return answers
 
     def _judged_near(self, k: int, curve: SpaceCurve) -> TubeJudgement | None:
@@ -347,7 +379,16 @@ class _SmoothingRun:
             after=of_curve(judged.curve, points[at]),
             near=judged.near,
             rounded=judged.rounded,
+            kinds=judged.kinds,
+            refusals=self._refusals.get(k, ()),
         )
+
+
+def _kinds(kind: NDArray[np.uint8]) -> WrittenKinds:
+    """Return how many motions of each kind there are; one that goes nowhere is a line."""
+    splines = int(np.sum(kind == MotionKind.SPLINE))
+    lines = int(np.sum(kind <= MotionKind.LINE))
+    return WrittenKinds(lines, len(kind) - lines - splines, splines)
 
 
 def _knots(curve: Nurbs) -> int:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from typing import Any
 
 import numpy as np
 
+from ..fitting.fitted import RefusalReason, SplineRefusal
 from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.effective_points import PointState
 from ..gcode.interpreter.dialect import DIALECT_RULES
@@ -23,14 +25,14 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
     """Return the proof in a few sentences, for the program's head."""
     changed = _changed(done)
     came, left = _blocks(done)
-    reported = (
-        f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew as {done.options.form.value}"
-    )
+    head = f"hitofude smooth: {len(changed)} of {len(done.pieces)} stretches written anew"
     if not changed:
-        return (reported, *_other_control(done))
+        return (head, *_other_control(done))
+    reported = f"{head} as {done.kinds.words}"
     bend, step = _most(done, "bend"), _most(done, "curvature_step")
     return (
         f"{reported}, {came} blocks before, {left} after",
+        *refused_words(done.refusals),
         f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
         f"moves {max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
@@ -45,6 +47,20 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
         "the control may add what its own blending allows",
         *_other_control(done),
     )
+
+
+def refused_words(refusals: tuple[SplineRefusal, ...]) -> tuple[str, ...]:
+    """Return in a sentence for each reason where something else stands than the splines that were asked for."""
+    told = []
+    for reason in RefusalReason:
+        about = [each for each in refusals if each.reason is reason]
+        if not about:
+            continue
+        runs = "1 run" if len(about) == 1 else f"{len(about)} runs"
+        blocks, instead = (sum(getattr(each, name) for each in about) for name in ("blocks", "instead"))
+        took = f": {blocks} blocks, in place of {instead}" if blocks else ""
+        told.append(f"no spline in {runs}, {reason.value}{took}")
+    return tuple(told)
 
 
 def _bend_words(done: SmoothedProgram) -> str:
@@ -84,6 +100,21 @@ def findings(done: SmoothedProgram) -> tuple[Finding, ...]:
     return tuple(
         Finding(FindingKind.TOLERANCE, f"Lines {piece.lines[0]} to {piece.lines[1]} stay as they were: {piece.kept}.")
         for piece in lost
+    ) + _not_splines(done)
+
+
+def _not_splines(done: SmoothedProgram) -> tuple[Finding, ...]:
+    """Return where splines were insisted on and something else stands."""
+    if not done.options.insist:
+        return ()
+    refused = [
+        (piece.lines, "; ".join(refused_words(piece.refusals)))
+        for piece in done.pieces
+        if piece.judgement is not None and piece.refusals
+    ]
+    return tuple(
+        Finding(FindingKind.TOLERANCE, f"Lines {first} to {last} are not splines all along: {why}.")
+        for (first, last), why in refused
     )
 
 
@@ -102,6 +133,12 @@ def report(done: SmoothedProgram) -> Json:
         },
         "warnings": [problem.message(done.name) for problem in done.source.problems],
         "as": done.options.form.value,
+        "insist": done.options.insist,
+        "written": dataclasses.asdict(done.kinds) | {"words": done.kinds.words},
+        "not_splines": [
+            {"reason": each.reason.value, "spline_blocks": each.blocks or None, "blocks": each.instead}
+            for each in done.refusals[:LISTED]
+        ],
         "tolerance": {
             "asked_mm": done.options.tolerance,
             "middle_mm": done.options.middle,
@@ -152,6 +189,7 @@ def _listed(piece: SmoothedStretch) -> Json:
         "curve_to_moves_found_mm": judgement.from_curve,
         "moves_to_curve_found_mm": judgement.from_points,
         "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
+        "written": dataclasses.asdict(piece.kinds),
         **_points_of(piece),
     }
 

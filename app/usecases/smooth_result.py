@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import ParameterError
+from ..fitting.fitted import SplineRefusal
 from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.corners import LEAST_LEG
 from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses
@@ -53,6 +54,7 @@ class SmoothOptions:
         effective: method D; None: the curve goes by all points.
         bend: lines and arcs may turn by so much where they meet, where that saves blocks, radians; or as much as the
             moves do there.
+        insist: splines all along, however many blocks they take, smooth of the second order from corner to corner.
     """
 
     tolerance: float = 0.01
@@ -64,6 +66,7 @@ class SmoothOptions:
     dialect: Dialect | None = None
     effective: EffectiveMethod | None = None
     bend: float = BEND
+    insist: bool = False
 
     @property
     def least_leg(self) -> float:
@@ -85,6 +88,28 @@ class SmoothOptions:
             raise ParameterError(
                 f"a bend of {math.degrees(self.bend):g} degrees; use more than 0 and not more than 180."
             )
+        if self.insist and self.form is not OutputForm.NURBS:
+            raise ParameterError(f"insisting on splines, written as {self.form.value}; write nurbs, or do not insist.")
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenKinds:
+    """How many lines, arcs and splines stand in a written text; one block of a spline's words is none of its own."""
+
+    lines: int = 0
+    arcs: int = 0
+    splines: int = 0
+
+    def __add__(self, other: WrittenKinds) -> WrittenKinds:
+        """Return those of both together."""
+        return WrittenKinds(self.lines + other.lines, self.arcs + other.arcs, self.splines + other.splines)
+
+    @property
+    def words(self) -> str:
+        """As people are told: "10 arcs and 3 lines"."""
+        named = ((self.splines, "spline"), (self.arcs, "arc"), (self.lines, "line"))
+        told = [f"{count} {name}" + ("" if count == 1 else "s") for count, name in named if count]
+        return " and ".join(([", ".join(told[:-1])] if len(told) > 1 else []) + told[-1:]) or "nothing"
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +129,8 @@ class SmoothedStretch:
         near: of the curve against the points that method D goes by; None without it.
         lines: its first and last one in the text that came in, 1-based.
         rounded: how many bends above the corner's angle, beside shorter legs than corners have, are kept no more.
+        kinds: what its written text holds, as it is read back.
+        refusals: where splines were asked for and something else stands.
     """
 
     stretch: FeedStretch
@@ -119,6 +146,8 @@ class SmoothedStretch:
     near: TubeJudgement | None = None
     lines: tuple[int, int] = (0, 0)
     rounded: int = 0
+    kinds: WrittenKinds = WrittenKinds()
+    refusals: tuple[SplineRefusal, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,6 +179,16 @@ class SmoothedProgram:
     dialects: tuple[Dialect, Dialect]
     off: float = 0.0
     nearness: float | None = None
+
+    @property
+    def kinds(self) -> WrittenKinds:
+        """What stands for all stretches that were written anew."""
+        return sum((piece.kinds for piece in self.pieces), WrittenKinds())
+
+    @property
+    def refusals(self) -> tuple[SplineRefusal, ...]:
+        """Where splines were asked for and something else stands, of all stretches that were written anew."""
+        return tuple(each for piece in self.pieces if piece.judgement for each in piece.refusals)
 
     @property
     def farthest_point(self) -> float:

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 
 from ...core.atomic import write_together
+from ...core.errors import InputError
 from ...fitting.line_arcs.arc_fit import BEND
 from ...gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...gcode.posts.post import Post
@@ -59,7 +60,13 @@ def _add_options(parser: OptionParser) -> None:
         dest="form",
         choices=[form.value for form in OutputForm],
         default=OutputForm.ARCS.value,
-        help="what is written (default arcs)",
+        help="what is written (default arcs); nurbs: splines where they take fewer blocks, arcs elsewhere",
+    )
+    parser.add_argument(
+        "--insist",
+        action="store_true",
+        help="with --as nurbs: splines all along, however many blocks they take, continuous in curvature between "
+        "corners",
     )
     parser.add_argument(
         "--region",
@@ -128,6 +135,10 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     post: Post | None = arguments.post
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     effective = effective_method(arguments)
+    if arguments.insist and arguments.form != OutputForm.NURBS.value:
+        raise InputError(
+            f"--insist belongs to --as nurbs, not to --as {arguments.form}; give that too, or leave it out"
+        )
     return SmoothOptions(
         arguments.tolerance,
         OutputForm(arguments.form),
@@ -138,6 +149,7 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
         dialect,
         effective,
         arguments.bend,
+        arguments.insist,
     )
 
 

@@ -351,3 +351,16 @@ def test_degree_is_a_choice_of_splines(qtbot, opened) -> None:
     assert panel.degree.isVisible()
     press_smooth(qtbot, opened)
     assert curves_of(opened).curves.done.options.degree == 5
+
+
+def test_who_insists_on_splines_is_told_what_was_written(qtbot, opened) -> None:
+    panel = opened.window_.curves_panel
+    assert not panel.insist.isVisible()
+    panel.post.show_value("fanuc")
+    click(panel.form, "nurbs")
+    assert panel.insist.isVisible() and panel.insist.value is False
+    click(panel.insist, True)
+    press_smooth(qtbot, opened)
+    done = curves_of(opened).curves.done
+    assert done.options.insist and done.kinds.splines > 0 == done.kinds.lines + done.kinds.arcs
+    assert done.kinds.words in panel.title.text()

@@ -53,6 +53,8 @@ class CurvesPanel(QScrollArea):
             )
         )
         self.form = ChoiceField("Write", FORMS)
+        self.insist = ChoiceField("Splines", [(False, "Where shorter"), (True, "All along")])
+        self.insist.setToolTip("All along: however many blocks they take; else arcs stand where these take fewer")
         self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel")])
         self.middle = NumberField(
             NumberSpec(
@@ -95,6 +97,7 @@ class CurvesPanel(QScrollArea):
             self.preset,
             self.tolerance,
             self.form,
+            self.insist,
             self.degree,
             self.region,
             self.middle,
@@ -153,6 +156,7 @@ class CurvesPanel(QScrollArea):
         self.post.show_value(None)
         self.tolerance.show_value(options.tolerance)
         self.form.show_value(options.form.value)
+        self.insist.show_value(options.insist)
         self.degree.show_value(options.degree)
         self._show_form(options.form.value)
         self.bend.show_value(math.degrees(options.bend))
@@ -182,6 +186,7 @@ class CurvesPanel(QScrollArea):
             bend=math.radians(self.bend.number),
             post=load_post(str(name)) if name is not None else None,
             effective=self.points.method(),
+            insist=self.form.value == "nurbs" and self.insist.value is True,
         )
 
     @property
@@ -252,6 +257,7 @@ class CurvesPanel(QScrollArea):
 
     def _show_form(self, form: str) -> None:
         self.degree.setVisible(form == "nurbs")
+        self.insist.setVisible(form == "nurbs")
         self.bend.setVisible(form == "arcs")
 
     def _show_region(self, region: str) -> None:
@@ -272,8 +278,8 @@ def _headline(told: dict[str, Any], kept: set[str]) -> str:
         return "No straight feed moves follow one another here, so there is nothing to smooth."
     if not changed:
         return f"Nothing was written anew: {'; '.join(sorted(kept))}."
-    name = {"lines": "straight lines", "nurbs": "NURBS"}.get(told["as"], told["as"])
-    return f"{changed} of {of} written anew as {name}, and proven as written."
+    words = told["written"]["words"]
+    return f"{changed} of {of} written anew as {words}, and proven as written."
 
 
 def _figures(told: dict[str, Any]) -> list[tuple[str, str, str]]:
