@@ -24,7 +24,7 @@ TOLERANCE = 0.01
 
 
 def bent(sides: int = 9, turn: float = math.radians(20)) -> np.ndarray:
-    """A polygon whose corners are none by the usual angle: nothing smooth goes through its points within a hundredth."""
+    """A polygon whose corners are none by the usual angle: no smooth curve has room at its points."""
     steps = 10 * np.column_stack([np.cos(turn * np.arange(sides)), np.sin(turn * np.arange(sides)), np.zeros(sides)])
     return np.vstack([np.zeros(3), np.cumsum(steps, axis=0)]) + [0, 0, -1]
 
