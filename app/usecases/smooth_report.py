@@ -12,6 +12,7 @@ import numpy as np
 from ..fitting.fitted import RefusalReason, SplineRefusal
 from ..fitting.line_arcs.arc_fit import BEND
 from ..fitting.point_curves.effective_points import PointState
+from ..fitting.point_curves.smoothness import joints_of
 from ..gcode.interpreter.dialect import DIALECT_RULES
 from ..model.finding import Finding, FindingKind
 from .smooth_result import SmoothedProgram, SmoothedStretch
@@ -33,7 +34,7 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
     return (
         f"{reported}, {came} blocks before, {left} after",
         *refused_words(done.refusals),
-        f"tolerance {done.options.tolerance:g} mm; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
+        f"{_region_words(done)}; proven both ways, as written: {done.bound:.6f} mm; found: curve to "
         f"moves {max(piece.judgement.from_curve for piece in changed if piece.judgement):.6f} mm, moves to curve "
         f"{max(piece.judgement.from_points for piece in changed if piece.judgement):.6f} mm",
         f"largest bend {math.degrees(bend[0]):.3f} deg before, {math.degrees(bend[1]):.3f} after{_bend_words(done)}; "
@@ -47,6 +48,15 @@ def certificate(done: SmoothedProgram) -> tuple[str, ...]:
         "the control may add what its own blending allows",
         *_other_control(done),
     )
+
+
+def _region_words(done: SmoothedProgram) -> str:
+    """Return how far apart curve and moves may be."""
+    options = done.options
+    if options.profile is None:
+        return f"tolerance {options.tolerance:g} mm"
+    radii = ", ".join(f"{options.profile.outline.radius(share):.4g}" for share in np.linspace(0, 1, 5))
+    return f"region by its outline, {radii} mm from one point to the next by quarters"
 
 
 def refused_words(refusals: tuple[SplineRefusal, ...]) -> tuple[str, ...]:
@@ -142,6 +152,8 @@ def report(done: SmoothedProgram) -> Json:
         "tolerance": {
             "asked_mm": done.options.tolerance,
             "middle_mm": done.options.middle,
+            "outline": None if done.options.profile is None else done.options.profile.text,
+            "widest_mm": done.options.widest,
             "proven_mm": done.bound,
             "curve_to_moves_found_mm": max(
                 (piece.judgement.from_curve for piece in changed if piece.judgement), default=0.0
@@ -190,7 +202,44 @@ def _listed(piece: SmoothedStretch) -> Json:
         "moves_to_curve_found_mm": judgement.from_points,
         "farthest": {"x": x, "y": y, "z": z, "chord": judgement.chord},
         "written": dataclasses.asdict(piece.kinds),
+        **_rounds(piece),
+        **_joints(piece),
         **_points_of(piece),
+    }
+
+
+def _rounds(piece: SmoothedStretch) -> Json:
+    """Return the rounds of the text's figure 4, where splines were tried."""
+    names = {
+        "farthest": "farthest_mm",
+        "outside": "points_outside",
+        "unproven": "chords_unproven",
+        "spread": "thinning",
+    }
+    told = [
+        {names.get(name, name): value for name, value in dataclasses.asdict(each).items()}
+        for each in piece.rounds[:LISTED]
+    ]
+    return {"rounds": told} if told else {}
+
+
+def _joints(piece: SmoothedStretch) -> Json:
+    """Return where one written motion goes over into the next, those that bend most first."""
+    if piece.curve is None:
+        return {}
+    joints = sorted(joints_of(piece.curve), key=lambda each: -each.bend)
+    return {
+        "joints": [
+            {
+                "x": each.place[0],
+                "y": each.place[1],
+                "z": each.place[2],
+                "bend_deg": math.degrees(each.bend),
+                "curvature_step_per_mm": each.curvature_step,
+            }
+            for each in joints[:LISTED]
+        ],
+        "joints_not_listed": max(len(joints) - LISTED, 0),
     }
 
 

@@ -116,3 +116,26 @@ def test_insisting_where_it_cannot_be_is_refused(
     source.write_text(program(ELLIPSE))
     assert main(["smooth", str(source), "-o", str(tmp_path / "out.ngc"), *more]) == 2
     assert told in capsys.readouterr().err and not (tmp_path / "out.ngc").exists()
+
+
+@pytest.mark.parametrize("form", ["arcs", "nurbs"])
+@pytest.mark.parametrize("outline", ["f:0.01+0.02*sin(pi*z)", "table:0=0.006,0.5=0.03,1=0.006"])
+def test_any_outline_of_the_region_is_used_proven_and_told(tmp_path: Path, form: str, outline: str) -> None:
+    more = ["--post", "fanuc", "--dialect", "fanuc", "--as", form, "--region"]
+    text, report = smoothed(tmp_path, program(ELLIPSE), *more, outline)
+    _, narrow = smoothed(tmp_path, program(ELLIPSE), *more, "cylinder", "--tolerance", "0.006")
+    assert report["blocks"]["after"] < narrow["blocks"]["after"]  # type: ignore[index]
+    assert "REGION BY ITS OUTLINE" in text.upper()
+    [stretch] = report["stretches"]["listed"]  # type: ignore[index]
+    assert report["tolerance"]["asked_mm"] < report["tolerance"]["proven_mm"] <= 0.03  # type: ignore[index]
+    assert len(stretch["joints"]) >= 1 and (form == "arcs") == ("rounds" not in stretch)
+    if form == "nurbs":
+        counts = [each["control_points"] for each in stretch["rounds"] if not each["thinning"]]
+        assert any(each["chords_unproven"] for each in stretch["rounds"]) and counts == sorted(counts)
+
+
+def test_an_outline_tells_the_tolerance(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source = tmp_path / "in.ngc"
+    source.write_text(program(ELLIPSE))
+    told = ["smooth", str(source), "-o", str(tmp_path / "out.ngc"), "--region", "f:0.01", "--tolerance", "0.01"]
+    assert main(told) == 2 and "--tolerance" in capsys.readouterr().err

@@ -11,7 +11,7 @@ import numpy as np
 from ...core.progress import NO_PROGRESS, Progress
 from ...model.motion import Floats, Nurbs
 from ..fitted import FittedPath, Ints, RefusalReason, SplineRefusal, chained, lines_between, spline_motion
-from .bspline import fit_spline
+from .bspline import FitRound, fit_spline
 from .corners import corners
 from .cubic_approximation import cubic_near
 from .smoothness import of_curve, of_points
@@ -43,6 +43,7 @@ class SplineOptions:
             would take no fewer blocks than chords; chords unless said otherwise.
         insist: one spline from corner to corner, however many blocks it takes; the rest stands only where the control
             cannot be told of one.
+        observer: is shown every round of every spline that is fitted.
     """
 
     tube: ToleranceTube
@@ -53,6 +54,7 @@ class SplineOptions:
     level: bool = False
     rest: Callable[[Floats, Progress], FittedPath] = lambda points, _: _chords(points)
     insist: bool = False
+    observer: Callable[[FitRound], None] | None = None
 
 
 def fit_splines(points: Floats, options: SplineOptions, progress: Progress = NO_PROGRESS) -> FittedPath:
@@ -107,7 +109,7 @@ def _fitted(points: Floats, options: SplineOptions, progress: Progress) -> list[
         return [_rest(points, options, progress, RefusalReason.LEVEL)]
     if len(points) <= options.degree + 1:
         return [_rest(points, options, progress, RefusalReason.SHORT)]
-    made = fit_spline(points, options.tube, options.degree, progress)
+    made = fit_spline(points, options.tube, options.degree, progress, options.observer)
     if isinstance(made, np.ndarray):
         edges = [0, *made.tolist(), len(points) - 1]
         parts = [part for a, b in pairwise(edges) for part in _fitted(points[a : b + 1], options, progress)]
@@ -133,7 +135,7 @@ def _insisted(points: Floats, options: SplineOptions, progress: Progress) -> Fit
     while len(dense) <= options.degree + 1:
         dense, tube = _with_middles(dense, np.arange(len(dense) - 1)), ToleranceTube(tube.radius)
     for _ in range(_DENSER):
-        made = fit_spline(dense, tube, options.degree, progress)
+        made = fit_spline(dense, tube, options.degree, progress, options.observer)
         if not isinstance(made, np.ndarray):
             curve = cubic_near(made.curve, options.cubic) if options.cubic else made.curve
             return FittedPath(spline_motion(curve), np.array([len(points) - 1]))

@@ -14,6 +14,7 @@ from ...framework.figures import counted, grouped
 from ...framework.labels import muted
 from ...framework.section import EDGE, hairline, heading
 from ...panels.side_panel import WIDTH
+from .outline_field import OutlineField
 from .points_form import PointsForm
 
 if TYPE_CHECKING:
@@ -55,7 +56,8 @@ class CurvesPanel(QScrollArea):
         self.form = ChoiceField("Write", FORMS)
         self.insist = ChoiceField("Splines", [(False, "Where shorter"), (True, "All along")])
         self.insist.setToolTip("All along: however many blocks they take; else arcs stand where these take fewer")
-        self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel")])
+        self.region = ChoiceField("Region", [("cylinder", "Cylinder"), ("barrel", "Barrel"), ("outline", "r = f(z)")])
+        self.outline = OutlineField()
         self.middle = NumberField(
             NumberSpec(
                 "Middle",
@@ -101,6 +103,7 @@ class CurvesPanel(QScrollArea):
             self.degree,
             self.region,
             self.middle,
+            self.outline,
             self.corner,
             self.bend,
             self.points,
@@ -164,6 +167,7 @@ class CurvesPanel(QScrollArea):
         self.region.show_value("cylinder" if options.middle is None else "barrel")
         self.middle.show_value(options.middle or _BARREL * options.tolerance)
         self.middle.setVisible(options.middle is not None)
+        self.outline.setVisible(False)
         self._show_preset()
 
     def options(self, base: SmoothOptions) -> SmoothOptions:
@@ -175,10 +179,11 @@ class CurvesPanel(QScrollArea):
         from ....gcode.posts.posts import load_post
         from ....usecases.smooth import OutputForm
 
-        name = self.post.value
+        name, profile = self.post.value, self.outline.profile() if self.region.value == "outline" else None
         return replace(
             base,
-            tolerance=self.tolerance.number,
+            tolerance=profile.radius if profile is not None else self.tolerance.number,
+            profile=profile,
             form=OutputForm(self.form.value),
             degree=5 if self.degree.value == 5 else 3,
             middle=self.middle.number if self.barrel else None,
@@ -262,6 +267,9 @@ class CurvesPanel(QScrollArea):
 
     def _show_region(self, region: str) -> None:
         self.middle.setVisible(region == "barrel")
+        self.outline.setVisible(region == "outline")
+        for field in (self.preset, self.tolerance):
+            field.setVisible(region != "outline")
         if region == "barrel":
             self.middle.show_value(max(self.middle.number, _BARREL * self.tolerance.number))
 
