@@ -128,7 +128,8 @@ def test_any_outline_of_the_region_is_used_proven_and_told(tmp_path: Path, form:
     assert "REGION BY ITS OUTLINE" in text.upper()
     [stretch] = report["stretches"]["listed"]  # type: ignore[index]
     assert report["tolerance"]["asked_mm"] < report["tolerance"]["proven_mm"] <= 0.03  # type: ignore[index]
-    assert len(stretch["joints"]) >= 1 and (form == "arcs") == ("rounds" not in stretch)
+    assert len(stretch["joints"]) == stretch["blocks"]["after"] - 1 if form == "arcs" else not stretch["joints"]
+    assert (form == "arcs") == ("rounds" not in stretch)
     if form == "nurbs":
         counts = [each["control_points"] for each in stretch["rounds"] if not each["thinning"]]
         assert any(each["chords_unproven"] for each in stretch["rounds"]) and counts == sorted(counts)

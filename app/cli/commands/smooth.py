@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 from ...core.atomic import write_together
-from ...core.errors import InputError
+from ...core.errors import InputError, ParameterError
 from ...fitting.line_arcs.arc_fit import BEND
 from ...fitting.point_curves.region_profile import RegionProfile, profile_of_formula, profile_of_table
 from ...gcode.interpreter.dialect import DIALECT_RULES, Dialect
@@ -129,7 +129,10 @@ def _region(text: str) -> float | RegionProfile | None:
         )
     if kind == "barrel":
         return number("radius in the middle")(told)
-    return typed(_PROFILES[kind])(told)
+    try:
+        return _PROFILES[kind](told)
+    except ParameterError as error:
+        raise argparse.ArgumentTypeError(f"is wrong: {error}") from error
 
 
 def _angle(text: str) -> float:
