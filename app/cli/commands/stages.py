@@ -19,7 +19,7 @@ from ...exhibits.films.effective import EffectiveFilmOptions
 from ...exhibits.films.making import SAMPLES, FilmOptions, FilmSource, film_files, make_film, sample_of
 from ...exhibits.films.program_input import program_input
 from ...exhibits.films.proven import USUAL
-from ...exhibits.films.step import PublishedText, TextFilm
+from ...exhibits.films.step import TEXTS, PublishedText, TextFilm
 from ...exhibits.stage_files import MOST_TURNS_PX, TURNS, StagesRun, run_stages, stage_files
 from ...exhibits.stages import Variant
 from ...fitting.point_curves.region_profile import RegionProfile, profile_of_formula, profile_of_table
@@ -59,7 +59,7 @@ or area, 2 traced, 3 R, 4 I, 5 processed, 6 outermost frame, 7 path further in, 
 
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status: 0 clean, 1 with findings."""
-    folder, text = _check_outputs(arguments), PublishedText(arguments.text)
+    folder, text = _check_outputs(arguments), TEXTS[arguments.text]
     if text is not PublishedText.A:
         return _run_film(arguments, folder, text, shown_progress(arguments.quiet, stopped))
     if late := [name for name in ("epsilon", "tolerance", "region", "facet") if getattr(arguments, name) is not None]:

@@ -216,7 +216,7 @@ class _Work:
                 flat = self._flat(run.points)
                 for k, owner in enumerate(run.owner.tolist()):
                     sketch.line(flat[k : k + 2], self._colour(owner), BOLD)
-        rows = [("boundary point", "kind", "x", "y", "z", "apart in z, mm")]
+        rows: list[tuple[str, ...]] = [("boundary point", "kind", "x", "y", "z", "apart in z, mm")]
         apart = []
         for k in self.between.tolist():
             gap = self._gap(k)

@@ -114,7 +114,7 @@ class _Work:
         self.counts = {times: self._counted(times * self.grid.pitch) for times in FACET_PITCHES}
         progress.step(0.3, "Making facets")
         self.facets = self._facets(self.facet)
-        self.depth = drawn(self.facets.quads, self.grid, progress.part(0.3, 0.7))
+        self.depth = drawn(self.facets.quads.astype(np.float64), self.grid, progress.part(0.3, 0.7))
         progress.step(0.7, "Cutting in closed form")
         self.exact = trim(self.part, given.course, given.cutters).heights.astype(np.float64)
         self.cut = np.minimum(self.part.heights, np.maximum(self.depth, self.part.floor))
@@ -197,7 +197,9 @@ class _Work:
             if self.counts[times].drawn > _MOST_FACETS // 4:
                 continue
             facets = self._facets(size)
-            heights = np.minimum(self.part.heights, np.maximum(drawn(facets.quads, self.grid), self.part.floor))
+            heights = np.minimum(
+                self.part.heights, np.maximum(drawn(facets.quads.astype(np.float64), self.grid), self.part.floor)
+            )
             rows.append((times, len(facets.kind), _apart(heights, self.exact), facet_error(self.cutter, size)))
         return tuple(rows)
 

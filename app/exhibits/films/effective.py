@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...core.progress import NO_PROGRESS, Progress
 from ...fitting.point_curves.corners import corners
-from ...fitting.point_curves.correction import CorrectionCurve, CorrectionMove, CorrectionOptions, corrected
+from ...fitting.point_curves.correction import Correction, CorrectionCurve, CorrectionMove, CorrectionOptions, corrected
 from ...fitting.point_curves.effective_method import EffectiveMethod
 from ...fitting.point_curves.effective_points import EffectiveOptions, PointState, effective_points
 from ...model.motion import Floats
@@ -316,7 +317,7 @@ class _Work:
         sizes = np.linalg.norm(np.diff(self.points[chosen], axis=0), axis=1)
         return float(np.concatenate([[0.0], np.cumsum(sizes)])[int(np.flatnonzero(chosen == number)[0])])
 
-    def _corrected(self, curve: CorrectionCurve):  # type: ignore[no-untyped-def]
+    def _corrected(self, curve: CorrectionCurve) -> Correction:
         options = CorrectionOptions(curve=curve, move=CorrectionMove.NEAREST, before=_BEFORE, after=_AFTER)
         return corrected(self.points, self.found.state, options, self.kept.tolist())
 
@@ -357,7 +358,7 @@ def _exaggeration(curves: list[Floats], points: Floats) -> float:
     return max(1.0, float(np.round(_OFF_SEEN * np.ptp(points, axis=0).max() / max(off, 1e-9))))
 
 
-def _correction_curve(points: Floats):  # type: ignore[no-untyped-def]
+def _correction_curve(points: Floats) -> tuple[Callable[[Floats], Floats], Floats]:
     """Return the cubic spline through points by their chord lengths, and places to draw it by."""
     from scipy.interpolate import CubicSpline
 
@@ -369,7 +370,7 @@ def _curve_near(done: SmoothedProgram, points: Floats) -> Floats | None:
     """Return places along what was written for the stretch that begins with some points; None where it stayed."""
     for piece in done.pieces:
         if piece.curve is not None and np.all(piece.points[0] == points[0]):
-            until = len(piece.curve)
+            until = float(len(piece.curve))
             if piece.judgement is not None and piece.judgement.feet is not None:
                 until = float(piece.judgement.feet[min(len(points), len(piece.points)) - 1])
             return piece.curve.at(np.linspace(0.0, until, max(2000, 20 * len(points))))

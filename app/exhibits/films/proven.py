@@ -25,6 +25,8 @@ USUAL = "0.02 + 0.03*sin(pi*z)"
 _MOST_ROUNDS = 12
 _CORNER = math.radians(60.0)
 _DEEPEST = 30
+_NO_POWER, _REAL = 1e-11, 1e-6
+"""Coefficients of a raised curve's highest powers are nothing but rounding; roots so near to the real axis are real."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,7 +286,7 @@ class _Work:
         ]
 
     def _witness(self, chord: int) -> SurfaceWitness | None:
-        """Return the interval of a chord's stretch whose way by the surface is the narrowest; None outside the region."""
+        """Return the interval of a chord's stretch whose way by the surface is the narrowest; None if it is outside."""
         feet = self._feet()
         if feet is None:
             return None
@@ -403,16 +405,34 @@ def intervals_in_cylinder(
     for low, high in _by_pieces(*between):
         piece = min(int(low), len(curve) - 1)
         _, off = _frame_parts(curve.control[piece], axis)
-        square = sum(np.polynomial.polynomial.polymul(_power(off[:, k]), _power(off[:, k])) for k in range(3))
+        square = np.zeros(2 * len(off) - 1)
+        for k in range(3):
+            square += np.convolve(_power(off[:, k]), _power(off[:, k]))
         square[0] -= radius**2
-        roots = np.polynomial.polynomial.polyroots(square)
-        real = roots[np.abs(roots.imag) < 1e-9].real + piece
-        cuts += sorted(float(u) for u in real if low < u < high)
+        cuts += [u for root in _real_roots(square) if low < (u := root + piece) < high]
     edges = [between[0], *cuts, between[1]]
     middles = curve.at(np.array([(a + b) / 2 for a, b in pairwise(edges)]))
     _, r = _about(middles, *axis)
     held = [(edges[k], edges[k + 1]) for k in np.flatnonzero(r <= radius).tolist()]
     return cuts, held
+
+
+def _real_roots(polynomial: Floats) -> list[float]:
+    """Return the real roots of a polynomial by powers, in order; those of an eigenvalue solver, made better by Newton's
+    steps.
+    """
+    kept = np.abs(polynomial) > _NO_POWER * np.abs(polynomial).max()
+    if not kept.any():
+        return []
+    trimmed = polynomial[: int(np.flatnonzero(kept)[-1]) + 1]
+    roots = np.polynomial.polynomial.polyroots(trimmed)
+    real = roots[np.abs(roots.imag) < _REAL].real
+    slope = np.polynomial.polynomial.polyder(trimmed)
+    for _ in range(3):
+        steep = np.polynomial.polynomial.polyval(real, slope)
+        value = np.polynomial.polynomial.polyval(real, polynomial)
+        real = real - np.where(steep != 0, value / np.where(steep == 0, 1.0, steep), 0.0)
+    return sorted(real.tolist())
 
 
 def _frame_parts(control: Floats, axis: tuple[Floats, Floats]) -> tuple[Floats, Floats]:

@@ -32,6 +32,10 @@ class PublishedText(Enum):
     E = "E", "A curve with a proven shape error", "JP 2014-242013"
 
 
+TEXTS = {text.value: text for text in PublishedText}
+"""The texts by their letters."""
+
+
 @dataclass(frozen=True, slots=True)
 class FilmFigure:
     """A number that a step came to.
