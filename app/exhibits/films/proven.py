@@ -81,9 +81,10 @@ def proven_film(
             rounds.append(SeenRound(fit, curve, judge_in_profile(curve, run, profile)))
 
     progress.step(0.1, "Fitting a curve round by round")
-    made = fit_spline(run, profile.tried[0], 3, progress.part(0.1, 0.7), see)
-    if not isinstance(made, SplineFit) or not _inside(made, run, profile):
-        made = fit_spline(run, profile.inscribed, 3, progress.part(0.1, 0.7), see)
+    for tube in profile.tried:
+        made = fit_spline(run, tube, 3, progress.part(0.1, 0.7), see)
+        if isinstance(made, SplineFit) and _inside(made, run, profile):
+            break
     final = curve_of_nurbs(made.curve) if isinstance(made, SplineFit) else rounds[-1].curve
     judged = judge_in_profile(final, run, profile)
     progress.step(0.8, "Looking at one chord")
