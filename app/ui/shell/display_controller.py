@@ -10,10 +10,12 @@ from ...geometry.sample import bounds, union
 from ...model.finding import Finding
 from ...model.part import Part
 from ..framework.computation import ComputationState
+from ..framework.controller import Controller, ShownDocument
 from ..framework.missing import NOTHING
 from ..framework.samples import PathLineKind
 from ..framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
 from ..framework.view import View, ViewPage
+from ..panels.lists import OperationTimes
 from ..views.canvas.modes import PathColourBy, PathLayers
 from ..views.canvas.painting.program_layer import ProgramLayer
 from .main_window import MainWindow
@@ -57,6 +59,7 @@ class DisplayController(QObject):
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
         self._layers = PathLayers.ALL
+        self._tellers: dict[View, list[Controller]] = {}
         self._shown_program: object = None
         self._empty_action = "open"
         self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
@@ -76,6 +79,16 @@ class DisplayController(QObject):
     def page(self) -> ViewPage:
         """What the view at the front puts into the window."""
         return self.pages[self.view]
+
+    def ask(self, controller: Controller, view: View) -> None:
+        """Have a controller say what its view shows in place of the drawing."""
+        self._tellers.setdefault(view, []).append(controller)
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """What is at the front in place of the drawing and its job; None = these."""
+        told = (controller.shown_document for controller in self._tellers.get(self.view, ()))
+        return next((document for document in told if document is not None), None)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -124,11 +137,11 @@ class DisplayController(QObject):
         self.show_titles()
 
     def show_titles(self) -> None:
-        """Name the file that is worked on, and what can be undone in it: the drawing, or the scene in its view."""
+        """Name what is looked at, and what can be undone: in the drawing, or in the scene in its view."""
         document, scene, actions = self._document, self._window.scene, self._window.actions_
-        on_scene = self.view is View.SURFACES and scene.open
-        name = scene.name if on_scene else document.path.name if document.path else document.part.name
-        modified = scene.modified if on_scene else document.modified
+        on_scene, other = self.view is View.SURFACES and scene.open, self.shown_document
+        drawing = document.path.name if document.path else document.part.name
+        name, modified = (other.name, other.modified) if other is not None else (drawing, document.modified)
         self._window.file_label.setText(f"{name}{' *' if modified else ''}")
         self._window.menuBar().setCornerWidget(self._window.file_label)
         self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
@@ -198,19 +211,21 @@ class DisplayController(QObject):
             self._window.canvas.set_findings(self._marked())
         self._window.canvas.set_stale(self._computation.outdated)
         strokes = made.program.strokes if made is not None and state is ComputationState.CURRENT else None
-        self._window.panel.show_results(self._computation.operation_times(), strokes)
+        self._window.panel.show_results(
+            OperationTimes(self._computation.operation_times(), self._computation.waiting_times()), strokes
+        )
         self._show_badge()
         self.show_missing()
         self._window.status.show_message(state.value)
 
     def _show_badge(self) -> None:
         badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
-        surfaces = self._window.views.surfaces
-        if self.view is View.SURFACES:
-            if surfaces.computing:
+        other = self.shown_document
+        if other is not None:
+            if other.verdict is None:
                 badge.show_running()
             else:
-                badge.show_verdict(surfaces.verdict)
+                badge.show_verdict(other.verdict)
         elif state is ComputationState.RUNNING:
             badge.show_running()
         elif state is ComputationState.CURRENT and made is not None:
@@ -238,19 +253,23 @@ class DisplayController(QObject):
         empty = sentences.get(
             self._computation.state, "No gouge, nothing left that a tool could reach, no rapid in material."
         )
-        if self.view is View.SURFACES:
-            said = self._window.views.surfaces.verdict
-            self._window.findings_list.show_findings(
-                self._window.views.surfaces.findings, self._window.status.badge, said.tip or said.text
-            )
+        other = self.shown_document
+        if other is not None:
+            said = "It is being computed." if other.verdict is None else other.verdict.tip or other.verdict.text
+            self._window.findings_list.show_findings(other.findings, self._window.status.badge, said)
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
         self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
 
     def go_to(self, finding: Finding) -> None:
         """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select
-        these.
+        these; of another document at the front, there.
         """
+        other = self.shown_document
+        if other is not None:
+            if other.look_at is not None:
+                other.look_at(finding)
+            return
         ids = set(finding.entity_ids)
         box = union([bounds(entity.curve) for entity in self._document.part.entities if entity.id in ids])
         if finding.x is not None and finding.y is not None:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QFileDialog
 from ...drafting.document import DocumentChange
 from ...formats.project.project import Project, SavedView
 from ...formats.readers import suffixes
+from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ...usecases.bitmap_options import PICTURES, is_picture
@@ -118,8 +119,8 @@ class FileController(QObject):
         self._leave_drawing(f"Open {path.name}", lambda: self.open_controller.open(path, reading))
 
     def open_sample(self) -> None:
-        """Open the sample part; it is computed at once."""
-        self.open_controller.open(opening_files.sample_path())
+        """Open the sample part with a job of its own; it is computed at once."""
+        self.open_controller.open(opening_files.sample_path(), before=Job(Part()))
 
     def new(self) -> None:
         """Begin an empty drawing with the same tools."""
@@ -219,6 +220,7 @@ class FileController(QObject):
             window.notice.ask(
                 f"{opened.path.name} says nothing about machining; the operations are those that were there before.",
                 [("Propose operations", window.actions_["propose"].trigger)],
+                of_job=True,
             )
         self._see_all()
 

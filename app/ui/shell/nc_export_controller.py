@@ -83,11 +83,14 @@ class NcExportController(QObject):
         if made is None:
             return
         if made.clean:
-            self._notice.ask(proof(made))
+            self._notice.ask(proof(made), of_job=True)
             self._write()
             return
         self._notice.ask(
-            warning(made.findings), [("Show", self.show_findings.emit), ("Write anyway", self._write)], error=True
+            warning(made.findings),
+            [("Show", self.show_findings.emit), ("Write anyway", self._write)],
+            error=True,
+            of_job=True,
         )
 
     def _write(self) -> None:

@@ -109,7 +109,7 @@ class WindowController(QObject):
         self._connect_programs()
         self._connect_language()
         self._connect_helpers()
-        self._unsubscribe = self.document.subscribe(self.display_controller.refresh)
+        self._unsubscribe = self.document.subscribe(self._on_change)
         self.display_controller.show_view(View.DRAW)
         self.display_controller.refresh(DocumentChange.ALL)
 
@@ -200,6 +200,7 @@ class WindowController(QObject):
                 self._connect_controller(page.controller, view)
 
     def _connect_controller(self, controller: Controller, view: View) -> None:
+        self.display_controller.ask(controller, view)
         controller.failed.connect(self._say_error)
         controller.said.connect(self._say)
         controller.changed.connect(self.display_controller.show_state)
@@ -435,6 +436,16 @@ class WindowController(QObject):
                 self.display_controller.show_view(View.DRAW)
             self.window_.views.take_focus()
 
+    def _on_change(self, change: DocumentChange) -> None:
+        """Let nothing stand that speaks of what was before; the cut of another program goes with the drawing beside
+        which it was looked at.
+        """
+        if change & (DocumentChange.PART | DocumentChange.JOB):
+            self.window_.notice.lapse()
+        if change & DocumentChange.LOADED:
+            self.cut_controller.back()
+        self.display_controller.refresh(change)
+
     def run(self, line: str) -> None:
         """Carry out one line of the drawing language; what is wrong with it stands in the log."""
         self.language.lines.run(line)
@@ -445,6 +456,9 @@ class WindowController(QObject):
         if self.display_controller.view is View.SURFACES:
             self.scenes.compute()
             return
+        self.cut_controller.back()
+        if self.nc.foreign and self.nc.source is not None and self.nc.source.path is not None:
+            self.nc.back()
         self.computation.start()
         if self.display_controller.view is View.DRAW:
             self.display_controller.show_view(View.PATHS)

@@ -7,14 +7,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ....core.progress import Progress
+from ....model.finding import Finding
 from ...framework.computation import ComputationState
-from ...framework.controller import Controller
+from ...framework.controller import Controller, ShownDocument
 from ...framework.verdict import VerdictLevel, VerdictSummary, verdict_summary
 from ...framework.worker import JobOutcome, Worker
 from ...framework.workspace import Workspace
 from ..nc.program_reader import ProgramSource
 from .cell_colours import CutColourBy, key_of
-from .findings import CutFinding, FindingColour
+from .findings import CutFinding, FindingColour, level_of, sentences_of, title_of
 from .foreign_program import ForeignProgram, MissingSetup, foreign_shown
 from .overlay import PlacePin
 from .page import CutPage
@@ -76,6 +77,7 @@ class CutController(Controller):
 
     def _connect(self) -> None:
         activity = self._activity
+        self.foreign_worker.busy_changed.connect(lambda _: self.changed.emit())
         for worker in (self.worker, self.foreign_worker):
             worker.done.connect(self._on_done)
             worker.failed.connect(self._on_failed)
@@ -98,6 +100,25 @@ class CutController(Controller):
         self._panel.left.connect(self.back)
         self._form.accepted.connect(self._cut_as)
         self._form.left.connect(self._leave_form)
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The cut of another program than the job's, or that it is being made; None = the job's."""
+        foreign, cut = self._foreign, self.cut
+        if foreign is None:
+            return None
+        if cut is None or cut.given is None or self.foreign_worker.busy:
+            waits = VerdictSummary(VerdictLevel.NONE, "Not cut yet")
+            return ShownDocument(foreign.source.name, False, None if self.foreign_worker.busy else waits)
+        verdict = VerdictSummary(level_of(cut), title_of(cut), sentences_of(cut))
+        findings = tuple(dict.fromkeys((*cut.cut.findings, *cut.assumed)))
+        return ShownDocument(foreign.source.name, False, verdict, findings, self._look_at)
+
+    def _look_at(self, finding: Finding) -> None:
+        """Show the place of a finding of the cut."""
+        entry = next((entry for entry in self._panel.entries if entry.sentence == finding.text), None)
+        if entry is not None:
+            self._panel.choose(entry)
 
     def show_program(self, source: ProgramSource, dialect: Dialect, scene: Callable[[], Part] | None = None) -> None:
         """Cut a program that is none of the job's; what was there stays until it is cut.

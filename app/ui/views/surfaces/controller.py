@@ -16,7 +16,7 @@ from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
 from ....formats.scene.edit import line_of, with_table
 from ....model.scene import Scene
-from ...framework.controller import Controller
+from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
 from ..nc.program_reader import ProgramSource
@@ -101,6 +101,16 @@ class SceneController(Controller):
         side.points.chosen.connect(self._view.show_point)
         self._view.point_picked.connect(self._on_point_picked)
         self._view.surface_picked.connect(lambda number: panel.choose(("surface", number)))
+
+    @property
+    def shown_document(self) -> ShownDocument | None:
+        """The open scene; None while none is."""
+        if not self.document.open:
+            return None
+        work = self.work
+        return ShownDocument(
+            self.document.name, self.document.modified, None if work.busy else work.verdict, work.findings
+        )
 
     def open(self, path: Path) -> None:
         """Open a scene file, after asking when changes to another one would be lost."""
