@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QObject, Signal
 
 from ...drafting.document import DocumentChange
@@ -22,6 +24,9 @@ from .main_window import MainWindow
 from .open_controller import size_of
 from .view_pages import pages_of
 
+if TYPE_CHECKING:
+    from ...usecases.mending import Mend
+
 _LAYERS = {
     PathLineKind.PART: PathLayers.PART,
     PathLineKind.POCKET: PathLayers.POCKET,
@@ -37,7 +42,7 @@ _LAYERS = {
 
 
 class DisplayController(QObject):
-    """Reads the state and shows it; changes nothing but the window.
+    """Reads the state and shows it; changes nothing but the window, and what the list of findings is asked to mend.
 
     Signals:
         view_changed(View): another view came to the front.
@@ -70,6 +75,7 @@ class DisplayController(QObject):
         window.status.badge.clicked.connect(self.open_findings)
         window.findings_list.picked.connect(self.go_to)
         window.findings_list.left_out.connect(self.leave_out)
+        window.findings_list.mended.connect(self.mend)
         window.canvas.tool_changed.connect(lambda _: self.show_missing())
         window.views.empty.pressed.connect(lambda: window.actions_[self._empty_action].trigger())
         window.views.legend.layer_switched.connect(self._on_layer)
@@ -259,7 +265,26 @@ class DisplayController(QObject):
             self._window.findings_list.show_findings(other.findings, self._window.status.badge, said)
             return
         shown = frozenset(layer.name for layer in self._document.part.layers if layer.visible)
-        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown)
+        mends = self._mends if self._computation.state is ComputationState.CURRENT else None
+        self._window.findings_list.show_findings(self.findings, self._window.status.badge, empty, shown, mends)
+
+    def _mends(self, finding: Finding) -> tuple[Mend, ...]:
+        """Return what mends a finding on the job's program."""
+        from ...formats.tools.library import load_libraries
+        from ...usecases.mending import Fault, mends
+        from ...usecases.program_lines import operation_of_line
+
+        made = self._computation.made
+        if made is None:
+            return ()
+        index = operation_of_line(made, 0, finding.line) if len(made.files) == 1 else None
+        library = [tool for each in load_libraries()[0].values() for tool in each.tools]
+        return mends(made.job, Fault.of(finding, index), library)
+
+    def mend(self, mend: Mend) -> None:
+        """Change the job so that a finding is mended, and compute it again; one undoable step."""
+        self._document.change_job(mend.words, mend.job)
+        self._computation.start()
 
     def go_to(self, finding: Finding) -> None:
         """Show the place of a finding on the canvas, with the whole of the curves that it is about, and select

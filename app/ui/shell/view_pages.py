@@ -34,8 +34,8 @@ SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "comp
 SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = (
-    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to "
-    "the line"
+    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click marks "
+    "the line that cut there"
 )
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
 SURFACES_PROMPT = (

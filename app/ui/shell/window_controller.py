@@ -412,7 +412,9 @@ class WindowController(QObject):
         canvas.prompt_changed.connect(lambda _: self.display_controller.show_prompt())
         canvas.hovered.connect(self.display_controller.show_hovered)
         window.views.cut.hovered.connect(self.display_controller.show_hovered)
-        window.views.cut.cell_picked.connect(lambda x, y, z, motion: self._go_to_motion(motion))
+        self.cut_controller.operation_picked.connect(
+            lambda index: window.panel.choose(Subject(SubjectKind.OPERATION, index))
+        )
         window.cut_panel.line_requested.connect(self._go_to_motion)
         self.nc.cut_requested.connect(self._show_cut)
         window.views.cut.cursor_moved.connect(window.status.show_place)

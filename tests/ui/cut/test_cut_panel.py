@@ -55,7 +55,7 @@ def test_a_place_is_gone_to_and_its_line_is_shown(qtbot, beside):
     at = next(k for k, entry in enumerate(panel.entries) if entry.colour is FindingColour.GOUGE and entry.line == 13)
     qtbot.mouseClick(panel.rows[at], Qt.MouseButton.LeftButton)
     assert panel.rows[at].property("chosen") == "true"
-    assert panel.text.isVisible() and panel.text.current == 12
+    assert panel.nc.text.isVisible() and panel.nc.text.current == 12
     assert view.colour is CutColourBy.DEVIATION
     place = panel.entries[at].place
     qtbot.waitUntil(lambda: _near_the_middle(view, place), timeout=WAIT_MS)
@@ -99,5 +99,5 @@ def test_what_is_said_of_a_place_fits_into_a_small_window(qtbot, beside):
 def test_the_metal_that_is_pointed_at_shows_its_line_beside_it(beside):
     panel, view = beside.window_.cut_panel, beside.window_.views.cut
     motion = int(view.model.picture.move.max())
-    panel.show_line(motion)
-    assert panel.text.current + 1 == view.model.picture.moves.line[motion]
+    panel.nc.mark(motion)
+    assert panel.nc.text.current + 1 == view.model.picture.moves.line[motion]
