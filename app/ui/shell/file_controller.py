@@ -17,6 +17,7 @@ from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
 from ...usecases.bitmap_options import PICTURES, is_picture
+from ...usecases.solid_files import SOLIDS, is_solid
 from ..framework.figures import counted, grouped
 from ..framework.log import Log
 from ..framework.view import View, views
@@ -37,17 +38,19 @@ FIRST_START = "This is fig. 2 of the 1986 patent. Change the tool and press F5, 
 
 def open_filter() -> str:
     """Return what the dialog of Open shows: every kind of file that can be opened."""
-    patterns = (*suffixes(), ".DXF", ".toml", *PICTURES, *PROGRAM_SUFFIXES)
-    return f"Drawings, scenes, pictures and NC programs ({' '.join(f'*{each}' for each in patterns)});;All files (*)"
+    patterns = (*suffixes(), ".DXF", ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
+    shown = " ".join(f"*{each}" for each in patterns)
+    return f"Drawings, solids, scenes, pictures and NC programs ({shown});;All files (*)"
 
 
 @dataclass(frozen=True)
 class Openers:
-    """Who opens what is no drawing: an NC program, a picture, a scene."""
+    """Who opens what is no drawing: an NC program, a picture, a scene, a solid."""
 
     program: Callable[[Path], None]
     picture: Callable[[Path], None]
     scene: Callable[[Path], None]
+    solid: Callable[[Path], None]
 
 
 class FileController(QObject):
@@ -59,11 +62,7 @@ class FileController(QObject):
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
-        self._open_program, self._open_picture, self._open_scene = (
-            open_others.program,
-            open_others.picture,
-            open_others.scene,
-        )
+        self._openers = open_others
         self.open_controller = OpenController(window.document, window.worker)
         self.reread_controller = RereadController(
             window.drawing_page.reading, window.card, window.worker, window.workspace
@@ -101,20 +100,23 @@ class FileController(QObject):
         self._leave_drawing("Open the sample part", self.open_sample)
 
     def open_file(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
-        """Open a drawing, after asking when changes would be lost; NC programs and scenes are shown beside it, and
-        nothing is lost.
+        """Open a drawing, after asking when changes would be lost; NC programs, scenes and solids are shown beside it,
+        and nothing is lost.
 
         Args:
             path: of the file. reading: how it is read, if it is a drawing.
         """
         if is_program(path):
-            self._open_program(path)
+            self._openers.program(path)
             return
         if is_scene(path):
-            self._open_scene(path)
+            self._openers.scene(path)
+            return
+        if is_solid(path.name):
+            self._openers.solid(path)
             return
         if is_picture(path.name):
-            self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))
+            self._leave_drawing(f"Open {path.name}", lambda: self._openers.picture(path))
             return
         self._leave_drawing(f"Open {path.name}", lambda: self.open_controller.open(path, reading))
 

@@ -13,6 +13,7 @@ from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
 from ...formats.readers import suffixes
 from ...usecases.bitmap_options import PICTURES
+from ...usecases.solid_files import SOLIDS
 from ..framework import style
 from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
@@ -194,10 +195,10 @@ class MainWindow(QMainWindow):
         self.actions_[f"theme_{choice.value}"].setChecked(True)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing, scene, picture or NC program."""
+        """Welcome one drawing, solid, scene, picture or NC program."""
         urls = event.mimeData().urls()
         if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*suffixes(), ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+            (*suffixes(), ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
         ):
             event.acceptProposedAction()
 

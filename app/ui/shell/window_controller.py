@@ -91,7 +91,7 @@ class WindowController(QObject):
         self.workspace, self.log = workspace, workspace.log
         self.display_controller = DisplayController(window)
         self._make_controllers(window.views, workspace)
-        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open)
+        openers = Openers(self.nc.open, self.import_controller.open, self.scenes.open, self.scenes.open_solid)
         self.files = FileController(window, self.display_controller, self.log, openers)
         self.recovery_controller = RecoveryController(self.files, window.card, workspace)
         self._make_choices(workspace, commands)

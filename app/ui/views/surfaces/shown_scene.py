@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -128,26 +128,27 @@ def is_scene(path: Path) -> bool:
         return False
 
 
-def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS) -> ShownScene:
+def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS, passes: bool = True) -> ShownScene:
     """Compute a scene's text and prepare what is shown of it.
 
     Args:
         path: of its file; files that it names are beside it. data: the text, UTF-8.
+        passes: False: the surfaces alone, which are soon there.
 
     Raises:
         HitofudeError: it cannot be read or computed. Cancelled: the job was asked to stop.
     """
     from ....formats.plot.surface_plot import colour_of, line_of
-    from ....formats.scene.toml import sources_of
+    from ....formats.scene.toml import read_scene, sources_of
     from ....model.scene import LineType
-    from ....usecases.surface import read_and_compute
+    from ....usecases.surface import compute
     from ....usecases.surface_picture import looked_at, move_lines
     from ....usecases.surface_plot import PlotScene, PlottedPart, by_surface
 
     progress.step(0.0, f"Computing {path.name}")
-    computed = read_and_compute(
-        path.name, data, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9)
-    )
+    scene = read_scene(path.name, data)
+    scene = scene if passes else replace(scene, passes=())
+    computed = compute(scene, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9))
     progress.step(0.9, "Preparing the picture")
     drawn = by_surface(computed, PlotScene(drawn=PlottedPart.SURFACE))
     colours = tuple(kind.colour or colour_of(number) for number, kind in enumerate(drawn.surfaces))

@@ -143,6 +143,12 @@ class SurfacesView(QWidget):
         else:
             self.set_look(self.look)
 
+    def show_nothing(self) -> None:
+        """Show no scene until there is one."""
+        self.shown, self.points = None, ()
+        self.name.setText("")
+        self.canvas.show_picture(None)
+
     @property
     def computing(self) -> bool:
         """Whether a scene, or its program, is on its way."""
