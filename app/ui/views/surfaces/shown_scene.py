@@ -46,12 +46,17 @@ class ScenePicture:
     pitch: float = np.inf
 
     @property
+    def shows(self) -> bool:
+        """Whether there is anything to see."""
+        return bool(self.strands) or len(self.triangles) > 0
+
+    @property
     def box(self) -> tuple[Floats, Floats]:
         """Lowest and highest x, y, z of what is seen but for moves in the air, mm."""
         places = (
             [each.points for each in self.strands if each.role not in (LineRole.RAPID, LineRole.PLUNGE)]
             or [each.points for each in self.strands]
-            or [np.zeros((1, 3))]
+            or ([] if len(self.triangles) else [np.zeros((1, 3))])
         )
         every = np.concatenate([*places, self.triangles.reshape(-1, 3)])
         return every.min(axis=0), every.max(axis=0)
