@@ -128,6 +128,14 @@ class DisplayController(QObject):
         self.view_changed.emit(view)
         self.show_missing()
 
+    def show_start(self) -> None:
+        """Bring the page that the window begins with to the front, until a view is shown again."""
+        self.view = View.DRAW
+        self._window.actions_[View.DRAW.value].setChecked(True)
+        self._window.views.show_view(View.DRAW)
+        self._window.views.show_start()
+        self.show_state()
+
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is
         for.
@@ -148,6 +156,8 @@ class DisplayController(QObject):
         on_scene, other = self.view is View.SURFACES and scene.open, self.shown_document
         drawing = document.path.name if document.path else document.part.name
         name, modified = (other.name, other.modified) if other is not None else (drawing, document.modified)
+        if self._window.views.starting:
+            name, modified = "Start", False
         self._window.file_label.setText(f"{name}{' *' if modified else ''}")
         self._window.menuBar().setCornerWidget(self._window.file_label)
         self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
@@ -182,9 +192,9 @@ class DisplayController(QObject):
 
     def _show_side(self) -> None:
         """Have what belongs to the view at its right: the job, or what is known of the cut, or what is asked of it."""
-        window, plotting = self._window, self._window.views.plotting
-        window.tool_strip.setVisible(self.page.widget is window.canvas and not plotting)
-        beside = window.plot_panel if plotting else self.page.side()
+        window, views = self._window, self._window.views
+        window.tool_strip.setVisible(self.page.widget is window.canvas and not views.covered)
+        beside = window.plot_panel if views.plotting else None if views.starting else self.page.side()
         for widget in window.sides:
             if widget is not beside:
                 widget.hide()
@@ -227,7 +237,9 @@ class DisplayController(QObject):
     def _show_badge(self) -> None:
         badge, state, made = self._window.status.badge, self._computation.state, self._computation.made
         other = self.shown_document
-        if other is not None:
+        if self._window.views.starting:
+            badge.show_verdict(VerdictSummary(VerdictLevel.NONE, "Nothing open"))
+        elif other is not None:
             if other.verdict is None:
                 badge.show_running()
             else:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ...drafting.document import DocumentChange
@@ -54,7 +54,13 @@ class Openers:
 
 
 class FileController(QObject):
-    """Everything between the window and files."""
+    """Everything between the window and files.
+
+    Signals:
+        begun(): an empty drawing; what it is to be may be asked.
+    """
+
+    begun = Signal()
 
     def __init__(self, window: MainWindow, showing: DisplayController, log: Log, open_others: Openers) -> None:
         super().__init__(window)
@@ -95,10 +101,6 @@ class FileController(QObject):
         """Begin an empty drawing, after asking when changes would be lost."""
         self._leave_drawing("Begin a new drawing", self.new)
 
-    def ask_sample(self) -> None:
-        """Open the sample part, after asking when changes would be lost."""
-        self._leave_drawing("Open the sample part", self.open_sample)
-
     def open_file(self, path: Path, reading: ReadingOptions = AS_THE_FILE_SAYS) -> None:
         """Open a drawing, after asking when changes would be lost; NC programs, scenes and solids are shown beside it,
         and nothing is lost.
@@ -120,9 +122,15 @@ class FileController(QObject):
             return
         self._leave_drawing(f"Open {path.name}", lambda: self.open_controller.open(path, reading))
 
-    def open_sample(self) -> None:
-        """Open the sample part with a job of its own; it is computed at once."""
-        self.open_controller.open(opening_files.sample_path(), before=Job(Part()))
+    def open_sample(self, path: Path | None = None) -> None:
+        """Open a sample with a job of its own, after asking when changes would be lost: fig. 2, which is computed at
+        once, a drawing, for which operations are proposed, or a scene.
+        """
+        sample = path or opening_files.sample_path()
+        if is_scene(sample):
+            self._openers.scene(sample)
+        else:
+            self._leave_drawing("Open the sample", lambda: self.open_controller.open(sample, before=Job(Part())))
 
     def new(self) -> None:
         """Begin an empty drawing with the same tools."""
@@ -131,6 +139,7 @@ class FileController(QObject):
         self._log.note("new", "Empty drawing, same tools.")
         self._window.notice.hide()
         self._showing.show_view(View.DRAW)
+        self.begun.emit()
 
     def choose_file(self) -> None:
         """Ask for a drawing or a program and open it."""
@@ -199,7 +208,7 @@ class FileController(QObject):
 
     def _on_opened(self, opened: OpenedDrawing) -> None:
         window = self._window
-        if opened.path != opening_files.sample_path():
+        if not opening_files.is_sample(opened.path):
             self._preferences.add_recent(opened.path)
         self.save_controller.known = opened.stamp
         self._computation.forget(opened.drawing.findings)
@@ -216,6 +225,8 @@ class FileController(QObject):
             self._showing.show_view(View.PATHS)
             tour = [] if window.preferences.settings.tour else [("Show me round", window.actions_["tour"].trigger)]
             window.notice.ask(FIRST_START, [*tour, ("Draw your own", self.ask_new)])
+        elif opening_files.is_sample(opened.path):
+            window.actions_["propose"].trigger()
         elif opened.drawing.question is not None:
             self._ask_after(opened)
         elif opened.job.part.entities:

@@ -65,6 +65,11 @@ def sample_path() -> Path:
     return resource("samples", "fig2.dxf")
 
 
+def is_sample(path: Path) -> bool:
+    """Return whether a file comes with the program."""
+    return path.parent == sample_path().parent
+
+
 def read_drawing_file(
     path: Path, reading: ReadingOptions, before: Job, progress: Progress
 ) -> OpenedDrawing | UndecidedDrawing:

@@ -51,12 +51,14 @@ from .help_window import HelpWindow
 from .keys_window import KeysWindow
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
+from .new_job import NewPart, new_job
 from .owned_curves_controller import OwnedCurvesController
 from .proposal_controller import ProposalController
 from .recovery_controller import RecoveryController
 from .shape_language_controller import ShapeLanguageController
 from .shortcuts import Shortcuts
 from .snap_controller import SnapController
+from .start_page.controller import StartController
 from .tab_controller import TabController
 from .tool_exchange import ToolExchange
 from .tour import Landmarks, Tour
@@ -109,6 +111,7 @@ class WindowController(QObject):
         self._connect_programs()
         self._connect_language()
         self._connect_helpers()
+        self._connect_start()
         self._unsubscribe = self.document.subscribe(self._on_change)
         self.display_controller.show_view(View.DRAW)
         self.display_controller.refresh(DocumentChange.ALL)
@@ -158,6 +161,7 @@ class WindowController(QObject):
         self.announcing = Announcing(workspace, self)
         self.command_line_controller = CommandLineController(window.command_line, canvas, self.document)
         self.focus_keeper = FocusKeeper(window, window.views.take_focus)
+        self.start_controller = StartController(window.views.start, workspace)
 
     def _make_helpers(self, workspace: Workspace, commands: Actions) -> None:
         """Make what helps to find one's way."""
@@ -264,7 +268,7 @@ class WindowController(QObject):
         files = self.files
         self._on("new", files.ask_new)
         self._on("open", files.choose_file)
-        self._on("sample", files.ask_sample)
+        self._on("sample", files.open_sample)
         self._on("save", lambda: self.scenes.save() if self._on_scene else files.save_controller.save())
         self._on("save_as", lambda: self.scenes.save_as() if self._on_scene else files.save_controller.save_as())
         self._on("save_copy", files.save_controller.save_copy)
@@ -325,6 +329,32 @@ class WindowController(QObject):
         self.workspace.preferences.add_recent(path)
         self.window_.notice.hide()
         self.display_controller.show_view(View.STAGES)
+        self.window_.canvas.fit()
+
+    def _connect_start(self) -> None:
+        """The page that the window begins with."""
+        page, files = self.window_.views.start, self.files
+        self.start_controller.shown.connect(self.display_controller.show_start)
+        page.opened.connect(files.open_file)
+        page.sampled.connect(files.open_sample)
+        page.new.begun.connect(self._begin)
+        page.left.connect(lambda: self.display_controller.show_view(View.DRAW))
+        self.display_controller.view_changed.connect(lambda _: self.start_controller.close())
+        files.begun.connect(self.open_start)
+
+    def open_start(self) -> None:
+        """Show the last files, samples, and what a new part is to be."""
+        self.start_controller.open(self.window_.theme)
+        self.window_.views.start.new.lengths[0].edit.setFocus()
+
+    def _begin(self, part: NewPart) -> None:
+        """Begin a new part of a size, for a machine and a material."""
+        self.document.load(new_job(part))
+        self.computation.forget()
+        self.display_controller.show_view(View.DRAW)
+        if part.outline:
+            self.run(part.line())
+        self.window_.lay_out_now()
         self.window_.canvas.fit()
 
     def _connect_edit(self) -> None:
@@ -425,7 +455,7 @@ class WindowController(QObject):
 
     def _take_tool(self, tool: CanvasTool) -> None:
         """Take a tool in hand, on the canvas."""
-        if self.display_controller.view not in (View.DRAW, View.PATHS):
+        if self.display_controller.view not in (View.DRAW, View.PATHS) or self.window_.views.starting:
             self.display_controller.show_view(View.DRAW)
         self.window_.canvas.set_tool(tool)
         self._on_tool(self.window_.canvas.tool)
@@ -446,6 +476,8 @@ class WindowController(QObject):
             self.window_.notice.lapse()
         if change & DocumentChange.LOADED:
             self.cut_controller.back()
+        if change & DocumentChange.PART and self.window_.views.starting:
+            self.display_controller.show_view(View.DRAW)
         self.display_controller.refresh(change)
 
     def run(self, line: str) -> None:
