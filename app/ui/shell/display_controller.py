@@ -41,6 +41,9 @@ _LAYERS = {
 }
 
 
+START_PROMPT = "Choose a file or a sample, begin a part, or type a line such as  rect 0,0 80,50"
+
+
 class DisplayController(QObject):
     """Reads the state and shows it; changes nothing but the window, and what the list of findings is asked to mend.
 
@@ -134,13 +137,15 @@ class DisplayController(QObject):
         self._window.actions_[View.DRAW.value].setChecked(True)
         self._window.views.show_view(View.DRAW)
         self._window.views.show_start()
+        self.show_prompt()
         self.show_state()
 
     def show_prompt(self) -> None:
         """Say what the command line takes: on the canvas what the tool in hand wants, beside a program what it is
         for.
         """
-        self._window.command_line.set_prompt(self.page.prompt())
+        starting = self._window.views.starting
+        self._window.command_line.set_prompt(START_PROMPT if starting else self.page.prompt())
 
     def refresh(self, change: DocumentChange) -> None:
         """Show what changed in the document."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -26,8 +28,22 @@ _SAMPLES = (
     ("fig2.dxf", "Fig. 2 of 1986", "the patent's own drawing"),
 )
 
-Seen = tuple[Path, float, str]
-"""A file, when it was written, and the theme that it was painted in."""
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """A file, when it was written, s, and the theme that it was painted in."""
+
+    path: Path
+    written: float
+    theme: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Painting:
+    """The card whose picture is on its way."""
+
+    card: FileCard
+    seen: _Seen
 
 
 class StartController(QObject):
@@ -42,8 +58,9 @@ class StartController(QObject):
     def __init__(self, page: StartPage, workspace: Workspace) -> None:
         super().__init__(page)
         self._page, self._preferences = page, workspace.preferences
-        self._pictures: dict[Seen, QImage] = {}
+        self._pictures: dict[_Seen, QImage] = {}
         self._left: list[FileCard] = []
+        self._painting: _Painting | None = None
         self._theme: Theme | None = None
         self.worker = Worker(self)
         self.worker.done.connect(self._on_done)
@@ -79,21 +96,21 @@ class StartController(QObject):
             if seen in self._pictures:
                 card.show_picture(self._pictures[seen])
                 continue
-            size, theme = card.picture_size, self._theme
-            self.worker.start(lambda progress: (card, seen, thumbnail(seen[0], size, theme, progress)), 0)
+            self._painting = _Painting(card, seen)
+            self.worker.start(partial(thumbnail, card.path, card.picture_size, self._theme), 0)
 
     def _on_done(self, answer: JobOutcome) -> None:
-        assert isinstance(answer.value, tuple)
-        card, seen, picture = answer.value
-        self._pictures[seen] = picture
-        if card in (*self._page.files, *self._page.samples):
-            card.show_picture(picture)
+        painting = self._painting
+        assert isinstance(answer.value, QImage) and painting is not None
+        self._pictures[painting.seen] = answer.value
+        if painting.card in (*self._page.files, *self._page.samples):
+            painting.card.show_picture(answer.value)
         self._next()
 
 
-def _seen(path: Path, theme: Theme) -> Seen | None:
+def _seen(path: Path, theme: Theme) -> _Seen | None:
     try:
-        return path, path.stat().st_mtime, theme.name
+        return _Seen(path, path.stat().st_mtime, theme.name)
     except OSError:
         return None
 

@@ -107,9 +107,8 @@ def _stroke(image: QImage, path: QPainterPath, colour: QColor) -> None:
     wide, high = image.width() - 2 * MARGIN_PX, image.height() - 2 * MARGIN_PX
     scale = min(wide / max(box.width(), 1e-9), high / max(box.height(), 1e-9))
     middle = box.center()
-    place = QTransform(
-        scale, 0, 0, -scale, image.width() / 2 - scale * middle.x(), image.height() / 2 + scale * middle.y()
-    )
+    left, top = image.width() / 2 - scale * middle.x(), image.height() / 2 + scale * middle.y()
+    place = QTransform(scale, 0, 0, -scale, left, top)
     painter = QPainter(image)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(colour, 1.3, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin))
