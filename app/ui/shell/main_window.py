@@ -72,12 +72,13 @@ class MainWindow(QMainWindow):
     closing = Signal()
 
     def __init__(self, document: Document, settings: Settings) -> None:
+        theme = self._theme_for(settings.theme)
+        if isinstance(application := QApplication.instance(), QApplication):
+            style.prepare(application, theme)  # a window that there is already would keep the system's font
         super().__init__()
+        self.theme = theme
         self.document, self.preferences = document, Preferences(settings, self)
         self.preferences.saving.connect(lambda: remember_geometry(self, self.preferences))
-        self.theme = self._theme_for(settings.theme)
-        if isinstance(application := QApplication.instance(), QApplication):
-            style.prepare(application, self.theme)
         self.may_close = True
         self.worker = Worker(self)
         self.activity = Activity(self)
