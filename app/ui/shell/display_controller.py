@@ -162,7 +162,7 @@ class DisplayController(QObject):
         drawing = document.path.name if document.path else document.part.name
         name, modified = (other.name, other.modified) if other is not None else (drawing, document.modified)
         if self._window.views.starting:
-            name, modified = "Start", False
+            name, modified = "Start here", False
         self._window.file_label.setText(f"{name}{' *' if modified else ''}")
         self._window.menuBar().setCornerWidget(self._window.file_label)
         self._window.setWindowTitle(f"{name}{' *' if modified else ''} - Hitofude")
@@ -182,6 +182,7 @@ class DisplayController(QObject):
 
     def show_state(self) -> None:
         """Show where the view at the front stands."""
+        self.show_prompt()
         self._show_badge()
         self._show_standing()
         self.show_missing()
@@ -214,11 +215,8 @@ class DisplayController(QObject):
             self._show_standing()
 
     def _show_standing(self) -> None:
-        """Show what the status bar says when nothing else is to be said: of a run that failed, why it did."""
-        words, computation = self.page.summary(), self._computation
-        self._window.status.show_message(
-            words or computation.error or computation.state.value, error=bool(computation.error and not words)
-        )
+        """Show what the status bar says when nothing else is to be said; why a run failed is said above the view."""
+        self._window.status.show_message(self.page.summary() or self._computation.state.value)
 
     def _on_computation(self) -> None:
         made, state = self._computation.made, self._computation.state

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QFileDialog
 from ...drafting.document import DocumentChange
 from ...formats.project.project import Project, SavedView
 from ...formats.readers import suffixes
+from ...gcode.posts.posts import load_post
 from ...model.job import Job
 from ...model.part import Part
 from ...model.reading import AS_THE_FILE_SAYS, ReadingOptions
@@ -28,7 +29,7 @@ from ..views.surfaces.shown_scene import is_scene
 from . import open_controller as opening_files
 from .display_controller import DisplayController
 from .main_window import MainWindow
-from .nc_export_controller import FILTER, NcExportController
+from .nc_export_controller import ExportPlace, NcExportController, post_filters
 from .open_controller import OpenController, OpenedDrawing, UndecidedDrawing
 from .reread_controller import RereadController
 from .save_controller import SaveController
@@ -86,6 +87,7 @@ class FileController(QObject):
         self.open_controller.opened.connect(self._on_opened)
         self.open_controller.asked.connect(self._ask_how)
         self.export_controller.written.connect(self._on_written)
+        self.export_controller.post_chosen.connect(self._choose_post)
         self._unsubscribe = window.document.subscribe(
             lambda change: window.card.hide() if change & DocumentChange.LOADED else None
         )
@@ -164,11 +166,27 @@ class FileController(QObject):
     def _forget_recent(self) -> None:
         self._preferences.keep(replace(self._preferences.settings, recent_files=()))
 
-    def _choose_nc_file(self, ending: str) -> Path | None:
+    def _choose_nc_file(self, suffix: str, post: str) -> ExportPlace | None:
+        """Ask for a file and, by its kind, for the control; that of a frame is the job's."""
         stem = self._document.path.stem if self._document.path else self._document.part.name
-        start = str(self._preferences.last_folder / f"{stem}{ending}")
-        name, _ = QFileDialog.getSaveFileName(self._window, "Export NC", start, FILTER)
-        return Path(name) if name else None
+        posts = post_filters()
+        own = next((each for each, name in posts.items() if name == post), "NC programs (*)")
+        offered = list(posts) if not suffix else [own]
+        dialog = QFileDialog(
+            self._window, "Export NC", str(self._preferences.last_folder / f"{stem}{suffix}"), ";;".join(offered)
+        )
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setLabelText(QFileDialog.DialogLabel.FileType, "Control:")
+        dialog.filterSelected.connect(lambda each: dialog.setDefaultSuffix(load_post(posts.get(each, post)).extension))
+        dialog.selectNameFilter(own)
+        dialog.setDefaultSuffix(load_post(post).extension)
+        if not dialog.exec():
+            return None
+        return ExportPlace(Path(dialog.selectedFiles()[0]), posts.get(dialog.selectedNameFilter(), post))
+
+    def _choose_post(self, post: str) -> None:
+        """Have the job written for another control."""
+        self._document.change_job("Post", replace(self._document.job, post=post))
 
     def _leave_drawing(self, what: str, act: Callable[[], None]) -> None:
         self.leave(f"{what}?", act)

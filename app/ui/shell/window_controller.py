@@ -571,5 +571,4 @@ class WindowController(QObject):
         self.window_.status.show_message(text)
 
     def _say_error(self, text: str) -> None:
-        self.window_.status.show_message(text, error=True)
-        self.window_.notice.ask(text, error=True)
+        self.window_.notice.ask(text, error=True, of_job=True)

@@ -6,6 +6,7 @@ from pytestqt.qtbot import QtBot
 
 from app.ui.framework.computation import ComputationState
 from app.ui.framework.view import View
+from app.ui.panels.changes import Subject, SubjectKind
 from app.ui.shell.window_controller import WindowController
 
 
@@ -28,8 +29,10 @@ def test_the_sample_is_cut_and_forgotten_with_its_drawing(qtbot: QtBot, wiring: 
     row, column = (int(k) for k in np.argwhere(picture.move >= 0)[5000])
     motion = picture.move_at(row, column)
     view.cell_picked.emit(0.0, 0.0, 0.0, motion)
-    assert wiring.display_controller.view is View.NC
-    assert wiring.window_.views.nc.pane.text.current + 1 == picture.moves.line[motion]
+    beside = wiring.window_.cut_panel.nc
+    assert wiring.display_controller.view is View.CUT, "nothing leaves"
+    assert beside.text.current + 1 == picture.moves.line[motion] and "Pocket T1" in beside.where.text()
+    assert view.overlay.way is not None and wiring.window_.panel.subject == Subject(SubjectKind.OPERATION, 0)
     wiring.files.new()
     qtbot.waitUntil(lambda: view.model.picture is None, timeout=10_000)
     assert wiring.window_.views.empty.isVisible() or wiring.display_controller.view is not View.CUT

@@ -24,10 +24,12 @@ def beside(qtbot, wiring):
     return wiring
 
 
-def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(beside):
+def test_the_panel_stands_in_the_job_panels_place_while_there_is_a_cut(qtbot, beside):
     window = beside.window_
     assert window.cut_panel.isVisible() and not window.panel.isVisible()
-    assert window.cut_panel.histogram.isVisible()
+    assert window.cut_panel.nc.isVisible() and not window.cut_panel.histogram.isVisible(), "the text comes first"
+    window.resize(1280, 1050)
+    qtbot.waitUntil(window.cut_panel.histogram.isVisible)
     assert "mm²" in window.cut_panel.histogram.sums.text()
     beside.display_controller.show_view(View.DRAW)
     assert window.panel.isVisible() and not window.cut_panel.isVisible()

@@ -48,7 +48,7 @@ class StartPage(QScrollArea):
         self._grid.setVerticalSpacing(10)
         for column in range(COLUMNS):
             self._grid.setColumnStretch(column, 1)
-        title = QLabel("Start")
+        title = QLabel("Start here")
         title.setFont(text_font(_TITLE_PX, semibold=True))
         title.setStyleSheet(f"font-size: {_TITLE_PX}px; font-weight: 600;")
         self._last, self._try = heading("Last"), heading("Try one")

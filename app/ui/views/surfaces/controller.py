@@ -362,6 +362,7 @@ class SceneController(Controller):
         self.changed.emit()
 
     def _on_stands(self) -> None:
+        self._view.at_once = self.work.at_once
         self._view.show_standing(self.work.state, self.work.verdict, self.work.findings)
         self.changed.emit()
 

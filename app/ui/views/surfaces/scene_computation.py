@@ -136,6 +136,11 @@ class SceneComputation(QObject):
             self._stand(SceneState.CHANGED if self.scene is not None else SceneState.NONE)
 
     @property
+    def at_once(self) -> bool:
+        """Whether a change is computed at once; a scene that takes long is when that is asked for."""
+        return self._took_s <= _AT_ONCE_S
+
+    @property
     def busy(self) -> bool:
         """Whether a job is on its way."""
         return self.state in (SceneState.COMPUTING, SceneState.PROVING)
@@ -172,7 +177,7 @@ class SceneComputation(QObject):
         """Read a text that has rested; compute it if that is quick."""
         if not self._read():
             return
-        if self._took_s <= _AT_ONCE_S:
+        if self.at_once:
             self.compute()
         else:
             self.reading.worker.cancel()
