@@ -167,17 +167,24 @@ def _below_table(job: Job, fault: Fault, library: Sequence[Tool]) -> Iterator[Me
 
 
 def _less_deep(job: Job, fault: Fault, operation: Operation, spare: float = SPARE) -> Iterator[Mend]:
+    """Have no operation with the tool go deeper than what the one that did it may."""
     assert fault.depth is not None
     before = operation.cut.depth
     depth = math.floor(1000 * (before - fault.depth - spare) + 1e-6) / 1000
     if depth < LEAST_LENGTH:
         return
     try:
-        cut = replace(operation.cut, depth=depth, stepdown=min(operation.cut.stepdown, depth))
-        changed = _with_operation(job, fault, replace(operation, cut=cut))
+        operations = tuple(_not_deeper(each, operation.cut.tool, depth) for each in job.operations)
     except ParameterError:  # a finish pass, or what is left on the floor, is thicker than that
         return
-    yield Mend(f"Depth {depth:g} mm", f"{before:g} \u2192 {depth:g} mm", changed)
+    yield Mend(f"Depth {depth:g} mm", f"{before:g} \u2192 {depth:g} mm", replace(job, operations=operations))
+
+
+def _not_deeper(operation: Operation, tool: int, depth: float) -> Operation:
+    cut = operation.cut
+    if cut.tool != tool or cut.depth <= depth:
+        return operation
+    return replace(operation, cut=replace(cut, depth=depth, stepdown=min(cut.stepdown, depth)))
 
 
 def _with_tool(job: Job, tool: Tool, changed: Tool, what: str, lengths: tuple[float, float]) -> Mend:

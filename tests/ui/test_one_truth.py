@@ -16,7 +16,10 @@ from app.ui.shell.nc_export_controller import ExportPlace
 from app.ui.views.surfaces.scene_computation import SceneState
 from tests.ui.conftest import WAIT_MS
 
-SLOT = "(Stock: X 0 30 Y 0 20 Z -5 0)\n(Tool: T1 flat 6 mm)\nG21 G90\nT1 M6\nS9000 M3\nG0 X5 Y10 Z5\nG1 Z-1 F200\nX25\nG0 Z5\nM30\n"
+SLOT = (
+    "(Stock: X 0 30 Y 0 20 Z -5 0)\n(Tool: T1 flat 6 mm)\nG21 G90\nT1 M6\nS9000 M3\n"
+    "G0 X5 Y10 Z5\nG1 Z-1 F200\nX25\nG0 Z5\nM30\n"
+)
 
 
 @pytest.fixture
