@@ -71,6 +71,7 @@ def _program_path(path: Path, progress: Progress) -> QPainterPath:
 
     data, way = read_file(path), QPainterPath()
     motions = read_program(data, ReadOptions(guess_dialect(data), {}, limits=PATIENT), progress).motions
+    # a rapid lifts the pen, and so does a place that nobody knows
     cuts, goes = motions.kind != MotionKind.RAPID, np.isfinite(motions.end).all(axis=1)
     for cut, (x, y) in zip((cuts & goes).tolist(), np.nan_to_num(motions.end[:, :2]).tolist(), strict=True):
         (way.lineTo if cut else way.moveTo)(x, y)
