@@ -8,10 +8,12 @@ import trimesh
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 
+from app.ui.framework.figures import TIMES
 from app.ui.framework.view import View
 from app.ui.views.surfaces.scene_computation import SceneState
 from app.usecases.solid_files import SOLIDS, is_solid
 from app.usecases.solid_scene import OpenedSolid
+from app.usecases.step_extra import step_files_readable
 
 WAIT_MS = 60_000
 
@@ -41,7 +43,7 @@ def test_a_dropped_solid_is_seen_before_its_passes_and_its_units_are_asked_once(
     assert moves == [0] and wiring.display_controller.view is View.SURFACES
     assert window.file_label.text() == "Ball.toml"
     assert window.notice.text.text() == (
-        "Ball.STL does not say its units: 2.4 × 2.4 × 2.4. It is taken as millimetres."
+        f"Ball.STL does not say its units: 2.4 {TIMES} 2.4 {TIMES} 2.4. It is taken as millimetres."
     )
     seen = view.canvas.camera.project(view.shown.space.triangles.reshape(-1, 3), view.canvas._size)
     assert np.ptp(seen[:, 1]) > view.canvas.height() / 3, "a speck"
@@ -83,3 +85,31 @@ def test_every_suffix_is_taken_by_open_and_drop():
     from app.ui.shell.file_controller import open_filter
 
     assert all(f"*{suffix}" in open_filter() and is_solid(f"A{suffix.upper()}") for suffix in SOLIDS)
+
+
+def test_a_surface_that_cannot_be_made_hides_no_other_one_but_no_path_is_made_without_it(qtbot, wiring, tmp_path):
+    path = tmp_path / "two.toml"
+    path.write_text(
+        '[[tool]]\nnumber = 1\ndiameter = 6.0\nkind = "ball"\n'
+        '[[surface]]\nname = "dome"\nshape = { kind = "sphere", centre = [0, 0, 0], radius = 20 }\n'
+        '[[surface]]\nname = "lost"\nshape = { kind = "mesh", file = "gone.stl" }\n'
+        "[[passes]]\ntool = 1\npitch = 2.0\n"
+    )
+    wiring.files.open_file(path)
+    view = wiring.window_.views.surfaces
+    qtbot.waitUntil(lambda: wiring.scenes.work.state is SceneState.FAILED, timeout=WAIT_MS)
+    assert view.shown is not None and [each.name for each in view.shown.computed.scene.surfaces] == ["dome"]
+    assert "gone.stl" in wiring.window_.notice.text.text()
+    assert wiring.scenes.work.proven is None and wiring.window_.status.badge.text() == "Could not be computed"
+
+
+def test_what_reads_step_files_is_offered_where_it_is_missing(qtbot, wiring, tmp_path):
+    if step_files_readable():
+        pytest.skip("it is there")
+    path = tmp_path / "part.step"
+    path.write_bytes(b"ISO-10303-21;")
+    wiring.files.open_file(path)
+    notice = wiring.window_.notice
+    assert "part.step is a STEP file" in notice.text.text()
+    assert [button.text() for button in notice.buttons] == ["Fetch it and open", "Not now"]
+    assert "pip" not in notice.text.text()

@@ -16,7 +16,8 @@ from ....core.errors import HitofudeError, InputError
 from ....core.resources import resource
 from ....formats.scene.edit import line_of, with_table
 from ....model.scene import Scene
-from ....usecases.solid_files import SOLIDS
+from ....usecases.solid_files import SOLIDS, STEPS
+from ....usecases.step_extra import fetch_step_reader, step_files_readable
 from ...framework.controller import Controller, ShownDocument
 from ...framework.figures import counted
 from ...framework.workspace import Workspace
@@ -124,8 +125,20 @@ class SceneController(Controller):
         self.leave(f"Open {path.name}?", partial(self._open, path))
 
     def open_solid(self, path: Path) -> None:
-        """Open a mesh or a STEP file as a scene of its own, after asking when changes to another one would be lost."""
-        self.leave(f"Open {path.name}?", partial(self._read_solid, path))
+        """Open a mesh or a STEP file as a scene of its own, after asking when changes to another one would be lost;
+        what reads STEP files is fetched first where it is missing.
+        """
+        if not path.name.lower().endswith(STEPS) or step_files_readable():
+            self.leave(f"Open {path.name}?", partial(self._read_solid, path))
+            return
+        self._workspace.notice.ask(
+            f"{path.name} is a STEP file. What reads these, Open CASCADE, is not installed yet; it takes some 150 MB.",
+            [("Fetch it and open", partial(self._fetch_for, path)), ("Not now", lambda: None)],
+            stays=True,
+        )
+
+    def _fetch_for(self, path: Path) -> None:
+        self._solids.start(lambda progress: fetch_step_reader(progress=progress), lambda _: self.open_solid(path))
 
     def _read_solid(self, path: Path) -> None:
         from ....formats.scene.toml import sources_of

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.atomic import read_whole
-from ....core.errors import InputError
+from ....core.errors import Cancelled, HitofudeError, InputError
 from ....core.progress import NO_PROGRESS, Progress
 from ....usecases.scene_lines import LineRole, SceneLines, scene_lines
 
 if TYPE_CHECKING:
-    from ....model.scene import LineType
+    from ....model.scene import LineType, Scene
+    from ....model.scene_curves import SceneFiles
     from ....usecases.surface import ComputedFamily, ComputedScene
 
 Floats = NDArray[np.float64]
@@ -138,7 +140,8 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS, passe
 
     Args:
         path: of its file; files that it names are beside it. data: the text, UTF-8.
-        passes: False: the surfaces alone, which are soon there.
+        passes: False: the surfaces alone, which are soon there; those that cannot be made are left out, and are told of
+            when the passes are computed.
 
     Raises:
         HitofudeError: it cannot be read or computed. Cancelled: the job was asked to stop.
@@ -152,8 +155,11 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS, passe
 
     progress.step(0.0, f"Computing {path.name}")
     scene = read_scene(path.name, data)
-    scene = scene if passes else replace(scene, passes=())
-    computed = compute(scene, sources_of(lambda name: read_file(path.parent / name)), progress.part(0.0, 0.9))
+    sources = sources_of(lambda name: read_file(path.parent / name))
+    if passes:
+        computed = compute(scene, sources, progress.part(0.0, 0.9))
+    else:
+        computed = _surfaces_of(replace(scene, passes=()), sources, progress.part(0.0, 0.9))
     progress.step(0.9, "Preparing the picture")
     drawn = by_surface(computed, PlotScene(drawn=PlottedPart.SURFACE))
     colours = tuple(kind.colour or colour_of(number) for number, kind in enumerate(drawn.surfaces))
@@ -170,6 +176,30 @@ def shown_scene(path: Path, data: bytes, progress: Progress = NO_PROGRESS, passe
         _pitch(computed),
     )
     return ShownScene(path, computed, space, colours, lines)
+
+
+def _surfaces_of(scene: Scene, sources: SceneFiles, progress: Progress) -> ComputedScene:
+    """Return a scene without passes; surfaces that cannot be made are left out where others can.
+
+    Raises:
+        HitofudeError: none can be made. Cancelled: the job was asked to stop.
+    """
+    from ....surfaces.patches.build import build_surface
+    from ....usecases.surface import compute
+
+    try:
+        return compute(scene, sources, progress.part(0.0, 0.5))
+    except Cancelled:
+        raise
+    except HitofudeError:
+        made = []
+        for surface in scene.surfaces:
+            with suppress(HitofudeError):
+                build_surface(surface, sources)
+                made.append(surface)
+        if not made or len(made) == len(scene.surfaces):
+            raise
+    return compute(replace(scene, surfaces=tuple(made)), sources, progress.part(0.5, 1.0))
 
 
 def read_file(path: Path) -> bytes:
