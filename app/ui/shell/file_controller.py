@@ -69,7 +69,8 @@ class FileController(QObject):
         self._window, self._showing, self._log = window, showing, log
         self._document, self._computation = window.document, window.computation
         self._given_up: object = None
-        self._openers = open_others
+        self._open_program, self._open_picture = open_others.program, open_others.picture
+        self._open_scene, self._open_solid = open_others.scene, open_others.solid
         self.open_controller = OpenController(window.document, window.worker)
         self.reread_controller = RereadController(
             window.drawing_page.reading, window.card, window.worker, window.workspace
@@ -111,16 +112,16 @@ class FileController(QObject):
             path: of the file. reading: how it is read, if it is a drawing.
         """
         if is_program(path):
-            self._openers.program(path)
+            self._open_program(path)
             return
         if is_scene(path):
-            self._openers.scene(path)
+            self._open_scene(path)
             return
         if is_solid(path.name):
-            self._openers.solid(path)
+            self._open_solid(path)
             return
         if is_picture(path.name):
-            self._leave_drawing(f"Open {path.name}", lambda: self._openers.picture(path))
+            self._leave_drawing(f"Open {path.name}", lambda: self._open_picture(path))
             return
         self._leave_drawing(f"Open {path.name}", lambda: self.open_controller.open(path, reading))
 
@@ -130,7 +131,7 @@ class FileController(QObject):
         """
         sample = path or opening_files.sample_path()
         if is_scene(sample):
-            self._openers.scene(sample)
+            self._open_scene(sample)
         else:
             self._leave_drawing("Open the sample", lambda: self.open_controller.open(sample, before=Job(Part())))
 
