@@ -60,6 +60,8 @@ class StartPage(QScrollArea):
         column.addSpacing(8)
         column.addLayout(self._grid)
         column.addStretch(1)
+        self._grid.addWidget(self._last, 0, 0, 1, _BESIDE_NEW)
+        self._grid.addWidget(self._try, 3, 0, 1, COLUMNS)
         inner.setMaximumWidth(_WIDEST_PX + 2 * _EDGE_PX)
         self.setWidget(inner)
 
@@ -72,13 +74,11 @@ class StartPage(QScrollArea):
         self.files, self.samples = list(files), list(samples)
         beside, more = self.files[:_BESIDE_NEW], self.files[_BESIDE_NEW : _BESIDE_NEW + COLUMNS]
         self._last.setVisible(bool(files))
-        self._grid.addWidget(self._last, 0, 0, 1, _BESIDE_NEW)
         for column, card in enumerate(beside):
             self._grid.addWidget(card, 1, column, Qt.AlignmentFlag.AlignTop)
         self._grid.addWidget(self.new, 1, _BESIDE_NEW if beside else 0, 1, 2)
         for column, card in enumerate(more):
             self._grid.addWidget(card, 2, column)
-        self._grid.addWidget(self._try, 3, 0, 1, COLUMNS)
         for column, card in enumerate(self.samples):
             self._grid.addWidget(card, 4, column)
         for card in self.files:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -69,12 +70,19 @@ def _program_path(path: Path, progress: Progress) -> QPainterPath:
     from ....gcode.interpreter.reader import read_program
     from ....model.motion import MotionKind
 
-    data, way = read_file(path), QPainterPath()
+    data, way, lifted = read_file(path), QPainterPath(), True
     motions = read_program(data, ReadOptions(guess_dialect(data), {}, limits=PATIENT), progress).motions
-    # a rapid lifts the pen, and so does a place that nobody knows
+    at = (0.0, 0.0)
     cuts, goes = motions.kind != MotionKind.RAPID, np.isfinite(motions.end).all(axis=1)
     for cut, (x, y) in zip((cuts & goes).tolist(), np.nan_to_num(motions.end[:, :2]).tolist(), strict=True):
-        (way.lineTo if cut else way.moveTo)(x, y)
+        if not cut:  # a rapid lifts the pen, and so does a place that nobody knows
+            lifted = True
+        elif lifted:
+            way.moveTo(*at)
+            lifted = False
+        if cut:
+            way.lineTo(x, y)
+        at = (x, y)
     return way
 
 
@@ -90,8 +98,13 @@ def _space(path: Path, size: QSize, theme: Theme, progress: Progress) -> QImage:
         data = open_solid(path.name, str(path.absolute()), sources, progress.part(0.0, 0.2)).text().encode()
     shown = shown_scene(path.with_suffix(".toml"), data, progress.part(0.2, 0.9), passes=False)
     wide, high = size.width(), size.height()
-    room = (float(wide - MARGIN_PX), float(high - MARGIN_PX))
-    camera = Camera().seen_from(StandardView.ISOMETRIC).fitted(*shown.space.box, room)
+    camera = Camera().seen_from(StandardView.ISOMETRIC).fitted(*shown.space.box, (float(wide), float(high)))
+    seen = camera.project(shown.space.triangles.reshape(-1, 3), (wide, high))[:, :2]
+    low, high_px = seen.min(axis=0), seen.max(axis=0)
+    room = np.array([wide, high]) - 2.0 * MARGIN_PX
+    larger = float(np.min(room / np.maximum(high_px - low, 1e-6)))
+    aside = (np.array([wide, high]) - low - high_px) / 2 * larger
+    camera = replace(camera, scale=camera.scale * larger).panned(float(aside[0]), float(aside[1]))
     inks = SceneColours(
         *(_rgb(colour) for colour in (theme.canvas, theme.ink, theme.rapid, theme.plunge)),
         [_rgb(QColor(colour)) for colour in shown.colours],
