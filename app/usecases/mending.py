@@ -94,7 +94,7 @@ def _shank(job: Job, fault: Fault, library: Sequence[Tool]) -> Iterator[Mend]:
         placed = replace(other, number=tool.number)
         tools = tuple(placed if each.number == tool.number else each for each in job.tools)
         lengths = f"flutes {tool.flute_length:g} \u2192 {other.flute_length:g} mm"
-        yield Mend(f"T{tool.number} {other.label} of the library", lengths, replace(job, tools=tools))
+        yield Mend(f"T{tool.number} of the library", lengths, replace(job, tools=tools))
     if not tool.overall_length or flutes <= tool.overall_length:
         yield _with_tool(job, tool, replace(tool, flute_length=flutes), "flutes", (tool.flute_length, flutes))
     yield from _less_deep(job, fault, operation)
