@@ -94,7 +94,7 @@ def test_what_is_said_of_a_place_fits_into_a_small_window(qtbot, beside):
     qtbot.mouseClick(window.cut_panel.rows[0], Qt.MouseButton.LeftButton)
     assert not window.cut_panel.histogram.isVisible()
     assert window.cut_panel.go.isVisible()
-    window.resize(1100, 1000)
+    window.resize(1100, 1200)
     qtbot.waitUntil(window.cut_panel.histogram.isVisible, timeout=WAIT_MS)
 
 

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from ....usecases.mending import Mend
 
 _ROLES = {VerdictLevel.OK: "ok", VerdictLevel.BAD: "error", VerdictLevel.REMARK: "warning", VerdictLevel.NONE: ""}
-_TEXT_PX, _LEAST_LIST_PX, _ROOM_PX = 120, 84, 760
+_TEXT_PX, _LEAST_LIST_PX, _ROOM_PX, _TIGHT_PX = 64, 56, 760, 640
 
 _TITLE_PX = 230
 """So wide a place's title is shown whole; the words of where it lies give way first."""
@@ -250,8 +250,12 @@ class CutPanel(QWidget):
         self._make_room()
 
     def _make_room(self) -> None:
-        """Where there is little room, what is said of a place takes that of the histogram."""
+        """Where there is little room, what is said of a place takes that of the histogram, then that of what is said of
+        the whole.
+        """
         room = self.height() > (_ROOM_PX if self.details.isHidden() else _ROOM_PX + 140)
+        for label in (self.verdict, self.cells):
+            label.setVisible(self.details.isHidden() or self.height() > _TIGHT_PX)
         for widget in (self.histogram, self.line):
             widget.setVisible(room and self.shown is not None and self.shown.histogram is not None)
 
