@@ -155,7 +155,7 @@ class Computation(QObject):
 
     def forget(self, drawing_findings: tuple[Finding, ...] = ()) -> None:
         """Drop the result: another document was opened, and reading it had this to say."""
-        self.made, self.picture, self._made_for, self.error = None, None, None, ""
+        self.made, self.picture, self._made_for, self._compared, self.error = None, None, None, None, ""
         self.drawing_findings = drawing_findings
         self.changed.emit()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -41,6 +42,14 @@ _LAYERS = {
 }
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class _Teller:
+    """Who tells what a view shows."""
+
+    view: View
+    controller: Controller
+
+
 START_PROMPT = "Choose a file or a sample, begin a part, or type a line such as  rect 0,0 80,50"
 
 
@@ -67,7 +76,7 @@ class DisplayController(QObject):
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
         self._layers = PathLayers.ALL
-        self._tellers: dict[View, list[Controller]] = {}
+        self._tellers: list[_Teller] = []
         self._shown_program: object = None
         self._empty_action = "open"
         self._sized: tuple[Part, tuple[str, ...], tuple[float, float] | None] | None = None
@@ -91,12 +100,12 @@ class DisplayController(QObject):
 
     def ask(self, controller: Controller, view: View) -> None:
         """Have a controller say what its view shows in place of the drawing."""
-        self._tellers.setdefault(view, []).append(controller)
+        self._tellers.append(_Teller(view, controller))
 
     @property
     def shown_document(self) -> ShownDocument | None:
         """What is at the front in place of the drawing and its job; None = these."""
-        told = (controller.shown_document for controller in self._tellers.get(self.view, ()))
+        told = (each.controller.shown_document for each in self._tellers if each.view is self.view)
         return next((document for document in told if document is not None), None)
 
     @property

@@ -46,7 +46,10 @@ class NcBeside(QWidget):
     def show_cut(self, shown: ShownCut | None) -> None:
         """Show the text of another program, from its beginning."""
         self._shown, self.motion = shown, -1
-        if shown is not None:
+        self._file = 0
+        if shown is None:
+            self.text.clear()
+        else:
             self._show_file(0)
         self._say("")
 
