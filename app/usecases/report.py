@@ -241,6 +241,11 @@ def _times(written: WrittenProgram) -> Json:
             "rapid": sum(part["rapid"] for part in parts),
             "wait": waits,
         },
+        "tool_changes": {
+            "count": sum(each.changes for each in written.durations)
+            + (len(written.files) if written.post.file_per_tool else 0),
+            "time_s": written.changes_s + sum(each.changing for each in written.durations),
+        },
         "time_method": TIME_METHOD.format(written.machine.title),
     }
 
