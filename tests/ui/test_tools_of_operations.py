@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QLabel
 from app.core.errors import ParameterError
 from app.drafting.document import Document
 from app.model.job import Job
-from app.model.operation import OPERATION_KINDS, CutParameters, DrillOperation
+from app.model.operation import CutParameters, DrillOperation
+from app.model.operation_kinds import OPERATION_KINDS
 from app.model.tool import Tool, ToolKind
 from app.ui.framework.computation import Computation, ComputationState
 from app.ui.framework.labels import Elided

@@ -10,7 +10,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QWidget
 
 from ...model.job import Job
-from ...model.operation import OPERATION_KINDS, Operation
+from ...model.operation import Operation
+from ...model.operation_kinds import OPERATION_KINDS
 from ...model.tool import Tool
 from ..framework.computation import WaitingTimes
 from ..framework.dropping import drop

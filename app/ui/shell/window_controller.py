@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 
 from ...core.settings import ThemeChoice
 from ...drafting.document import DocumentChange
-from ...model.operation import OPERATION_KINDS
+from ...model.operation_kinds import OPERATION_KINDS
 from ..framework.controller import Controller
 from ..framework.figures import counted
 from ..framework.section import theme_children
