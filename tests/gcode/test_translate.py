@@ -224,22 +224,21 @@ def test_cycles_of_fanuc_are_what_linuxcnc_makes_of_them(cycle: str) -> None:
 CURVES = "G21 G90 G17\nF100\nG0 X0 Y0 Z5\nG5 X20 Y10 I10 J0 P-3 Q8\nG5.1 X40 Y0 I10 J12\nG1 X50\nM2\n"
 
 
-def driven_along(motions: Motions) -> np.ndarray:
-    """Points (n, 2) of level lines and arcs, from their centres and directions."""
-    points = [motions.start[0, :2]]
+def driven_along(motions: Motions, chord: float = 2e-5) -> np.ndarray:
+    """Points (n, 2) of level lines and arcs, from their centres and directions; chords keep to arcs within `chord` mm."""
+    points = [motions.start[:1, :2]]
     for k in range(len(motions)):
         a, b, centre = motions.start[k, :2], motions.end[k, :2], motions.centre[k, :2]
         if motions.kind[k] >= MotionKind.ARC_CW:
             first, last = (math.atan2(*(place - centre)[::-1]) for place in (a, b))
             sign = 1 if motions.kind[k] == MotionKind.ARC_CCW else -1
             turn = sign * ((sign * (last - first)) % math.tau)
-            for share in np.linspace(0, 1, 40)[1:-1]:
-                size = math.hypot(*(a - centre)) * (1 - share) + math.hypot(*(b - centre)) * share
-                points.append(
-                    centre + size * np.array([math.cos(first + share * turn), math.sin(first + share * turn)])
-                )
-        points.append(b)
-    return np.array(points)
+            count = 2 + math.ceil(abs(turn) * math.sqrt(math.hypot(*(a - centre)) / (8 * chord)))
+            share = np.linspace(0, 1, count)[1:-1, None]
+            size = math.hypot(*(a - centre)) * (1 - share) + math.hypot(*(b - centre)) * share
+            points.append(centre + size * np.hstack([np.cos(first + share * turn), np.sin(first + share * turn)]))
+        points.append(b[None])
+    return np.concatenate(points)
 
 
 def bezier(points: list[tuple[float, float]], at: np.ndarray) -> np.ndarray:
@@ -262,6 +261,24 @@ def test_splines_are_written_as_arcs_within_the_last_decimals(control: str, step
     driven = shapely.LineString(driven_along(motions))
     assert driven.hausdorff_distance(shapely.LineString(meant)) < 2.5 * step
     assert len(motions) < 120
+
+
+WIDE = "G20 G90 G17\nF10\nG0 X0 Y0 Z1\nG5 X{} Y{} I{} J0 P-{} Q{}\nM2\n"
+
+
+@pytest.mark.parametrize("control", ["mach3", "grbl"])
+@pytest.mark.parametrize("wide", [1, 10, 40])
+def test_a_spline_a_metre_wide_is_written_in_hundred_thousandths_of_an_inch(control: str, wide: int) -> None:
+    """Its chords in the proof are as fine as the last decimal asks, not a thousand however wide it is."""
+    numbers = (0.8 * wide, 0.4 * wide, 0.4 * wide, 0.1 * wide, 0.3 * wide)
+    made = into(control, WIDE.format(*(f"{number:g}" for number in numbers)))
+    x, y, i, p, q = (25.4 * number for number in numbers)
+    meant = bezier([(0, 0), (i, 0), (x - p, y + q), (x, y)], np.linspace(0, 1, 20_001))
+    turns = made.program.motions.kind >= MotionKind.ARC_CW
+    assert np.any(turns) and b"spline" in made.data.lower()
+    driven = shapely.LineString(driven_along(made.program.motions))
+    assert max(shapely.distance(shapely.points(meant), driven)) < 2 * 25.4e-5
+    assert max(shapely.distance(shapely.points(driven.coords), shapely.LineString(meant))) < 2 * 25.4e-5
 
 
 @pytest.mark.parametrize("milliseconds", [119, 351, 407, 348, 18, 773, 103])
