@@ -105,8 +105,8 @@ def spline_points(spline: Nurbs, count: int = SPLINE_PIECES + 1) -> Floats:
 def fine_spline_points(spline: Nurbs, chord: float, most: int) -> Floats:
     """Return (k, 3) points of a spline, ends among them, so close together that their chords keep to it.
 
-    A chord is halved until the point at the middle of its parameters is near its own middle. The first ones are parts of
-    the pieces between knots, which bend but simply.
+    A chord is halved until the point at the middle of its parameters is near its own middle. The first ones are parts
+    of the pieces between knots, which bend but simply.
 
     Args:
         spline: any.
