@@ -64,7 +64,7 @@ def tool_given(text: str) -> tuple[int, Tool]:
     Raises:
         InputError: it is not of that form, or its numbers make no tool.
     """
-    match = re.fullmatch(r"\s*(\d{1,4})\s*=\s*([a-z]+)\s*:(.*)", text, re.IGNORECASE)
+    match = re.fullmatch(r"\s*(\d{1,4})\s*=\s*([a-z-]+)\s*:(.*)", text, re.IGNORECASE)
     kind = ToolKind.words().get(match[2].lower()) if match else None
     if match is None or kind is None:
         raise InputError(f"'{text}' is no tool; write NUMBER=KIND:DIAMETER, such as 1=ball:6: {_shapes()}")

@@ -9,7 +9,7 @@ from ..core.errors import HitofudeError, InputError
 from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import length
 from ..model.job import Copies
-from ..model.operation import parameters
+from ..model.operation_kinds import parameters
 from ..usecases.machining import MachiningOptions, option_of
 from .parameter_options import add_parameter_options, requested_values
 from .values import number

@@ -13,9 +13,12 @@ from ..drafting.expressions.errors import CommandError
 from ..drafting.expressions.numbers import angle, length
 from ..model.curve_selectors import HELP, Selector, read_selector
 from ..model.fields import Parameter, ParameterPlace, Unit
-from ..model.operation import parameters
+from ..model.operation_kinds import parameters
 
-_METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N"}
+_METAVARS = {Unit.LENGTH: "MM", Unit.ANGLE: "DEG", Unit.SHARE: "SHARE|%", Unit.COUNT: "N", Unit.TIME: "S"}
+
+_MANY = 12
+"""Choices; more are not listed in the line of usage."""
 
 
 def add_parameter_options(group: argparse._ArgumentGroup, groups: tuple[str, ...]) -> None:
@@ -43,6 +46,7 @@ def _add(group: argparse._ArgumentGroup, key: str, placed: ParameterPlace) -> No
             option,
             dest=key,
             choices=[each.value for each in placed.enum],
+            metavar=key.upper() if len(placed.enum) > _MANY else None,
             help=f"{declared.help} (default {placed.default.value})",
         )
     else:
@@ -136,9 +140,16 @@ def _count(text: str, declared: Parameter) -> int:
     return int(text)
 
 
+def _seconds(text: str, declared: Parameter) -> float:
+    if not re.fullmatch(r"\s*\d{1,9}(\.\d{0,9})?\s*", text):
+        raise argparse.ArgumentTypeError(f"is '{text}'; write seconds, such as 0.5")
+    return float(text)
+
+
 _READERS: dict[Unit, Callable[[str, Parameter], Any]] = {
     Unit.LENGTH: _length,
     Unit.ANGLE: _angle,
     Unit.SHARE: _share,
     Unit.COUNT: _count,
+    Unit.TIME: _seconds,
 }

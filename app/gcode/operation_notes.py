@@ -88,7 +88,7 @@ def _flag(text: str, _: ParameterPlace) -> bool | None:
 
 def _choice(text: str, placed: ParameterPlace) -> Enum | None:
     assert placed.enum is not None
-    return next((each for each in placed.enum if each.value == text.lower()), None)
+    return next((each for each in placed.enum if each.value.lower() == text.lower()), None)
 
 
 def _curves(text: str, _: ParameterPlace) -> tuple[Selector, ...] | None:
@@ -108,6 +108,7 @@ def _points(text: str, _: ParameterPlace) -> tuple[tuple[float, float], ...] | N
 _READERS: dict[Unit, Callable[[str, ParameterPlace], Any]] = {
     Unit.LENGTH: _number,
     Unit.SHARE: _number,
+    Unit.TIME: _number,
     Unit.ANGLE: _angle,
     Unit.COUNT: _count,
     Unit.FLAG: _flag,

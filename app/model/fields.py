@@ -36,6 +36,7 @@ class Unit(Enum):
     POINTS = "points"
     SPEED = "rpm"
     RATE = "mm_min"
+    TIME = "s"
     TEXT = "text"
     OUTLINE = "outline"  # of a holder, by its points or its name
     FEEDS = "feeds"  # rows of feeds, by material
@@ -113,6 +114,7 @@ class Parameter:
             Unit.SHARE: " %",
             Unit.SPEED: " rpm",
             Unit.RATE: " mm/min",
+            Unit.TIME: " s",
         }.get(self.unit, "")
 
     def range_words(self) -> str:
@@ -127,9 +129,13 @@ class Parameter:
         """
         if value is None and self.auto:
             return
-        if self.unit in (Unit.LENGTH, Unit.ANGLE, Unit.SHARE, Unit.COUNT) and not self.low <= value <= self.high * (
-            1 + 1e-12
-        ):
+        if self.unit in (
+            Unit.LENGTH,
+            Unit.ANGLE,
+            Unit.SHARE,
+            Unit.COUNT,
+            Unit.TIME,
+        ) and not self.low <= value <= self.high * (1 + 1e-12):
             raise ParameterError(f"{self.label} is {self.shown(value):g}{self.sign}; use {self.range_words()}.")
 
 

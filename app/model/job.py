@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ..core.errors import ParameterError
@@ -34,11 +34,12 @@ class OriginZ(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Stock:
-    """A box of metal. Z 0 is its top.
+    """A box of metal. Z 0 is its top, once it is faced.
 
     Attributes:
         margin: how far it reaches beyond the part's extent on every side, mm, >= 0.
-        thickness: mm, > 0.
+        thickness: below Z 0, mm, > 0.
+        above: what more of it stands above Z 0 at first, mm, >= 0.
         under: thickness of the waste that it lies on, mm, >= 0: so far below it may tools cut, as points of drills do.
     """
 
@@ -54,6 +55,15 @@ class Stock:
     thickness: float = parameter(
         10.0, "thickness", "Thickness", "from its top down", Unit.LENGTH, high=1e5, table="stock"
     )
+    above: float = parameter(
+        0.0,
+        "above",
+        "Above Z 0",
+        "what more of it stands above Z 0, to be faced off",
+        Unit.LENGTH,
+        high=1e4,
+        table="stock",
+    )
     under: float = parameter(
         0.0, "under", "Waste below", "thickness of the waste that it lies on", Unit.LENGTH, high=1e5, table="stock"
     )
@@ -64,6 +74,8 @@ class Stock:
                 f"Stock margin is {self.margin:g} mm and thickness {self.thickness:g} mm; "
                 "the margin must be 0 or more and the thickness greater than 0."
             )
+        if not 0 <= self.above < 1e4:
+            raise ParameterError(f"The stock stands {self.above:g} mm above Z 0; it must be 0 or more.")
         if not 0 <= self.under < 1e5:
             raise ParameterError(f"Waste under the stock is {self.under:g} mm thick; it must be 0 or more.")
 
@@ -197,6 +209,11 @@ class Job:
                 f"Safe Z is {self.safe_z:g} mm and retract Z {self.retract_z:g} mm; "
                 f"both must be {LEAST_LENGTH:g} mm or more and retract not above safe Z."
             )
+        if self.stock.above and not self.stock.above + LEAST_LENGTH <= self.retract_z:
+            raise ParameterError(
+                f"The stock stands {self.stock.above:g} mm above Z 0, and retract Z is only {self.retract_z:g} mm "
+                "above it; raise safe Z and retract Z, which count from Z 0."
+            )
         if not 0 <= self.join_tolerance <= LARGEST_JOIN:
             raise ParameterError(f"Join tolerance is {self.join_tolerance:g} mm; use 0 to {LARGEST_JOIN:g} mm.")
         if not 0 <= self.keep_out_height < 1e5:
@@ -228,6 +245,12 @@ class Job:
                 is to carve.
         """
         tool = self.tool(operation.cut.tool)
+        if tool.kind.value != operation.TOOL and (operation.TOOL or tool.kind.work):
+            needs = f"needs a {operation.TOOL}" if operation.TOOL else "needs a drill or a mill"
+            raise ParameterError(
+                f"T{tool.number} {tool.label} is a {tool.kind.value}; a {operation.WORD} operation {needs}: choose "
+                "another tool, or give it another kind."
+            )
         if tool.kind.drills and not operation.DRILLS:
             raise ParameterError(
                 f"T{tool.number} is a drill, which cannot cut sideways; a {operation.WORD} operation needs a mill: "
@@ -239,6 +262,15 @@ class Job:
                 "cutter with its angle: choose another tool, or give it kind and tip_angle."
             )
         return tool
+
+    def same_paths(self, other: Job) -> bool:
+        """Return whether another job comes to the same paths: layers that hold nothing, colours and locks make none."""
+        if self is other:
+            return True
+        mine, theirs = self.part, other.part
+        return replace(self, part=theirs) == other and replace(mine, layers=mine.machined_layers) == replace(
+            theirs, layers=theirs.machined_layers
+        )
 
     def check_operations(self) -> None:
         """Refuse a job that cannot be computed, whichever way.

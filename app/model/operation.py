@@ -10,18 +10,8 @@ from typing import ClassVar
 from ..core.errors import ParameterError
 from .curve_selectors import Selector
 from .entry import Entry, Lead, Tabs
-from .fields import (
-    Condition,
-    ParameterPlace,
-    Unit,
-    check_ranges,
-    declared_of,
-    parameter,
-    parameters_of,
-    part,
-    required,
-    required_part,
-)
+from .fields import Condition, Unit, check_ranges, parameter, part, required, required_part
+from .tool import Tool
 
 LEAST_LENGTH = 1e-3
 """mm; a smaller depth, step or height would vanish in the digits of an NC program."""
@@ -162,7 +152,36 @@ _ENGAGED = (
     "of the diameter: where the cutter is engaged over more, the feed is slowed; 100 %: never",
     Unit.SHARE,
 )
-_STEPOVER = (
+THROUGH = (
+    "through",
+    "Through",
+    "how far the tool goes on below the depth, so that its full width comes through",
+    Unit.LENGTH,
+)
+"""Declared alike by all kinds that go through."""
+
+DWELL = ("dwell", "Dwell", "how long the tool turns at the bottom of the hole", Unit.TIME)
+"""Declared alike by all kinds that may wait there."""
+
+
+SIDE = (
+    "side",
+    "Side",
+    "where the contour tool runs: inside the areas, outside, or on the lines",
+    Unit.CHOICE,
+)
+"""Declared alike by all kinds that follow contours on one of their sides."""
+
+STRAIGHT_DOWN = frozenset(
+    {"stepdown", "stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"}
+)
+"""Keys of parameters that have no effect on a tool that goes straight down."""
+
+ALIKE = 0.1
+"""mm; circles whose diameter is this near to a drill's are its own."""
+
+_SAME = 1e-6
+STEPOVER = (
     "stepover",
     "Stepover",
     "distance between rings: a length, or per cent of the diameter; every stepover clears everything",
@@ -177,8 +196,12 @@ class Operation:
 
     Attributes:
         WORD: the kind in job files, reports, NC headers, and in words.
+        TOOL: the word of the one kind of tool that can do it; "" = any that mills, or drills where it does.
         UNUSED: keys of parameters of the parts that have no effect on this kind.
+        HOLES: whether it works on circles, each by itself, and on nothing else.
         DRILLS: whether its tool goes straight down and never sideways, so that it may be a drill.
+        TAPS: whether the spindle turns back for the way out, which a control does in a cycle alone.
+        LEVELS: whether it leaves a level floor within its area that is to be free of metal.
         CLEARS: whether it clears the whole floor of its area, in rings.
         COARSE: whether its tool is the wide one, that goes over the area before others follow.
         FOLLOWS_WALLS: whether its path runs along the walls, or on the lines, and not over an area.
@@ -188,8 +211,12 @@ class Operation:
     cut: CutParameters = required_part(CutParameters)
 
     WORD: ClassVar[str]
+    TOOL: ClassVar[str] = ""
     UNUSED: ClassVar[frozenset[str]] = frozenset()
+    HOLES: ClassVar[bool] = False
     DRILLS: ClassVar[bool] = False
+    TAPS: ClassVar[bool] = False
+    LEVELS: ClassVar[bool] = True
     CLEARS: ClassVar[bool] = False
     COARSE: ClassVar[bool] = False
     FOLLOWS_WALLS: ClassVar[bool] = False
@@ -208,6 +235,20 @@ class Operation:
     @property
     def beyond(self) -> float:
         """How far below its floor its tool goes on purpose, mm."""
+        return 0.0
+
+    def deepest(self, tool: Tool) -> float:
+        """Return how deep its tool goes, mm, without the point of a drill."""
+        return self.cut.floor + self.beyond
+
+    @property
+    def over_edge(self) -> float:
+        """How far its cutter reaches beyond the drawn lines at the surface on purpose, mm."""
+        return 0.0
+
+    @property
+    def dwell_s(self) -> float:
+        """How long its tool waits at the bottom of a hole, s."""
         return 0.0
 
     @property
@@ -245,15 +286,7 @@ class Operation:
 class ContourOperation(Operation):
     """Follow the walls with the contour tool (step 120); on the line it also follows open lines (engraving, slots)."""
 
-    side: Side = parameter(
-        Side.INSIDE,
-        "side",
-        "Side",
-        "where the contour tool runs: inside the areas, outside, or on the lines",
-        Unit.CHOICE,
-        option=True,
-        choices=("Inside", "Outside", "On line"),
-    )
+    side: Side = parameter(Side.INSIDE, *SIDE, option=True, choices=("Inside", "Outside", "On line"))
     lead: Lead = part(Lead)
     tabs: Tabs = part(Tabs)
     spring_passes: int = parameter(
@@ -344,7 +377,7 @@ class PocketOperation(Operation):
     stepover.
     """
 
-    stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
+    stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     outside_in: bool = parameter(
         False,
         "outside_in",
@@ -428,7 +461,7 @@ class AdaptiveOperation(Operation):
 class RestOperation(Operation):
     """Clear what the operations before it in the list have left within reach of its tool."""
 
-    stepover: float | None = parameter(None, *_STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
+    stepover: float | None = parameter(None, *STEPOVER, low=LEAST_LENGTH, high=9_999.0, auto="automatic")
     most_engaged: float = parameter(
         1.0, *_ENGAGED, low=LEAST_ENGAGED, high=1.0, option=True, group="Feed and layers", short="Slow beyond"
     )
@@ -456,6 +489,7 @@ class VcarveOperation(Operation):
 
     WORD = "vcarve"
     CARVES = True
+    LEVELS = False
     UNUSED = frozenset({"stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"})
 
     def __post_init__(self) -> None:
@@ -463,7 +497,68 @@ class VcarveOperation(Operation):
 
 
 @dataclass(frozen=True, slots=True)
-class DrillOperation(Operation):
+class HoleOperation(Operation):
+    """Work on the circles of the drawing, each by itself."""
+
+    least: float | None = parameter(
+        None,
+        "least",
+        "Holes from",
+        "least diameter of the circles that it works on",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        auto="those that the tool is for",
+    )
+    most: float | None = parameter(
+        None,
+        "most",
+        "Holes to",
+        "largest diameter of the circles that it works on",
+        Unit.LENGTH,
+        low=LEAST_LENGTH,
+        auto="those that the tool is for",
+    )
+
+    HOLES = True
+    LEVELS = False
+
+    def __post_init__(self) -> None:
+        check_ranges(self)
+        if self.least is not None and self.most is not None and self.least > self.most:
+            raise ParameterError(
+                f"Holes from {self.least:g} to {self.most:g} mm are asked for; "
+                "the least diameter must not be more than the most."
+            )
+
+    @property
+    def wall_side(self) -> Side | None:
+        """None: it knows no walls but those of its holes."""
+        return None
+
+    @property
+    def on_bosses(self) -> bool:
+        """Whether its circles are bosses, round which its tool goes."""
+        return False
+
+    def around(self, tool: Tool) -> float:
+        """Return how far beyond what it makes the tool needs room, mm."""
+        return 0.0
+
+    def is_for(self, drawn: float, tool: Tool) -> bool:
+        """Tell whether a circle of a diameter, mm, is one for the tool, where nobody names diameters."""
+        return abs(drawn - tool.diameter) <= ALIKE + _SAME
+
+    def takes(self, drawn: float, tool: Tool) -> bool:
+        """Tell whether a circle of a diameter, mm, is wide enough for the tool."""
+        return tool.diameter <= drawn + ALIKE + _SAME
+
+    def made(self, drawn: float, tool: Tool) -> float:
+        """Return how wide the hole is that it makes in a circle of a diameter, mm."""
+        return tool.diameter
+
+
+@dataclass(frozen=True, slots=True)
+class DrillOperation(HoleOperation):
     """Drill the circles of the drawing at their centres."""
 
     peck: float | None = parameter(
@@ -476,87 +571,30 @@ class DrillOperation(Operation):
         option=True,
         auto="in one go",
     )
-    least: float | None = parameter(
-        None,
-        "least",
-        "Holes from",
-        "least diameter of the circles that are drilled",
-        Unit.LENGTH,
-        low=LEAST_LENGTH,
-        auto="the drill's own, within 0.1 mm",
-    )
-    most: float | None = parameter(
-        None,
-        "most",
-        "Holes to",
-        "largest diameter of the circles that are drilled",
-        Unit.LENGTH,
-        low=LEAST_LENGTH,
-        auto="the drill's own, within 0.1 mm",
-    )
-    through: float = parameter(
-        0.0,
-        "through",
-        "Through",
-        "how far the drill goes on below the depth, so that its full width comes through",
-        Unit.LENGTH,
-        high=1000.0,
+    chip_break: bool = parameter(
+        False,
+        "chip_break",
+        "Break chips",
+        "after each peck the drill goes up a little, so that the chip breaks, and not out of the hole",
+        Unit.FLAG,
         option=True,
+        choices=("Out of the hole", "Break the chip"),
+        short="Between pecks",
+        needs=Condition(lambda operation: operation.peck is not None, "pecks", "add peck = 2", "--peck gives them"),
     )
+    dwell: float = parameter(0.0, *DWELL, high=60.0, option=True)
+    through: float = parameter(0.0, *THROUGH, high=1000.0, option=True)
 
     WORD = "drill"
     DRILLS = True
-    UNUSED = frozenset(
-        {"stepdown", "stock_to_leave", "direction", "finish_depth", "floor_to_leave", "entry", "entry_angle"}
-    )
-
-    def __post_init__(self) -> None:
-        check_ranges(self)
-        if self.least is not None and self.most is not None and self.least > self.most:
-            raise ParameterError(
-                f"Holes from {self.least:g} to {self.most:g} mm are asked for; "
-                "the least diameter must not be more than the most."
-            )
-
-    @property
-    def wall_side(self) -> Side | None:
-        """None: a drill knows no walls."""
-        return None
+    UNUSED = STRAIGHT_DOWN
 
     @property
     def beyond(self) -> float:
         """How far the drill goes on below the depth, mm."""
         return self.through
 
-
-OPERATION_KINDS: dict[str, type[Operation]] = {}
-"""By the words of job files, reports and NC headers; `register` adds to it."""
-
-
-def register(kind: type[Operation]) -> None:
-    """Make a kind of operation known to job files, options, forms, headers and reports.
-
-    Raises:
-        ValueError: another kind has its word.
-    """
-    if OPERATION_KINDS.setdefault(kind.WORD, kind) is not kind:
-        raise ValueError(f"two kinds of operation are called {kind.WORD}")
-
-
-for _kind in (PocketOperation, AdaptiveOperation, RestOperation, ContourOperation, VcarveOperation, DrillOperation):
-    register(_kind)
-
-
-def declared() -> dict[str, ParameterPlace]:
-    """Return every parameter of every kind by key."""
-    return {key: placed for kind in OPERATION_KINDS.values() for key, placed in declared_of(kind).items()}
-
-
-def parameters() -> dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]]:
-    """Return every parameter of every kind by key, and the kinds that it has an effect on."""
-    found: dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]] = {}
-    for kind in OPERATION_KINDS.values():
-        for key, placed in parameters_of(kind).items():
-            first, kinds = found.get(key, (placed, ()))
-            found[key] = (first, (*kinds, kind))
-    return found
+    @property
+    def dwell_s(self) -> float:
+        """How long the drill turns at the bottom, s."""
+        return self.dwell

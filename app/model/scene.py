@@ -274,11 +274,12 @@ class Scene:
         """Return the tool with this T number, which must be a mill.
 
         Raises:
-            ParameterError: the scene has no such tool, or it is a drill.
+            ParameterError: the scene has no such tool, or one that mills no surface.
         """
         tool = next((tool for tool in self.tools if tool.number == number), None)
         if tool is None:
             raise ParameterError(f"The scene has no tool T{number}; add it to the tools or choose another.")
-        if tool.kind.drills:
-            raise ParameterError(f"T{number} is a drill, which cannot cut sideways; choose a mill.")
+        if tool.kind.drills or tool.kind.threads:
+            why = "cannot cut sideways" if tool.kind.drills else "cuts nothing but threads"
+            raise ParameterError(f"T{number} is a {tool.kind.value}, which {why}; choose a mill.")
         return tool

@@ -18,7 +18,7 @@ QUADRANTS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 @dataclass(frozen=True, slots=True)
 class StockBox:
-    """The stock, mm, part coordinates; z1 = 0 is its top."""
+    """The stock, mm, part coordinates; z1 is its top: 0, or what stands above that at first."""
 
     x0: float
     y0: float
@@ -66,7 +66,9 @@ def stock_box(job: Job, regions: Iterable[Region], lines: Iterable[Contour] = ()
             "The part has no closed contour, so there is no stock to set the work origin on; close a contour first."
         )
     margin = job.stock.margin
-    return StockBox(box[0] - margin, box[1] - margin, -job.stock.thickness, box[2] + margin, box[3] + margin)
+    return StockBox(
+        box[0] - margin, box[1] - margin, -job.stock.thickness, box[2] + margin, box[3] + margin, job.stock.above
+    )
 
 
 def work_origin(job: Job, box: StockBox) -> tuple[float, float, float]:
@@ -76,7 +78,7 @@ def work_origin(job: Job, box: StockBox) -> tuple[float, float, float]:
         OriginXY.LOWER_LEFT: (box.x0, box.y0),
         OriginXY.CENTRE: ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2),
     }[job.origin_xy]
-    return (x, y, box.z1 if job.origin_z is OriginZ.TOP else box.z0)
+    return (x, y, 0.0 if job.origin_z is OriginZ.TOP else box.z0)
 
 
 def _extreme_points(primitive: Primitive) -> Iterator[Point]:

@@ -65,6 +65,9 @@ class ToolKind(Keyword):
         level: whether it leaves a level floor, so that it clears one.
         square: whether its lower edge is sharp, so that walls and floor come out as drawn.
         drills: whether it only goes straight down.
+        threads: whether its teeth cut a thread: it then clears no more than the core, `tip_radius`, that is left within
+            them.
+        work: the word of the one kind of operation that it is for; "" = any that it can do.
         assumed_angle: full angle of its point where nobody tells it, radians; 0 = it must be told.
         usual_angle: full angle, radians, that a tool gets which becomes one of these and has none; 0 = it needs none.
         short_title: its name for people where there is little room; "" = the title.
@@ -80,6 +83,8 @@ class ToolKind(Keyword):
     level: bool = False
     square: bool = False
     drills: bool = False
+    threads: bool = False
+    work: str = ""
     assumed_angle: float = 0.0
     usual_angle: float = 0.0
     short_title: str = ""
@@ -91,6 +96,9 @@ class ToolKind(Keyword):
     V: ClassVar[ToolKind]
     DRILL: ClassVar[ToolKind]
     TAPER: ClassVar[ToolKind]
+    REAMER: ClassVar[ToolKind]
+    TAP: ClassVar[ToolKind]
+    THREAD_MILL: ClassVar[ToolKind]
 
     @classmethod
     def words(cls) -> Mapping[str, ToolKind]:
@@ -105,7 +113,7 @@ class ToolKind(Keyword):
     @property
     def needs_tip(self) -> bool:
         """Whether the diameter of its tip is part of what makes it one of these; else 0 will do."""
-        return "tip_diameter" in self.given
+        return "tip_diameter" in self.given[: len(self.given) - self.omissible]
 
     def spelled(self, diameter: str = "D") -> str:
         """Return how an option tells such a tool: "bull:D:CORNER"; with all that may be left out."""
@@ -158,6 +166,15 @@ def shape_keys(kind: ToolKind) -> frozenset[str]:
     return kind.keys
 
 
+_CORE = 0.7
+"""Of the diameter: the core of a thread-cutting tool where nobody tells it; no coarse thread from M1.6 on has less."""
+
+
+def core_radius(shape: ToolShape) -> float:
+    """Return what a tool that cuts threads clears, mm of radius: what lies within its teeth."""
+    return shape.tip_radius or _CORE * shape.radius
+
+
 ToolKind.FLAT = register(
     ToolKind(
         "flat", "Flat end mill", lambda shape: ToolProfile(shape.radius), level=True, square=True, aliases=("end",)
@@ -193,7 +210,7 @@ ToolKind.V = register(
         given=("diameter", "tip_angle"),
         usual_angle=math.radians(90.0),
         short_title="V",
-        aliases=("v-bit",),
+        aliases=("v-bit", "chamfer", "countersink", "spot"),
     )
 )
 ToolKind.DRILL = register(
@@ -218,5 +235,35 @@ ToolKind.TAPER = register(
         given=("tip_diameter", "tip_angle", "diameter"),
         usual_angle=math.radians(10.0),
         short_title="Tapered ball",
+    )
+)
+ToolKind.REAMER = register(
+    ToolKind("reamer", "Reamer", lambda shape: ToolProfile(shape.radius), square=True, drills=True, work="ream")
+)
+ToolKind.TAP = register(
+    ToolKind(
+        "tap",
+        "Tap",
+        lambda shape: ToolProfile(core_radius(shape)),
+        keys=frozenset({"tip_diameter"}),
+        given=("diameter", "tip_diameter"),
+        omissible=1,
+        drills=True,
+        threads=True,
+        work="tap",
+    )
+)
+ToolKind.THREAD_MILL = register(
+    ToolKind(
+        "thread-mill",
+        "Thread mill",
+        lambda shape: ToolProfile(core_radius(shape)),
+        keys=frozenset({"tip_diameter"}),
+        given=("diameter", "tip_diameter"),
+        omissible=1,
+        square=True,
+        threads=True,
+        work="thread",
+        aliases=("thread mill", "threadmill"),
     )
 )

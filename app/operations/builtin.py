@@ -2,6 +2,20 @@
 
 from __future__ import annotations
 
-from . import adaptive, contour, drill, pocket, rest, vcarve
+from . import adaptive, bore, chamfer, contour, countersink, drill, face, pocket, ream, rest, tap, thread, vcarve
 
-__all__ = ["adaptive", "contour", "drill", "pocket", "rest", "vcarve"]
+__all__ = [
+    "adaptive",
+    "bore",
+    "chamfer",
+    "contour",
+    "countersink",
+    "drill",
+    "face",
+    "pocket",
+    "ream",
+    "rest",
+    "tap",
+    "thread",
+    "vcarve",
+]

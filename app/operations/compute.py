@@ -11,6 +11,7 @@ from ..core.effort import announce
 from ..core.progress import NO_PROGRESS, Progress
 from ..geometry.overlay.overlay import OverlayResult, without_crossings
 from ..geometry.region import nested
+from ..model.face_operation import FaceOperation
 from ..model.finding import Finding, FindingKind, worst_first
 from ..model.job import Job
 from ..model.moves import Program
@@ -52,6 +53,7 @@ def compute(job: Job, progress: Progress = NO_PROGRESS, observer: Observer | Non
     announce(job_effort(job, context.regions), progress)
     context.findings.extend(under_clamps(job, parts, context.regions))
     operations = in_order(job)
+    context.findings.extend(unfaced(job, operations))
     for k, index in enumerate(operations):
         begins, ends = (0.05 + 0.95 * at / len(operations) for at in (k, k + 1))
         method_of(job.operations[index]).paths(context, index, progress.part(begins, ends))
@@ -136,7 +138,7 @@ def _only_followed(job: Job, parts: DrawnContours) -> set[int]:
     for operation in at_work:
         found = selected(parts, operation.cut.curves)
         contours = (*found.closed, *found.open) if operation.wall_side is Side.ON else found.closed
-        if not operation.DRILLS:
+        if not operation.HOLES:
             numbers[operation.wall_side is Side.ON].update(n for each in contours for n in each.entity_ids)
     return numbers[True] - numbers[False]
 
@@ -161,6 +163,17 @@ def in_order(job: Job) -> list[int]:
     """Return indices of the enabled operations in the order of cutting: the list's, or all contours first (1986)."""
     enabled = [k for k, operation in enumerate(job.operations) if operation.cut.enabled]
     return sorted(enabled, key=lambda k: job.order is Order.PATENT_1986 and not job.operations[k].FOLLOWS_WALLS)
+
+
+def unfaced(job: Job, operations: Sequence[int]) -> list[Finding]:
+    """Return that the first operation does not take off what stands above Z 0, though something does."""
+    if not job.stock.above or (operations and isinstance(job.operations[operations[0]], FaceOperation)):
+        return []
+    text = (
+        f"{job.stock.above:g} mm of the stock stand above Z 0, and the first operation does not face them off; the "
+        "others count their depths from Z 0: put a face operation first."
+    )
+    return [Finding(FindingKind.ENGAGEMENT, text, amount=job.stock.above)]
 
 
 def slotting(job: Job) -> list[Finding]:

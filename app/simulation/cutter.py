@@ -128,15 +128,23 @@ def cutter_of(tool: Tool) -> Cutter:
     """Return the cutter that a tool is.
 
     A drill whose angle is not known has the usual one of its kind. Drills, balls, V tools and tapered mills cut at
-    their centre; flat and bull-nose mills with two or three flutes are taken to, with more they are not.
+    their centre; flat and bull-nose mills with two or three flutes are taken to, with more they are not; nor are those
+    that cut threads. Such a tool is the cylinder within its teeth: what it leaves is a hole as wide as the thread's
+    core.
 
     Raises:
         ParameterError: the tool lacks what its shape needs, or its numbers make no shape.
     """
-    centre = not tool.kind.level or tool.flutes <= 3
+    centre = not tool.kind.threads and (not tool.kind.level or tool.flutes <= 3)
     shape = replace(tool.shape, half_angle=_half_angle(tool)) if tool.kind.conical else tool.shape
     profile = tool.kind.profile(shape)
-    return Cutter(tool.radius, profile.flat, profile.fillet, profile.cone or math.inf, centre)
+    return Cutter(
+        profile.flat if tool.kind.threads else tool.radius,
+        profile.flat,
+        profile.fillet,
+        profile.cone or math.inf,
+        centre,
+    )
 
 
 def _half_angle(tool: Tool) -> float:

@@ -1,4 +1,4 @@
-"""Which circles of a drawing a drill operation drills, and which it leaves out."""
+"""Which circles of a drawing an operation on holes works on, and which it leaves out."""
 
 from __future__ import annotations
 
@@ -13,15 +13,12 @@ from ..geometry.as_circle import as_circle
 from ..model.curves import Circle
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
-from ..model.operation import DrillOperation
+from ..model.operation import ALIKE, HoleOperation
 from ..model.part import Contour, Region
 from ..model.tool import Tool
 from .coverage.flat import region_shapes
 from .drawn_contours import DrawnContours
 from .selected import selected
-
-ALIKE = 0.1
-"""mm; circles whose diameter is this near to a drill's are its own."""
 
 _CHORD = 1e-3
 
@@ -42,12 +39,12 @@ class CircleHole:
 
 @dataclass(frozen=True)
 class DrillHoles:
-    """The circles of a drill operation.
+    """The circles of an operation on holes.
 
     Attributes:
-        drilled: one a place.
-        narrow: circles that were asked for and are narrower than the drill.
-        held: circles over which clamps lie, or so near to one that drill or holder would touch it.
+        drilled: what it works on, one a place.
+        narrow: circles that were asked for and that its tool does not fit.
+        held: circles over which clamps lie, or so near to one that tool or holder would touch it.
         others: circles of other diameters.
     """
 
@@ -63,26 +60,27 @@ def circle_of(contour: Contour) -> CircleHole | None:
     return None if circle is None else CircleHole(*circle.centre, 2 * circle.radius)
 
 
-def holes_of(job: Job, drawn: DrawnContours, operation: DrillOperation) -> DrillHoles:
-    """Return the circles of a drill operation, in the order of the drawing."""
+def holes_of(job: Job, drawn: DrawnContours, operation: HoleOperation) -> DrillHoles:
+    """Return the circles of an operation on holes, in the order of the drawing."""
     tool = job.tool(operation.cut.tool)
     circles = [
         hole for contour in selected(drawn, operation.cut.curves).closed if (hole := circle_of(contour)) is not None
     ]
-    least, most = _asked(operation, tool)
-    requested = [hole for hole in circles if least - 1e-6 <= hole.diameter <= most + 1e-6]
-    others = tuple(hole for hole in circles if not least - 1e-6 <= hole.diameter <= most + 1e-6)
-    fit = [hole for hole in requested if tool.diameter <= hole.diameter + ALIKE + 1e-6]
-    narrow = tuple(hole for hole in requested if tool.diameter > hole.diameter + ALIKE + 1e-6)
+    wanted = [_asked(operation, tool, hole.diameter) for hole in circles]
+    requested = [hole for hole, wants in zip(circles, wanted, strict=True) if wants]
+    others = tuple(hole for hole, wants in zip(circles, wanted, strict=True) if not wants)
+    fit = [hole for hole in requested if operation.takes(hole.diameter, tool)]
+    narrow = tuple(hole for hole in requested if not operation.takes(hole.diameter, tool))
     free, held = _free(_once_a_place(fit), job, drawn, operation)
     return DrillHoles(tuple(free), narrow, tuple(held), others)
 
 
-def _asked(operation: DrillOperation, tool: Tool) -> tuple[float, float]:
-    """Return the least and the largest diameter of an operation's circles, mm."""
+def _asked(operation: HoleOperation, tool: Tool, diameter: float) -> bool:
+    """Tell whether an operation is to work on circles of a diameter, mm."""
     if operation.least is None and operation.most is None:
-        return tool.diameter - ALIKE, tool.diameter + ALIKE
-    return operation.least or 0.0, math.inf if operation.most is None else operation.most
+        return operation.is_for(diameter, tool)
+    most = math.inf if operation.most is None else operation.most
+    return (operation.least or 0.0) - 1e-6 <= diameter <= most + 1e-6
 
 
 def _once_a_place(holes: Iterable[CircleHole]) -> list[CircleHole]:
@@ -99,33 +97,43 @@ def _once_a_place(holes: Iterable[CircleHole]) -> list[CircleHole]:
 
 
 def _free(
-    holes: list[CircleHole], job: Job, drawn: DrawnContours, operation: DrillOperation
+    holes: list[CircleHole], job: Job, drawn: DrawnContours, operation: HoleOperation
 ) -> tuple[list[CircleHole], list[CircleHole]]:
     """Return the holes that no clamp is in the way of, and the others."""
     if not drawn.clamps or not holes:
         return holes, []
     clamps = shapely.union_all(region_shapes(drawn.clamps, _CHORD))
-    far = shapely.distance(shapely.points([(hole.x, hole.y) for hole in holes]), clamps)
-    reach = _reach(job.tool(operation.cut.tool), tip_depth(job, operation), job.keep_out_height) + _CHORD
+    far = shapely.distance(shapely.points([(hole.x, hole.y) for hole in holes]), clamps).tolist()
+    tool, height = job.tool(operation.cut.tool), job.keep_out_height
+    free = [
+        room >= max(_reach(tool, tip_depth(job, operation), height), _half(operation, tool, hole)) + _CHORD
+        for hole, room in zip(holes, far, strict=True)
+    ]
     return (
-        [hole for hole, room in zip(holes, far.tolist(), strict=True) if room >= reach],
-        [hole for hole, room in zip(holes, far.tolist(), strict=True) if room < reach],
+        [hole for hole, stays in zip(holes, free, strict=True) if stays],
+        [hole for hole, stays in zip(holes, free, strict=True) if not stays],
     )
 
 
 def _reach(tool: Tool, depth: float, height: float) -> float:
-    """Return how far from the hole's centre there must be no clamp, mm: for the drill, and for a holder that comes as
+    """Return how far from the hole's centre there must be no clamp, mm: for the tool, and for a holder that comes as
     low as clamps.
     """
     low = tool.holder and tool.stick_out and tool.stick_out - depth < height
     return max([tool.radius, *(radius for _, radius in tool.holder)]) if low else tool.radius
 
 
-def tip_depth(job: Job, operation: DrillOperation) -> float:
-    """Return how deep the drill's tip goes, mm: its full width goes to the depth where its angle is known, else the tip
-    does.
+def _half(operation: HoleOperation, tool: Tool, hole: CircleHole) -> float:
+    """Return the radius of what an operation makes at a hole, mm, with all of a tool that goes round it."""
+    return operation.made(hole.diameter, tool) / 2 + operation.around(tool)
+
+
+def tip_depth(job: Job, operation: HoleOperation) -> float:
+    """Return how deep the tool's tip goes, mm: a drill's full width goes to the depth where its angle is known, else
+    the tip does.
     """
-    return operation.cut.floor + operation.through + tip_length(job.tool(operation.cut.tool))
+    length = tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0
+    return operation.cut.floor + operation.beyond + length
 
 
 def tip_length(tool: Tool) -> float:
@@ -133,27 +141,34 @@ def tip_length(tool: Tool) -> float:
     return tool.radius / math.tan(tool.tip_angle / 2) if tool.kind.drills and tool.tip_angle else 0.0
 
 
-def hole_regions(job: Job, drawn: DrawnContours, operation: DrillOperation) -> tuple[Region, ...]:
-    """Return the discs that a drill operation's cutter stays in: its circles, or its own width where it is wider by up
-    to `ALIKE`.
+def hole_regions(job: Job, drawn: DrawnContours, operation: HoleOperation) -> tuple[Region, ...]:
+    """Return the discs that the cutter of an operation on holes stays in: what it makes, or the circle where that is
+    wider by up to `ALIKE`.
     """
-    radius = job.tool(operation.cut.tool).radius
+    tool = job.tool(operation.cut.tool)
     return tuple(
-        Region(number, Contour((Circle((hole.x, hole.y), max(hole.diameter / 2, radius)),)))
+        Region(number, Contour((Circle((hole.x, hole.y), _room(operation, tool, hole)),)))
         for number, hole in enumerate(holes_of(job, drawn, operation).drilled, 1)
     )
 
 
+def _room(operation: HoleOperation, tool: Tool, hole: CircleHole) -> float:
+    """Return the radius that the cutter stays in at a hole, mm."""
+    half = _half(operation, tool, hole)
+    return max(half, hole.diameter / 2) if operation.DRILLS and not operation.CARVES else half
+
+
 def made_by_drills(job: Job, drawn: DrawnContours) -> frozenset[CircleHole]:
-    """Return the circles that drill operations make as wide as they are drawn: for mills these are no walls, and no
+    """Return the circles that operations on holes make as wide as they are drawn: for mills these are no walls, and no
     lines to follow.
     """
-    drills = [each for each in job.operations if isinstance(each, DrillOperation) and each.cut.enabled]
+    works = [each for each in job.operations if isinstance(each, HoleOperation) and each.cut.enabled]
     return frozenset(
         hole
-        for each in drills
+        for each in works
+        if not each.on_bosses
         for hole in holes_of(job, drawn, each).drilled
-        if hole.diameter <= job.tool(each.cut.tool).diameter + ALIKE + 1e-6
+        if hole.diameter <= each.made(hole.diameter, job.tool(each.cut.tool)) + ALIKE + 1e-6
     )
 
 

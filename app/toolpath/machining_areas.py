@@ -19,10 +19,11 @@ from ..geometry.primitives import Primitives, contour_rows, pack, points_at
 from ..geometry.region import nested, polygon_contour
 from ..model.curve_selectors import Selector
 from ..model.entry import Lead
+from ..model.face_operation import FaceOperation
 from ..model.finding import Finding
 from ..model.job import Job
 from ..model.moves import Area
-from ..model.operation import DrillOperation, Operation, Side
+from ..model.operation import HoleOperation, Operation, Side
 from ..model.part import Contour, Region
 from ..model.stock_box import extent
 from .drawn_contours import DrawnContours
@@ -112,8 +113,11 @@ class MachiningAreas:
         return tuple(self._area(operation) for operation in self.job.operations)
 
     def _area(self, operation: Operation) -> Area:
-        if isinstance(operation, DrillOperation):
-            return Area(hole_regions(self.job, self.drawn, operation)) if operation.cut.enabled else Area()
+        if isinstance(operation, FaceOperation):
+            return Area()  # all of the stock's top, whatever is drawn
+        if isinstance(operation, HoleOperation):
+            regions = hole_regions(self.job, self.drawn, operation) if operation.cut.enabled else ()
+            return Area(regions, whole=operation.CLEARS)
         area = self.of(operation) if operation.cut.enabled else None
         if area is None:
             return Area()
@@ -134,7 +138,7 @@ class MachiningAreas:
         outlines = tuple(c for region in self.drawn.clamps for c in region.contours) + (
             () if side is Side.INSIDE else (frame,)
         )
-        bare = _lies_on(primitives, outlines)
+        bare = lies_on(primitives, outlines)
         return MachiningArea(
             regions,
             primitives,
@@ -183,7 +187,7 @@ class MachiningAreas:
         return 2 * wall + lead_size(lead, tool) + _SPARE
 
 
-def _lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
+def lies_on(primitives: Primitives, contours: Sequence[Contour]) -> NDArray[np.bool_]:
     """Return (n,) which rows lie on some contours, by their ends and middles."""
     if not contours:
         return np.zeros(len(primitives.rows), np.bool_)

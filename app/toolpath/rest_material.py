@@ -71,8 +71,12 @@ class CutGround:
 
     def depth(self, points: Floats, limit: float) -> Floats:
         """Return how deep points (m, 2) lie in what is left, mm, at most `limit`; not above 0 where it is cut."""
-        out = np.empty(len(points))
-        rest_kernels.depths_left(*self.tree, np.ascontiguousarray(points), limit, out)
+        points, out = np.ascontiguousarray(points), np.empty(len(points))
+
+        def look(band: slice) -> None:
+            rest_kernels.depths_left(*self.tree, points[band], limit, out[band])
+
+        in_bands(look, len(points))
         return out
 
     def holds(self, points: Floats, around: float) -> NDArray[np.bool_]:

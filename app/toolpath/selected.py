@@ -76,7 +76,7 @@ def _usable(operation: Operation, found: SelectedCurves) -> bool:
     """Tell whether an operation can machine something of what was found."""
     if operation.wall_side is Side.ON:
         return bool(found.closed or found.open)
-    if operation.DRILLS:
+    if operation.HOLES:
         return any(as_circle(each) is not None for each in found.closed)
     return bool(found.closed)
 

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ..core.progress import Progress
-from ..geometry.primitives import pack
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.motion import MotionKind
 from ..model.moves import Program
+from ..verify.bounds import deepest, followed_walls
 from ..verify.carved_roof import ConePath, RoofProof, prove_roof, straightened
 from .written import WrittenMotions
 
@@ -94,9 +94,10 @@ def carving_proofs(program: Program, job: Job, motions: WrittenMotions, progress
         tool = job.tool(cut.tool)
         begins, ends = straightened(_rows(a, b, c, own.kind), np.stack([a[:, 2], b[:, 2]], 1), _CHORD)
         rate = math.tan(tool.tip_angle / 2)
-        path = ConePath(begins, ends, tool.tip_diameter / 2, rate, cut.depth)
+        tip = tool.tip_diameter / 2 - job.operations[index].over_edge
+        path = ConePath(begins, ends, tip, rate, deepest(job.operations[index], job))
         share = progress.part(n / len(carving), (n + 1) / len(carving))
-        proof = prove_roof(path, pack(regions), SIDEWAYS / rate, share)
+        proof = prove_roof(path, followed_walls(program.areas[index]), SIDEWAYS / rate, share)
         proofs[index] = CarvingProof(proof, rate, f"T{tool.number} {tool.label}")
     return proofs
 

@@ -9,7 +9,8 @@ from typing import Any
 from ..core.errors import ParameterError
 from ..model.fields import ParameterPlace, parameters_of, with_values
 from ..model.job import Copies, Job
-from ..model.operation import OPERATION_KINDS, CutParameters, DrillOperation, Operation, Order, parameters
+from ..model.operation import CutParameters, DrillOperation, Operation, Order
+from ..model.operation_kinds import OPERATION_KINDS, parameters
 from ..model.tool import Tool
 from ..model.tool_kind import ToolKind
 
@@ -133,9 +134,9 @@ def _concerned(operation: Operation, placed: ParameterPlace, kinds: tuple[type[O
 def _lacking(placed: ParameterPlace, kinds: tuple[type[Operation], ...]) -> str:
     """Return what a job lacks that a parameter has no effect on."""
     needs = placed.parameter.needs
-    mills = {kind for kind in OPERATION_KINDS.values() if not (kind.DRILLS or kind.CARVES)}
+    mills = {kind for kind in OPERATION_KINDS.values() if kind.LEVELS and not kind.HOLES}
     what = "operation that mills" if set(kinds) == mills else f"{' or '.join(kind.WORD for kind in kinds)} operation"
-    added = "; --drill D adds one" if all(kind.DRILLS for kind in kinds) else ""
+    added = "; --drill D adds one" if DrillOperation in kinds and all(kind.HOLES for kind in kinds) else ""
     with_ = f" with {needs.with_}{'; ' * bool(needs.option)}{needs.option}" if needs else ""
     return f"no {what}{with_}{added}"
 

@@ -41,6 +41,7 @@ from .carving_proofs import carving_proofs
 from .cut import CutProgram
 from .cut_job import MeasuredMoves, cut_job, news
 from .engagement_proofs import engagement_proofs
+from .face_proofs import face_proofs
 from .machining import check_order
 from .options import MakeOptions, job_with_options
 from .own_job import with_own_job
@@ -48,6 +49,7 @@ from .plausible import read_for
 from .proposal.propose import Proposal
 from .proposed_job import with_proposal
 from .report import MakeReport, ReportData, make_report, rings_in_words
+from .thread_proofs import thread_proofs
 from .written import WrittenMotions, write_and_check
 
 NO_TEXT = NcText("", np.zeros(0, np.int32))
@@ -271,19 +273,23 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     motions = WrittenMotions.of(written, program, job)
     proofs = engagement_proofs(job, motions, progress.part(0.2, 0.21))
     carvings = carving_proofs(program, job, motions, progress.part(0.21, 0.22))
+    threads = thread_proofs(program, job, motions)
+    faced = face_proofs(program, job, motions)
     depths = gouge_depths(program, job, progress=progress.part(0.22, 0.28))
     rapids = rapids_in_material(program, job, progress.part(0.28, 0.3))
     deepest = deepest_of(depths)
     coverage = measure_beside_clear(program, job, clear_moves(program.moves, depths, CHORD), progress.part(0.3, 0.7))
     clamped = deepest_of(clamps_met(program, job, depths))
     unsafe = (*_gouge_findings(deepest, program), *_clamp_findings(clamped, program), *_rapid_findings(rapids, program))
-    measured = MeasuredMoves(depths, coverage)
-    metal = cut_job(program, job, written, measured, progress.part(0.7, 0.98)) if written.files else None
+    moves = MeasuredMoves(depths, coverage)
+    metal = cut_job(program, job, written, moves, progress.part(0.7, 0.98)) if written.files else None
     own = (
         *unsafe,
         *(news(metal, unsafe) if metal is not None else ()),
         *(finding for proof in proofs.values() for finding in proof.findings()),
         *(finding for carving in carvings.values() for finding in carving.findings()),
+        *(finding for thread in threads.values() for finding in thread.findings()),
+        *(finding for each in faced.values() for finding in each.findings()),
         *_shape_findings(program, job),
         *written.coarseness(job.out_units),
         *(written.misfits() if context.machine else ()),
@@ -293,8 +299,10 @@ def _finished(program: Program, context: MakeContext, progress: Progress) -> Mak
     )
     findings = worst_first((*own, *program.findings, *context.drawing_findings))
     progress.step(1.0, "Done")
-    found = ReportData(program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings)
-    report = make_report(found)
+    measured = ReportData(
+        program, job, written, deepest, rapids, coverage, findings, metal, proofs, carvings, threads, faced
+    )
+    report = make_report(measured)
     return MakeResult(job, program, written.files, written.box(cuts=True), report, findings, coverage, metal)
 
 

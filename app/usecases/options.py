@@ -145,7 +145,7 @@ def layers_of_drawing(options: MakeOptions) -> tuple[str, ...]:
 
 def _check_effects(base: Job, options: MakeOptions) -> None:
     """Refuse options for operations that the job does not have."""
-    mills = [each for each in base.operations if each.cut.enabled and not each.DRILLS]
+    mills = [each for each in base.operations if each.cut.enabled and not each.HOLES]
     pocket = {"pocket_tool": options.pocket_diameter, "stepover": options.stepover, "overlap": options.overlap}
     one_tool = options.job is None and (options.pocket_diameter is None) != (options.contour_diameter is None)
     for name, value in pocket.items():
@@ -181,7 +181,7 @@ def _tools(base: Job, options: MakeOptions) -> tuple[dict[int, Tool], tuple[Oper
 
 def _diameter(operation: Operation, options: MakeOptions) -> float | None:
     """Return the diameter that was asked for of an operation's tool."""
-    return None if operation.DRILLS else options.pocket_diameter if operation.COARSE else options.contour_diameter
+    return None if operation.HOLES else options.pocket_diameter if operation.COARSE else options.contour_diameter
 
 
 def _operation(operation: Operation, tools: dict[int, Tool], options: MakeOptions) -> Operation:

@@ -7,7 +7,8 @@ from dataclasses import MISSING
 
 from ..core.toml_tables import Keyword
 from ..model.fields import ParameterPlace, Unit, declared_of
-from ..model.operation import Operation, parameters
+from ..model.operation import Operation
+from ..model.operation_kinds import parameters
 from ..model.tool import Tool
 
 HEAD = """# Parameters of operations

@@ -26,7 +26,9 @@ from ..verify.verdict import Gouge, RapidInMaterial
 from .carving_proofs import CarvingProof
 from .cut import CutProgram
 from .engagement_proofs import OperationProof
+from .face_proofs import FaceProof
 from .report_path import LENGTHS_METHOD, operation_values, path_lengths, retracts
+from .thread_proofs import ThreadProof
 from .written import WrittenProgram
 
 ENGINE = "exact lines and arcs; pocket rings are levels of one distance field"
@@ -62,7 +64,8 @@ class ReportData:
         written: the files, read back.
         findings: all of them: of the drawing, the path, the verdict, the floor.
         cut: the files, cut out of the stock; None without files.
-        proofs: of the engaged angle, by index of the operation. carvings: of what V cutters leave, alike.
+        proofs: of the engaged angle, by index of the operation. carvings: of what V cutters leave, alike. threads: of
+            threads, alike. faced: of the stock's top, alike.
     """
 
     program: Program
@@ -75,6 +78,8 @@ class ReportData:
     cut: CutProgram | None
     proofs: Mapping[int, OperationProof] = field(default_factory=dict)
     carvings: Mapping[int, CarvingProof] = field(default_factory=dict)
+    threads: Mapping[int, ThreadProof] = field(default_factory=dict)
+    faced: Mapping[int, FaceProof] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -183,7 +188,9 @@ def make_report(measured: ReportData) -> MakeReport:
 
 def _proven(measured: ReportData, index: int) -> Json:
     engaged = {"engaged": measured.proofs[index].values()} if index in measured.proofs else {}
-    return engaged | ({"carved": measured.carvings[index].values()} if index in measured.carvings else {})
+    carved = {"carved": measured.carvings[index].values()} if index in measured.carvings else {}
+    threaded = {"cut_thread": measured.threads[index].values()} if index in measured.threads else {}
+    return engaged | carved | threaded | ({"faced": measured.faced[index].values()} if index in measured.faced else {})
 
 
 def _of(measured: ReportData, *kinds: FindingKind) -> list[Finding]:
@@ -240,6 +247,11 @@ def _times(written: WrittenProgram) -> Json:
             "cut": sum(part["cut"] for part in parts),
             "rapid": sum(part["rapid"] for part in parts),
             "wait": waits,
+        },
+        "tool_changes": {
+            "count": sum(each.changes for each in written.durations)
+            + (len(written.files) if written.post.file_per_tool else 0),
+            "time_s": written.changes_s + sum(each.changing for each in written.durations),
         },
         "time_method": TIME_METHOD.format(written.machine.title),
     }

@@ -131,4 +131,4 @@ def _plain(placed: ParameterPlace, value: Any) -> Any:
     return placed.parameter.shown(value) if placed.parameter.unit is Unit.ANGLE and value is not None else value
 
 
-_SUFFIXES = {Unit.LENGTH: "_mm", Unit.ANGLE: "_deg"}
+_SUFFIXES = {Unit.LENGTH: "_mm", Unit.ANGLE: "_deg", Unit.TIME: "_s"}

@@ -409,14 +409,16 @@ def _job_stock(
 ) -> JobStock:
     """Return the stock's margin, and how thick it is: as given, told by a comment, or as the job has it."""
     note = next((each.program.stock for each in programs if each.program.stock is not None), None)
+    headers = [each.program.header for each in programs if each.program.header is not None]
+    above = max([base.stock.above, *(each.above for each in headers)])
     if isinstance(request.stock, BoxStock):
-        thickness = request.stock.solid.size[2]
-    elif note is not None and note.size[2] > 0:
-        thickness = note.size[2]
+        thickness = request.stock.solid.size[2] - above
+    elif note is not None and note.size[2] > above:
+        thickness = note.size[2] - above
     else:
         thickness = max([base.stock.thickness, *(each.cut.depth for each in operations)])
-    noted = (each.program.header.under for each in programs if each.program.header is not None)
-    return replace(base.stock, thickness=thickness, under=max([base.stock.under, *noted]))
+    under = max([base.stock.under, *(each.under for each in headers)])
+    return replace(base.stock, thickness=thickness, above=above, under=under)
 
 
 def _operations(

@@ -131,6 +131,7 @@ class OperationMotions:
     Attributes:
         start, end, centre: (n, 3) mm, program coordinates; centres of arcs.
         kind: (n,) MotionKind.
+        feed: (n,) mm/min.
         line: (n,) of the NC text of its file.
     """
 
@@ -138,6 +139,7 @@ class OperationMotions:
     end: Floats
     centre: Floats
     kind: NDArray[np.uint8]
+    feed: Floats
     line: NDArray[np.int32]
 
     def __len__(self) -> int:
@@ -179,6 +181,7 @@ class WrittenMotions:
             np.concatenate([np.zeros((0, 3)), *(each.end[row] for each, row in own)]),
             np.concatenate([np.zeros((0, 3)), *(each.centre[row] for each, row in own)]),
             _joined([each.kind[row] for each, row in own], np.uint8),
+            _joined([each.feed[row] for each, row in own], np.float64),
             _joined([each.line[row] for each, row in own], np.int32),
         )
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.distance import DistanceField
-from ..geometry.primitives import contour_rows, points_at, within_half_turn
+from ..geometry.primitives import Primitives, contour_rows, pack, points_at, within_half_turn
 from ..model.curves import Circle
 from ..model.job import Job
 from ..model.moves import Area, DogBone, Moves, Program
@@ -19,6 +19,7 @@ from ..model.part import Contour, Region
 from ..model.tool import Tool
 from ..simulation.cutter import cutter_of
 from ..toolpath.coverage.floor_target import areas_of_operations
+from ..toolpath.machining_areas import lies_on
 
 Floats = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ class OperationBound:
     Attributes:
         operations: their indices in the job. tools: T numbers.
         area: that their cutters stay in.
-        leave: stock to leave on its walls, mm.
+        leave: stock to leave on its walls, mm; < 0: so far the cutter may reach over their edges at the surface.
         floor: how deep they may go, mm.
         holes: True where the area is circles to drill, which may cross: a drill stays in one of them.
         carves: True where walls are slanted as the cutter is, and end at the area's outline.
@@ -56,7 +57,7 @@ def bounds_of(program: Program, job: Job) -> list[OperationBound]:
     areas = areas_of_operations(program, job)
     for k, operation in enumerate(job.operations):
         if operation.cut.enabled and areas[k].regions:
-            leave, floor = operation.cut.stock_to_leave, deepest(operation, job)
+            leave, floor = operation.cut.stock_to_leave - operation.over_edge, deepest(operation, job)
             key = id(areas[k].regions), id(areas[k].lines), leave, floor, operation.CARVES
             found.setdefault(key, []).append(k)
     busy = {operation.cut.tool for operation in job.operations if operation.cut.enabled}
@@ -68,7 +69,7 @@ def bounds_of(program: Program, job: Job) -> list[OperationBound]:
             areas[group[0]],
             leave,
             floor,
-            job.operations[group[0]].DRILLS,
+            job.operations[group[0]].HOLES,
             carves,
         )
         for (_, _, leave, floor, carves), group in found.items()
@@ -79,14 +80,14 @@ def deepest(operation: Operation, job: Job) -> float:
     """Return how deep an operation's tool may go, mm: a drill goes through by its tip's length and what is asked
     for.
     """
-    return (
-        operation.cut.floor + operation.beyond + (tip_length(job.tool(operation.cut.tool)) if operation.DRILLS else 0.0)
-    )
+    tool = job.tool(operation.cut.tool)
+    return operation.deepest(tool) + (tip_length(tool) if operation.DRILLS else 0.0)
 
 
 def tip_length(tool: Tool) -> float:
     """Return the length of a drill's tip, mm; 0 of other tools."""
-    return tool.radius / tan((tool.tip_angle or tool.kind.assumed_angle) / 2) if tool.kind.drills else 0.0
+    angle = (tool.tip_angle or tool.kind.assumed_angle) if tool.kind.drills else 0.0
+    return tool.radius / tan(angle / 2) if angle else 0.0
 
 
 def cutting_radius(moves: Moves, job: Job) -> Floats:
@@ -105,6 +106,17 @@ def cutting_radius(moves: Moves, job: Job) -> Floats:
             cutter = cutter_of(tool)
             wide[mine] = [cutter.radius_at(each) for each in height[mine].tolist()]
     return wide
+
+
+def followed_walls(area: Area) -> Primitives:
+    """Return the walls of an area that its cutter follows: not clamps, nor the frame round an area outside."""
+    walls = pack(area.regions)
+    if not area.bare:
+        return walls
+    kept = ~lies_on(walls, area.bare)
+    number = np.where(kept, np.cumsum(kept) - 1, -1)
+    before = number[walls.previous[kept]]
+    return Primitives(walls.rows[kept], np.where(before < 0, number[kept], before), walls.region[kept])
 
 
 def in_dog_bones(rows: Floats, dog_bones: Sequence[DogBone]) -> NDArray[np.bool_]:

@@ -19,7 +19,7 @@ from ..toolpath.build import MovesBuilder
 from ..toolpath.coverage.areas import united
 from ..toolpath.coverage.flat import grown, region_shapes
 from ..toolpath.coverage.floor_target import CHORD, dog_bone_shape
-from .bounds import OperationBound, bounds_of
+from .bounds import OperationBound, bounds_of, followed_walls
 from .parts import FlatPart
 
 Mask = NDArray[np.bool_]
@@ -83,12 +83,11 @@ def _carve(part: FlatPart, bound: OperationBound, target: FlatTarget) -> None:
     x = grid.x0 + (np.arange(grid.cols) + 0.5) * grid.pitch + part.origin[0]
     y = grid.y0 + (np.arange(grid.rows) + 0.5) * grid.pitch + part.origin[1]
     centres = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    field = DistanceField.of(pack(bound.area.regions).rows)
-    held = np.flatnonzero(field.inside(centres))
-    far = np.zeros(len(centres))
-    far[held] = field.nearest(centres[held])[0]
+    inner = DistanceField.of(pack(bound.area.regions).rows).inside(centres)
+    far = DistanceField.of(followed_walls(bound.area).rows).nearest(centres)[0]
+    far = np.where(inner, far, -far) - min(bound.leave, 0.0)  # from where the cone ends at the surface
     steepest = max(tool.profile.cone for tool in cones)
-    depth = np.minimum(far * steepest, bound.floor).reshape(grid.rows, grid.cols)
+    depth = np.clip(far * steepest, 0.0, bound.floor).reshape(grid.rows, grid.cols)
     surface = (top - depth).astype(np.float32)
     inside = (far > 0).reshape(depth.shape)
     slack = np.float32(CHORD * steepest)

@@ -71,7 +71,7 @@ def part_target(
         Cancelled: the job was asked to stop.
     """
     grid = cut.before.grid
-    solid = part if isinstance(part, SolidPart) and part.block is None and part.solid.shells == 1 else None
+    solid = part if isinstance(part, SolidPart) and part.block is None else None
     if isinstance(part, FlatPart):
         flat = flat_target(part, grid)
         target, reach = flat.target, flat.reach

@@ -160,9 +160,9 @@ def _slanted(bound: OperationBound, moves: Moves, job: Job) -> _SlantedReach:
     straight = np.isin(moves.tool, list(cones)) & (moves.kind <= MoveKind.LINE)
     mine = np.flatnonzero(straight & (start[:, 2] != end[:, 2]) & (start[:, :2] != end[:, :2]).any(axis=1))
     numbers = moves.tool[mine].tolist()
-    tip = np.array([cones[number].flat for number in numbers])
+    tip = np.array([cones[number].flat for number in numbers]) + bound.leave
     rate = np.array([1 / cones[number].cone for number in numbers])
-    widest = np.array([job.tool(number).radius for number in numbers])
+    widest = np.array([job.tool(number).radius for number in numbers]) + bound.leave
     slanted = SlantedMoves(start[mine], end[mine], tip, rate, widest)
     walls = np.concatenate([contour_rows(contour) for region in bound.area.regions for contour in region.contours])
     depth, places = reach_beyond(slanted, within_half_turn(walls))

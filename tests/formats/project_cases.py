@@ -164,7 +164,7 @@ def operations(draw: st.DrawFn) -> ContourOperation | PocketOperation | RestOper
         return RestOperation(cut, draw(maybe), draw(share))
     if kind == 2:
         least, most = (draw(st.one_of(st.none(), floats(low, low + 1))) for low in (0.1, 2))
-        return DrillOperation(cut, draw(maybe), least, most, draw(floats(0, 1000)))
+        return DrillOperation(cut, least, most, draw(maybe), through=draw(floats(0, 1000)))
     lead = Lead(draw(st.sampled_from(LeadKind)), draw(maybe), draw(floats(0, 50)))
     tabs = Tabs(
         draw(st.integers(0, 100)),

@@ -14,8 +14,11 @@ from hypothesis import strategies as st
 
 from app.core.errors import InputError
 from app.formats.job.toml import TOOL_KEYS, parse_origin, read_job
+from app.model.chamfer_operation import ChamferOperation
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber, OnLayer
 from app.model.entry import Entry, EntryKind, Lead, LeadKind, Tabs
+from app.model.face_operation import FaceOperation
+from app.model.hole_operations import BoreOperation, ThreadOperation
 from app.model.job import Copies, Job, OriginXY, OriginZ, Stock
 from app.model.operation import (
     AdaptiveOperation,
@@ -29,8 +32,8 @@ from app.model.operation import (
     RestOperation,
     Side,
     VcarveOperation,
-    declared,
 )
+from app.model.operation_kinds import declared
 from app.model.part import Part, Units
 from app.model.tool import Tool, ToolKind
 from tests.examples import examples
@@ -45,13 +48,20 @@ def test_the_sample_says_the_defaults(samples: Path) -> None:
 def test_the_sample_names_every_key_of_every_kind(samples: Path) -> None:
     """Those that have no value by default stand behind a # and are read when that is taken away."""
     text = re.sub(r"(?m)^# (\[\[operation|\[\[tool|\w+ = )", r"\1", (samples / "job.toml").read_text("utf-8"))
-    pocket, rest, contour, adaptive, carving, drill = read_job("job.toml", text.encode()).job.operations
+    pocket, rest, contour, adaptive, carving, drill, *more = read_job("job.toml", text.encode()).job.operations
     assert isinstance(pocket, PocketOperation) and pocket.stepover == 3.0
     assert isinstance(rest, RestOperation) and rest.stepover == 1.5
     assert isinstance(contour, ContourOperation) and contour.lead.radius == 1.5
     assert adaptive == AdaptiveOperation(CutParameters(1))
     assert carving == VcarveOperation(CutParameters(3))
-    assert drill == DrillOperation(CutParameters(1), 1.0, 5.9, 6.1, 0.0)
+    assert drill == DrillOperation(CutParameters(1), 5.9, 6.1, 1.0)
+    cut = CutParameters(1)
+    assert more == [
+        ThreadOperation(CutParameters(4)),
+        BoreOperation(cut, diameter=12.0),
+        ChamferOperation(CutParameters(3)),
+        FaceOperation(cut),
+    ]
     named = set(re.findall(r"(?m)^(\w+) = ", text))
     assert {"kind", *declared()} | set(TOOL_KEYS) - {"feeds"} <= named
 
@@ -175,12 +185,12 @@ CONTOUR = "[[operation]]\nkind = 'contour'\ntool = 1\n"
         ("[[operation]]\nkind = 'pocket'\ntool = 9", "j:1: The job has no tool T9"),
         (
             "[[operation]]\nkind = 'contour'\ntool = 1\nstepover = 2",
-            "j:4: stepover belongs to pocket and rest operations; remove it",
+            "j:4: stepover belongs to pocket, rest and face operations; remove it",
         ),
         ("[[operation]]\nkind = 'saw'\ntool = 1", "j:2: kind is 'saw'"),
         (
             "[[operation]]\nkind = 'drill'\nstepdown = 1\ntool = 1",
-            "j:3: stepdown belongs to pocket, adaptive, rest, contour and vcarve operations",
+            "j:3: stepdown belongs to pocket, adaptive, rest, contour, vcarve, bore and face operations",
         ),
         (
             "[[operation]]\nkind = 'pocket'\ntool = 1\npeck = 1",
@@ -295,7 +305,13 @@ OPERATIONS = st.one_of(
         SHARE,
     ),
     st.builds(
-        DrillOperation, HOLE_CUT, STEP, st.none() | st.floats(0.1, 3), st.none() | st.floats(3, 9), st.floats(0, 9)
+        DrillOperation,
+        HOLE_CUT,
+        st.none() | st.floats(0.1, 3),
+        st.none() | st.floats(3, 9),
+        STEP,
+        dwell=st.floats(0, 60),
+        through=st.floats(0, 9),
     ),
 )
 
@@ -350,7 +366,7 @@ def written(operation: Operation) -> str:
     else:
         keys |= {
             name: getattr(operation, name)
-            for name in ("stepover", "outside_in", "peck", "least", "most", "through")
+            for name in ("stepover", "outside_in", "peck", "least", "most", "through", "dwell")
             if hasattr(operation, name)
         }
     lines = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in keys.items() if value is not None]

@@ -25,10 +25,11 @@ from app.gcode.interpreter.reader import read_program
 from app.gcode.posts.posts import load_post
 from app.gcode.writer.header import operation_words
 from app.gcode.writer.write import write_files
-from app.model import operation as operations
+from app.model import operation_kinds as operations
 from app.model.fields import Unit, built, check_ranges, declared_of, parameter, parameters_of, with_values
 from app.model.job import Job
-from app.model.operation import ContourOperation, CutParameters, Operation, Side, register
+from app.model.operation import ContourOperation, CutParameters, DrillOperation, Operation, Side
+from app.model.operation_kinds import register
 from app.model.part import Part
 from app.model.tool import FeedRow, Tool, ToolKind
 from app.usecases.options import job_with_options
@@ -156,8 +157,8 @@ def test_every_parameter_has_one_meaning_in_all_kinds() -> None:
 
 
 def test_what_a_kind_leaves_unused_is_not_among_its_parameters() -> None:
-    assert "stepdown" in declared_of(operations.DrillOperation)
-    assert "stepdown" not in parameters_of(operations.DrillOperation)
+    assert "stepdown" in declared_of(DrillOperation)
+    assert "stepdown" not in parameters_of(DrillOperation)
     for kind in operations.OPERATION_KINDS.values():
         assert declared_of(kind).keys() >= kind.UNUSED
 

@@ -54,7 +54,8 @@ def registered() -> Iterator[None]:
 def test_an_option_tells_it() -> None:
     assert tool_given("1=drum:4:10") == (1, MILL)
     with pytest.raises(
-        InputError, match=r"1=drum:4' has 1 number behind drum; write one of .*taper:TIP:ANGLE:D, drum:TIP"
+        InputError,
+        match=r"1=drum:4' has 1 number behind drum; write one of .*taper:TIP:ANGLE:D, .*thread-mill:D:TIP, drum:TIP",
     ):
         tool_given("1=drum:4")
 
@@ -65,7 +66,9 @@ def test_files_keep_it() -> None:
         assert read.tools[0].kind is DRUM and read.tools[0].tip_diameter == 4.0
     assert read_job("j", "\n".join(tool_lines(MILL)).encode()).job.tools == (MILL,)
     assert read_tools("a.csv", b"number,diameter_mm,kind\n3,10,barrel mill\n")[0].tools[0].kind is DRUM
-    with pytest.raises(InputError, match=r"no kind of tool; use flat, ball, bull, v, drill, taper, drum"):
+    with pytest.raises(
+        InputError, match=r"no kind of tool; use flat, ball, bull, v, drill, taper, reamer, tap, thread-mill, drum"
+    ):
         read_tools("a.csv", b"number,diameter_mm,kind\n3,10,square\n")
     with pytest.raises(ParameterError, match="a tool of kind drum has no tip angle"):
         Tool(1, 10.0, DRUM, tip_angle=1.0)

@@ -113,7 +113,7 @@ def test_which_depth_counts_is_said(tool: Tool, depth: float, words: str) -> Non
     ],
 )
 def test_diameters(least: float | None, most: float | None, drilled: int) -> None:
-    operation = DrillOperation(CutParameters(1), None, least, most)
+    operation = DrillOperation(CutParameters(1), least, most)
     job = job_of(operation)
     assert len(holes_of(job, drawn_contours(job), operation).drilled) == drilled
     assert bool(texts(compute(job))) == (drilled == 0)

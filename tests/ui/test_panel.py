@@ -13,7 +13,6 @@ from app.gcode.posts.posts import post_titles
 from app.model.entry import Lead, LeadKind, Tabs
 from app.model.job import Job, OriginXY
 from app.model.operation import (
-    OPERATION_KINDS,
     ContourOperation,
     CutParameters,
     DrillOperation,
@@ -21,6 +20,7 @@ from app.model.operation import (
     PocketOperation,
     Side,
 )
+from app.model.operation_kinds import OPERATION_KINDS
 from app.model.part import Part
 from app.model.tool import Tool
 from app.ui.framework import style
@@ -284,7 +284,7 @@ def test_nothing_is_wider_than_the_panel_when_all_is_set_and_unfolded(qtbot, sty
         CutParameters(2, finish_depth=0.2, floor_to_leave=0.1), Side.OUTSIDE, lead, tabs, 2, True, 0.2
     )
     document.change_job(
-        "All", replace(document.job, operations=(contour, DrillOperation(CutParameters(1), 1.0, 2.0, 3.0, 1.0)))
+        "All", replace(document.job, operations=(contour, DrillOperation(CutParameters(1), 2.0, 3.0, 1.0, through=1.0)))
     )
     for index in (0, 1):
         panel.choose(Subject(SubjectKind.OPERATION, index))

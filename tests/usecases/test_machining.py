@@ -24,8 +24,8 @@ from app.model.operation import (
     PocketOperation,
     RestOperation,
     Side,
-    parameters,
 )
+from app.model.operation_kinds import parameters
 from app.model.part import Layer, Part
 from app.model.tool import Tool, ToolKind
 from app.usecases.machining import MachiningOptions, check_order
@@ -103,8 +103,8 @@ def test_drills_come_first_with_tools_of_their_own() -> None:
     job = made(options=MakeOptions(feed=99.0), depth=7.0, stock_to_leave=0.5, drills=(5.0, 3.3), peck=1.5, through=0.5)
     first, second = job.operations[:2]
     assert (first, second) == (
-        DrillOperation(CutParameters(3, 7.0), 1.5, through=0.5),
-        DrillOperation(CutParameters(4, 7.0), 1.5, through=0.5),
+        DrillOperation(CutParameters(3, 7.0), peck=1.5, through=0.5),
+        DrillOperation(CutParameters(4, 7.0), peck=1.5, through=0.5),
     )
     drills = job.tools[2:]
     assert [(tool.number, tool.diameter, tool.kind, tool.feed_rate) for tool in drills] == [
@@ -140,7 +140,7 @@ def test_layers_that_are_read_are_all_that_the_job_needs() -> None:
 @pytest.mark.parametrize(
     ("asked", "job", "words"),
     [
-        ({"side": Side.INSIDE}, HOLES, "--side has no effect: the job has no contour operation"),
+        ({"side": Side.INSIDE}, HOLES, "--side has no effect: the job has no contour or chamfer operation"),
         ({"dog_bones": True}, HOLES, "--dog-bones has no effect"),
         ({"outside_in": True}, HOLES, "--outside-in has no effect: the job has no pocket operation"),
         ({"entry": EntryKind.RAMP}, HOLES, "--entry has no effect: the job has no operation that mills"),

@@ -9,7 +9,8 @@ import pytest
 
 from app.core.errors import ParameterError
 from app.model.job import Job, Stock
-from app.model.operation import ContourOperation, CutParameters, Direction, PocketOperation, parameters
+from app.model.operation import ContourOperation, CutParameters, Direction, PocketOperation
+from app.model.operation_kinds import parameters
 from app.model.part import Part
 from app.model.tool import Tool
 from app.usecases.machining import MachiningOptions

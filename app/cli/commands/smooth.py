@@ -7,7 +7,9 @@ import math
 from pathlib import Path
 
 from ...core.atomic import write_together
+from ...core.errors import InputError, ParameterError
 from ...fitting.line_arcs.arc_fit import BEND
+from ...fitting.point_curves.region_profile import RegionProfile, profile_of_formula, profile_of_table
 from ...gcode.interpreter.dialect import DIALECT_RULES, Dialect
 from ...gcode.posts.post import Post
 from ...gcode.posts.posts import load_post
@@ -19,6 +21,9 @@ from ..files import check_outputs, read_input, shown_progress
 from ..output import REMARKS, finding_lines, tell
 from ..signals import StopFlag, undisturbed
 from ..values import number, typed
+
+_PROFILES = {"f": profile_of_formula, "table": profile_of_table}
+"""Readers of a region's outline, by the word before the colon."""
 
 EPILOG = """\
 What is written is read back and proven: nowhere are curve and moves farther apart than T, both ways and in order.
@@ -51,7 +56,6 @@ def _add_options(parser: OptionParser) -> None:
         "--tolerance",
         metavar="T",
         type=number("tolerance"),
-        default=0.01,
         help="how far curve and moves may be apart, both ways (default 0.01 mm)",
     )
     parser.add_argument(
@@ -59,14 +63,22 @@ def _add_options(parser: OptionParser) -> None:
         dest="form",
         choices=[form.value for form in OutputForm],
         default=OutputForm.ARCS.value,
-        help="what is written (default arcs)",
+        help="what is written (default arcs); nurbs: splines where they take fewer blocks, arcs elsewhere",
+    )
+    parser.add_argument(
+        "--insist",
+        action="store_true",
+        help="with --as nurbs: splines all along, however many blocks they take, continuous in curvature between "
+        "corners",
     )
     parser.add_argument(
         "--region",
-        metavar="cylinder|barrel:MID",
+        metavar="cylinder|barrel:MID|f:F(z)|table:Z=R,...",
         type=_region,
         default=None,
-        help="the tube's shape: T wide all along, or MID wide half way between two points (default cylinder)",
+        help="the tube's shape: T wide all along (default cylinder); MID wide half way between two points; or of any "
+        "outline r = f(z), mm, z = 0 at one point and 1 at the next, by a formula (f:0.01+0.02*sin(pi*z)) or by places "
+        "(table:0=0.01,0.5=0.03,1=0.01), which then tells the tolerance",
     )
     parser.add_argument(
         "--degree",
@@ -106,15 +118,21 @@ def _add_options(parser: OptionParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
-def _region(text: str) -> float | None:
+def _region(text: str) -> float | RegionProfile | None:
     if text == "cylinder":
         return None
-    kind, _, middle = text.partition(":")
-    if kind != "barrel" or not middle:
+    kind, _, told = text.partition(":")
+    if kind not in ("barrel", *_PROFILES) or not told:
         raise argparse.ArgumentTypeError(
-            f"is wrong: '{text}' is no region; write cylinder, or barrel:0.05 with the radius in the middle"
+            f"is wrong: '{text}' is no region; write cylinder, barrel:0.05 with the radius in the middle, "
+            "f:0.01+0.02*sin(pi*z), or table:0=0.01,0.5=0.03,1=0.01"
         )
-    return number("radius in the middle")(middle)
+    if kind == "barrel":
+        return number("radius in the middle")(told)
+    try:
+        return _PROFILES[kind](told)
+    except ParameterError as error:
+        raise argparse.ArgumentTypeError(f"is wrong: {error}") from error
 
 
 def _angle(text: str) -> float:
@@ -128,17 +146,33 @@ def _options(arguments: argparse.Namespace) -> SmoothOptions:
     post: Post | None = arguments.post
     dialect = Dialect(arguments.dialect) if arguments.dialect else None
     effective = effective_method(arguments)
+    region = arguments.region
+    profile = region if isinstance(region, RegionProfile) else None
+    if profile is not None and arguments.tolerance is not None:
+        raise InputError("--tolerance is told by the region's outline, its radius at the points; leave it out")
+    if arguments.insist and arguments.form != OutputForm.NURBS.value:
+        raise InputError(
+            f"--insist belongs to --as nurbs, not to --as {arguments.form}; give that too, or leave it out"
+        )
     return SmoothOptions(
-        arguments.tolerance,
+        _tolerance(arguments.tolerance, profile),
         OutputForm(arguments.form),
-        arguments.region,
+        region if profile is None else None,
         arguments.degree,
         arguments.corner,
         post,
         dialect,
         effective,
         arguments.bend,
+        arguments.insist,
+        profile,
     )
+
+
+def _tolerance(given: float | None, profile: RegionProfile | None) -> float:
+    if profile is not None:
+        return profile.radius
+    return SmoothOptions.tolerance if given is None else given
 
 
 def _lines(done: SmoothedProgram) -> list[str]:

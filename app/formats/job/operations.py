@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ...model.curve_selectors import on_layers
 from ...model.fields import built, declared_of, parameters_of
-from ...model.operation import OPERATION_KINDS, Operation, declared, parameters
+from ...model.operation import Operation
+from ...model.operation_kinds import OPERATION_KINDS, declared, parameters
 from .tables import JobTable, read_texts, reader_of, word
 
 

@@ -109,7 +109,7 @@ def one_of(text: str, choices: Mapping[str, Value], what: str) -> Value:
         InputError: the word is none of the choices; it names them.
     """
     try:
-        return choices[text.strip().lower()]
+        return {word.lower(): value for word, value in choices.items()}[text.strip().lower()]
     except KeyError as error:
         raise InputError(f"'{brief(text, QUOTED)}' is no {what}; use {' or '.join(choices)}") from error
 
@@ -268,6 +268,7 @@ _READERS: dict[Unit, Callable[[Any], Any]] = {
     Unit.POINTS: read_points,
     Unit.SPEED: read_number,
     Unit.RATE: read_number,
+    Unit.TIME: read_number,
     Unit.TEXT: read_text,
     Unit.OUTLINE: read_holder,
     Unit.FEEDS: read_feeds,

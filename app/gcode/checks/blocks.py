@@ -88,14 +88,58 @@ def _next(tools: tuple[int, ...], k: int) -> int:
     return next((tool for tool in tools[k:] if tool != tools[k]), tools[0])
 
 
-def block_problems(text: str, post: Post, blocks: list[ExpectedBlock]) -> Iterator[ProgramProblem]:
+@dataclass(frozen=True)
+class HoleBlocks:
+    """Blocks that may stand among the moves of holes.
+
+    Attributes:
+        waits: that let the tool wait; the events tell where.
+        starts: that stand before tapping cycles, each right before one. tap: number of its G word; "" = there is none.
+    """
+
+    waits: frozenset[str] = frozenset()
+    starts: frozenset[str] = frozenset()
+    tap: str = ""
+
+    @staticmethod
+    def of(post: Post, job: Job) -> HoleBlocks:
+        """Return those that the operations of a job may have."""
+        drilling, waits, starts = post.drilling, set(), set()
+        for each in job.operations:
+            if each.dwell_s:
+                waits.add(drilling.wait.format(dwell_s=f"{each.dwell_s:g}", dwell_ms=round(1000 * each.dwell_s)))
+            if each.TAPS:
+                tool = job.tool(each.cut.tool)
+                starts.add(drilling.tap_start.format(tool=tool.number, speed=round(tool.spindle_speed)))
+        return HoleBlocks(
+            frozenset(_code(text, post) for text in waits),
+            frozenset(_code(text, post) for text in starts if text),
+            drilling.tap.lower(),
+        )
+
+    def may_stand(self, code: str, following: str) -> bool:
+        """Tell whether a block may stand where it does.
+
+        Args:
+            code, following: what the control obeys of it, and of the line behind it.
+        """
+        return code in self.waits or (code in self.starts and self.taps(following))
+
+    def taps(self, code: str) -> bool:
+        """Tell whether a block begins a tapping cycle."""
+        return bool(self.tap) and re.search(rf"{self.tap}(?![\d.])", code) is not None
+
+
+def block_problems(text: str, post: Post, blocks: list[ExpectedBlock], holes: HoleBlocks) -> Iterator[ProgramProblem]:
     """Yield the first block that is not the post's, and what the post's own blocks should not do.
 
     Args:
         text: of the whole file.
         post: it was written by.
         blocks: what it should have beside its moves.
+        holes: what may stand among them.
     """
+    yield from _started_taps(text, post, holes)
     plain, machine, i = _moves_alone(post), _Machine(), 0
     alike = [plain.fullmatch(block.code) is not None for block in blocks]
     lines, more, number = text.split("\n"), _lines_with_more(text, post), 0
@@ -116,6 +160,8 @@ def block_problems(text: str, post: Post, blocks: list[ExpectedBlock]) -> Iterat
                 ProgramProblem(number, 0, line.strip(), fault) for fault in (*_unfit(code), *machine.obey(code))
             )
             i += 1
+        elif holes.may_stand(code, _code(lines[number], post) if number < len(lines) else ""):
+            continue
         elif code and not moves:
             there = f"the post writes {blocks[i].text}" if i < len(blocks) else "the post writes no more blocks"
             slash = ", and a block with a slash is done or left out as a switch stands" if code.startswith("/") else ""
@@ -125,6 +171,19 @@ def block_problems(text: str, post: Post, blocks: list[ExpectedBlock]) -> Iterat
             return
     if i < len(blocks):
         yield ProgramProblem(text.count("\n"), 0, "", f"the block {blocks[i].text} of the post is missing.")
+
+
+def _started_taps(text: str, post: Post, holes: HoleBlocks) -> Iterator[ProgramProblem]:
+    """Yield the first tapping cycle without the block that should stand before it."""
+    lines = text.split("\n") if holes.starts else []
+    for number, line in enumerate(lines, 1):
+        if (
+            post.drilling.tap in line
+            and holes.taps(_code(line, post))
+            and _code(lines[number - 2], post) not in holes.starts
+        ):
+            yield ProgramProblem(number, 0, "", "the block of the post that stands before tapping is missing.")
+            return
 
 
 def approach_problems(text: str, first: list[int]) -> Iterator[ProgramProblem]:
@@ -156,6 +215,9 @@ def _moving_codes(post: Post) -> list[str]:
             drilling.drill,
             drilling.peck,
             drilling.chip_break,
+            drilling.dwell,
+            drilling.feed_out,
+            drilling.tap,
             drilling.to_initial,
             drilling.to_r,
             drilling.cancel,
@@ -179,7 +241,12 @@ def _lines_with_more(text: str, post: Post) -> NDArray[np.int64]:
 def _moves_alone(post: Post) -> re.Pattern[str]:
     """Return what a line looks like that only moves, in the post's words of motion and of drilling."""
     codes = "|".join(re.escape(code) for code in _moving_codes(post))
-    return re.compile(rf"\s*(?:(?:[NXYZIJFRQ][-+]?(?:\d+\.?\d*|\.\d+)|G0*(?:{codes})(?![\d.]))\s*)*", re.IGNORECASE)
+    number, code = r"[-+]?(?:\d+\.?\d*|\.\d+)", rf"G0*(?:{codes})(?![\d.])"
+    plain = rf"\s*(?:(?:[NXYZIJFRQ]{number}|{code})\s*)*"
+    if not post.drilling.dwell:
+        return re.compile(plain, re.IGNORECASE)
+    waiting = rf"(?=.*{post.drilling.dwell}(?![\d.]))\s*(?:(?:[NXYZIJFRQP]{number}|{code})\s*)*"  # P is the wait's
+    return re.compile(f"{plain}|{waiting}", re.IGNORECASE)
 
 
 def _code(line: str, post: Post) -> str:

@@ -20,13 +20,14 @@ from ...model.motion import Floats, MotionKind, Plane
 from ...model.moves import MoveKind, Moves, Program
 from ...model.stock_box import stock_box, work_origin
 from ..interpreter.options import ReadOptions, ToolOffset
-from ..interpreter.program import EventKind, NcProgram, ProgramProblem
+from ..interpreter.program import Event, EventKind, NcProgram, ProgramProblem
 from ..interpreter.reader import read_program
 from ..interpreter.text import ProgramBuffer
 from ..posts.post import Post
 from ..posts.posts import comes_with_program
 from ..writer.write import NcFile, writing_tolerance
-from .blocks import approach_problems, block_problems, blocks_of
+from .blocks import HoleBlocks, approach_problems, block_problems, blocks_of
+from .hole_pauses import HolePauses
 from .lines import MotionOwners, ReferencePath, Rows, motion_owners
 from .path import distances
 from .start_states import FRESH, StartState, foreign_start, read_from_start
@@ -169,7 +170,8 @@ def _text_problems(compared: _FileCheck, text: ProgramBuffer, post: Post) -> Ite
     """Yield what is wrong with the text beside its motions."""
     code = text.data.decode(text.encoding)
     tools = tuple(compared.moves.tool[compared.begins].tolist())
-    yield from block_problems(code, post, blocks_of(post, compared.expected.job, tools))
+    job = compared.expected.job
+    yield from block_problems(code, post, blocks_of(post, job, tools), HoleBlocks.of(post, job))
     if text.line_count >= compared.file.nc.lines[-1]:
         yield from approach_problems(code, compared.file.nc.lines[compared.begins].tolist())
 
@@ -311,7 +313,7 @@ def _section_problems(compared: _FileCheck, mine: MotionOwners) -> Iterator[Prog
             lines[0], "", "the first tool does not go to clearance along Z alone, and then to a place in X and Y."
         )
     sections = _Sections(compared, first, last)
-    yield from sections.problems()
+    yield from sections.problems(HolePauses(compared.moves, compared.expected.job, mine))
 
 
 @dataclass(frozen=True, eq=False)
@@ -326,8 +328,8 @@ class _Sections:
     first: Rows
     last: Rows
 
-    def problems(self) -> Iterator[ProgramProblem]:
-        """Yield what is wrong."""
+    def problems(self, pauses: HolePauses) -> Iterator[ProgramProblem]:
+        """Yield what is wrong; `pauses` are those that are meant."""
         expected, numbers = self.compared.expected, self.compared.moves.tool[self.compared.begins].tolist()
         changes: list[list[int]] = [[] for _ in numbers]
         dwell = [0.0] * len(numbers)
@@ -340,8 +342,9 @@ class _Sections:
                 changes[section].append(event.before)
             elif event.kind is EventKind.DWELL and between:
                 dwell[section] += event.value
-            elif not (event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) and expected.stops):
+            elif not (self._may_stop(event) or pauses.takes(event)):
                 yield _problem(event.line, "", f"there is a {event.kind.value} here that was not meant.")
+        yield from pauses.missing(self.compared.file.nc.lines)
         for section, tool in enumerate(numbers):
             line = int(self.compared.file.nc.lines[self.compared.begins[section]])
             if expected.changes and len(changes[section]) != 1:
@@ -356,6 +359,10 @@ class _Sections:
                 yield _problem(line, "", f"T{tool} does not go to clearance height before it moves in X or Y.")
             if section and changes[section] and not self._left(section, min(changes[section])):
                 yield _problem(line, "", f"the tool before T{tool} is not lifted to clearance before it is changed.")
+
+    def _may_stop(self, event: Event) -> bool:
+        """Tell whether an event is a stop, and the post's own blocks may stop."""
+        return event.kind in (EventKind.STOP, EventKind.OPTIONAL_STOP) and self.compared.expected.stops
 
     def _clear(self, section: int, changed: int) -> bool:
         """Tell whether a tool goes to clearance by Z alone between its change and its first motion level."""

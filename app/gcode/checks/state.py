@@ -14,6 +14,7 @@ from ...model.moves import MoveKind, Moves
 from ..interpreter.program import FeedMode, ModalState, NcProgram, ProgramProblem
 from ..posts.post import Coolant, Post
 from ..writer.write import blend_mm
+from .hole_pauses import backing_out
 from .lines import MotionOwners
 
 WORK_OFFSET = re.compile(r"G54\.1 P\d+|G5[4-9](?:\.\d)?")
@@ -92,18 +93,19 @@ def wrong_states(
     """
     line, state = read.motions.line[owned.rows], read.motions.state[owned.rows]
     tool = moves.tool[owned.move]
-    pairs, first = np.unique(np.column_stack([state, tool]), axis=0, return_index=True)
+    back = backing_out(moves, expected.job)[owned.move]
+    pairs, first = np.unique(np.column_stack([state, tool, back]), axis=0, return_index=True)
     reported: set[str] = set()
     for k in np.argsort(first):
-        for text in _state_faults(read.states[pairs[k, 0]], int(pairs[k, 1]), expected):
+        for text in _state_faults(read.states[pairs[k, 0]], int(pairs[k, 1]), expected, bool(pairs[k, 2])):
             if text not in reported:
                 reported.add(text)
                 yield ProgramProblem(int(line[first[k]]), 0, "", text)
     yield from _feed_faults(read, moves, owned, expected)
 
 
-def _state_faults(state: ModalState, number: int, expected: ExpectedState) -> Iterator[str]:
-    """Yield what is wrong while a tool does its moves."""
+def _state_faults(state: ModalState, number: int, expected: ExpectedState, back: bool) -> Iterator[str]:
+    """Yield what is wrong while a tool does its moves; `back`: while a tap comes out of its hole."""
     tool = expected.job.tool(number)
     if expected.changes and state.tool != number:
         yield f"T{state.tool} is in the spindle where T{number} was meant."
@@ -111,8 +113,9 @@ def _state_faults(state: ModalState, number: int, expected: ExpectedState) -> It
         yield f"the tool length is H{state.length_offset} where H{number} was meant."
     if not expected.lengths and state.length_offset:
         yield f"the tool length H{state.length_offset} of an earlier program is in force; G49 ends it."
-    if state.spindle != 1 or state.constant_surface:
-        yield "the spindle does not turn clockwise (M3)."
+    if state.spindle != (-1 if back else 1) or state.constant_surface:
+        way = "counter-clockwise, so that the tap comes out" if back else "clockwise (M3)"
+        yield f"the spindle does not turn {way}."
     if state.speed != round(tool.spindle_speed):
         yield f"the spindle speed is S{state.speed:g} where S{tool.spindle_speed:.0f} was meant."
     if (state.flood, state.mist) != (expected.flood, expected.mist):

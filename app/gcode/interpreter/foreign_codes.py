@@ -19,6 +19,9 @@ _MODES = {"G5", "G5.1"}
 """High-speed machining (G5 P10000, G5.1 Q1): how exactly the control follows the path, not which."""
 
 _PASSED = {"G8": "look-ahead", "G103": "look-ahead", "G107": "a cylinder", "G108": "look-ahead"}
+_RIGID = "M29"
+"""The spindle of the next tapping cycle follows the axis: how it turns, not where the tool goes."""
+
 _CYCLES = {
     "G12": "a circular pocket",
     "G13": "a circular pocket",
@@ -87,6 +90,8 @@ def adapt(control: Control, block: Block) -> None:
             block.unknown.remove(code)
             block.codes[ModalGroup.OFFSET] = "G54.1"
             block.values.setdefault("p", float(code[1:]) - 109)
+        elif code == _RIGID:
+            block.unknown.remove(code)
         elif code in _PASSED:
             block.unknown.remove(code)
             _drop(block, "pq")

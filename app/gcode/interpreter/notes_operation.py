@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.operation import OPERATION_KINDS
+from ...model.operation_kinds import OPERATION_KINDS
 from .program import EventKind, NcProgram
 from .text import ProgramBuffer
 

@@ -14,7 +14,8 @@ from ...model.entry import LONGEST_LEAD
 from ...model.fields import parameters_of
 from ...model.job import Copies
 from ...model.moves import DogBone, Tab
-from ...model.operation import OPERATION_KINDS, Operation, Side
+from ...model.operation import Operation, Side
+from ...model.operation_kinds import OPERATION_KINDS
 from ...model.part import Units
 from ...model.read_options import LEAST_PER_INCH, MOST_PER_INCH, DrawingOptions
 from .. import operation_notes
@@ -87,6 +88,7 @@ def own_notes(comments: Comments) -> ProgramNotes:
             if len(numbers := _floats(values)) == 2
         ),
         max(_first(noted.get("under_mm", [])) or 0.0, 0.0),
+        max(_first(noted.get("above_mm", [])) or 0.0, 0.0),
     )
     return ProgramNotes(
         tuple(_tools(noted.get("tool", []))), _stock(noted.get("stock_mm", []), origin or (0.0, 0.0, 0.0)), header

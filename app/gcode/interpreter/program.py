@@ -217,7 +217,8 @@ class HeaderNote:
         keep_out: where clamps are.
         tabs, dog_bones: where metal was left standing, and where walls were cut into, part coordinates.
         plunge_rates: how fast tools may be fed straight down.
-        under: thickness of the waste below the stock that may be cut into, mm.
+        under: thickness of the waste below the stock that may be cut into, mm. above: what of the stock stands above Z
+            0 of the drawing, mm.
     """
 
     origin: tuple[float, float, float] | None = None
@@ -234,6 +235,7 @@ class HeaderNote:
     reading: DrawingOptions = AS_DRAWN
     plunge_rates: tuple[PlungeRateNote, ...] = ()
     under: float = 0.0
+    above: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

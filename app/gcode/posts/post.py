@@ -207,6 +207,13 @@ class DrillingWords:
         peck: the same in steps of Q, each followed by a rapid up to R and down again to `peck_gap_mm` above the last
             one.
         chip_break: the same in steps of Q, each followed by a rapid up by `chip_gap_mm`.
+        dwell: as drill, with a wait at the bottom, whose P is that of `wait`. wait: template of a wait, fields
+            {dwell_s}, {dwell_ms}.
+        feed_out: down at feed, up to R at feed.
+        tap: down at feed, up at the same feed with the spindle turning back; "" = the control cannot.
+        tap_start: template of the block before it, fields {tool}, {speed}; "" = none.
+        tap_to_initial: it taps out to R and goes up from there at rapid rate, if it is to; else it taps all the way
+        out.
         to_initial, to_r: whether holes end at the height where the first one began, or at R.
         cancel: ends the cycle.
         peck_gap_mm, chip_gap_mm: what the control's own settings are.
@@ -215,6 +222,12 @@ class DrillingWords:
     drill: str
     peck: str
     chip_break: str
+    dwell: str
+    wait: str
+    feed_out: str
+    tap: str
+    tap_start: str
+    tap_to_initial: bool
     to_initial: str
     to_r: str
     cancel: str

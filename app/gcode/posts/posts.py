@@ -184,6 +184,8 @@ def _check_nurbs(post: Post, file: str) -> None:
 def _check_templates(post: Post, file: str) -> None:
     """Check that templates name only fields that there are."""
     _check_template(post.blending.blend, frozenset({"blend"}), f"{file}: blending.blend")
+    _check_template(post.drilling.wait, frozenset({"dwell_s", "dwell_ms"}), f"{file}: drilling.wait")
+    _check_template(post.drilling.tap_start, frozenset({"tool", "speed"}), f"{file}: drilling.tap_start")
     for field in fields(ProgramLines):
         if field.name != "number":
             for template in getattr(post.program, field.name):

@@ -144,13 +144,15 @@ class Blocks:
             hole: its words.
             steps: the moves that the control makes of it.
         """
-        words = []
-        if hole.cycle != self._cycle:
+        words, begins = [], hole.cycle != self._cycle
+        if begins:
             self._end_cycle()
+            self.block(hole.start)
             words.append(hole.cycle)
         words += [f"X{self.number(hole.x, self._digits.X)}", f"Y{self.number(hole.y, self._digits.Y)}"]
         heights = {"Z": hole.z, "R": hole.r} | ({"Q": hole.peck} if hole.peck else {})
         words += [letter + self.number(count, self._digits.Z) for letter, count in heights.items()]
+        words += [hole.dwell] * (begins and bool(hole.dwell))
         if hole.feed != self._state[_FEED]:
             words.append(f"F{self._rate(hole.feed)}")
         self.lines.append(self._numbered(" ".join(words)))

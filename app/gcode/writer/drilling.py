@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
@@ -11,9 +11,6 @@ import numpy as np
 from ...model.moves import MoveKind, Purpose
 from ..posts.post import DrillingWords
 from .work_moves import MoveLists, WorkMoves
-
-NEAR = 1
-"""Counts of the last decimal by which a rounded height between two pecks may be off."""
 
 Step = tuple[MoveKind, int]
 """A move along Z and where it ends, counts of the last decimal."""
@@ -29,6 +26,8 @@ class CycleHole:
         peck: depth of a step, counts; 0 = in one go.
         feed: count of the last decimal of F.
         stop: index of the move behind it.
+        dwell: P word of the wait at the bottom; "" = there is none.
+        start: block before the first hole of a row; "" = none.
     """
 
     cycle: str
@@ -39,6 +38,8 @@ class CycleHole:
     peck: int
     feed: int
     stop: int
+    dwell: str = ""
+    start: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +50,23 @@ class CycleRules:
         words: its G words.
         scale: counts of the last decimal of Z in an out unit.
         peck_gap, chip_gap: counts.
+        near: counts by which a rounded height between two pecks may be off.
+        dwells: how long the operations wait at the bottom, by index, s; those that do not are left out.
+        taps: the blocks before a tapping cycle, by the index of the operations that tap.
     """
 
     words: DrillingWords
     scale: int
     peck_gap: int
     chip_gap: int
+    near: int = 1
+    dwells: Mapping[int, float] = field(default_factory=dict)
+    taps: Mapping[int, str] = field(default_factory=dict)
+
+    def wait(self, operation: int) -> str:
+        """Return the block of an operation's wait at the bottom; "" = it does not wait."""
+        seconds = self.dwells.get(operation, 0.0)
+        return self.words.wait.format(dwell_s=f"{seconds:g}", dwell_ms=round(1000 * seconds)) if seconds else ""
 
 
 def holes_of(moves: WorkMoves, rules: CycleRules) -> dict[int, CycleHole]:
@@ -98,22 +110,53 @@ def hole_at(moves: MoveLists, i: int, height: int, rules: CycleRules) -> CycleHo
     last = _last_feed(moves, feed) if feed else None
     if not feed or not last or not rules.words.drill:
         return None
+    operation = moves.operation[feed]
+    taps = operation in rules.taps
+    stop = last + 1 if taps and not rules.words.tap_to_initial else last + 2
     x, y, first = moves.end[feed]
     r = moves.end[feed - 1][2]
-    done = [(moves.kind[k], moves.end[k][2]) for k in range(feed, last + 2)]
-    bottom, clear = done[-2][1], done[-1][1]
+    done = [(moves.kind[k], moves.end[k][2]) for k in range(feed, stop)]
+    bottom, clear = min(z for _, z in done), done[-1][1]
     level = {height: rules.words.to_initial, r: rules.words.to_r}.get(clear, "")
+    wait = rules.wait(operation)
     one_go, peck = [(MoveKind.LINE, bottom), (MoveKind.RAPID, clear)], r - first
     out, up = (islice(_steps((r, peck, bottom), rules, by_r), len(done)) for by_r in (True, False))
+    fed_out = [(MoveKind.LINE, bottom), (MoveKind.LINE, r), (MoveKind.RAPID, clear)][: stop - feed]
     ways = (
-        (rules.words.drill, one_go, 0),
-        (rules.words.peck, [*out, *one_go], peck),
-        (rules.words.chip_break, [*up, *one_go], peck),
+        (rules.words.dwell if wait else rules.words.drill, one_go, 0),
+        ("" if wait else rules.words.peck, [*out, *one_go], peck),
+        ("" if wait else rules.words.chip_break, [*up, *one_go], peck),
+        (rules.words.tap if taps else "" if wait else rules.words.feed_out, fed_out, 0),
     )
     for word, steps, q in ways:
-        if word and level and _alike(steps, done):
-            return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], last + 2)
+        if word and level and _alike(steps, done, rules.near):
+            pause = f"P{wait.rpartition('P')[2]}" if wait else ""
+            start = rules.taps.get(operation, "")
+            return CycleHole(f"{level} {word}", x, y, bottom, r, q, moves.feed[feed], stop, pause, start)
     return None
+
+
+def waits_of(moves: WorkMoves, rules: CycleRules, holes: Mapping[int, CycleHole]) -> dict[int, str]:
+    """Return the blocks of waits at the bottom of holes that no cycle makes, by the index of the move that follows."""
+    if not rules.dwells:
+        return {}
+    inside = {k for first, hole in holes.items() for k in range(first, hole.stop)}
+    lines = np.flatnonzero((moves.kind == MoveKind.LINE) & (moves.purpose == Purpose.DRILL)).tolist()
+    found = {}
+    for k, following in zip(lines, [*lines[1:], len(moves)], strict=True):
+        deeper = following < len(moves) and moves.lists.end[following][:2] == moves.lists.end[k][:2]
+        wait = rules.wait(moves.lists.operation[k])
+        if wait and k not in inside and not deeper and k + 1 < len(moves):
+            found[k + 1] = wait
+    return found
+
+
+def untapped(moves: WorkMoves, rules: CycleRules, holes: Mapping[int, CycleHole]) -> bool:
+    """Tell whether a move of a tap is in no tapping cycle, so that the spindle would not turn back."""
+    tapping = np.isin(moves.operation, list(rules.taps)) & (moves.kind == MoveKind.LINE)
+    for first, hole in holes.items():
+        tapping[first : hole.stop] = False
+    return bool(tapping.any())
 
 
 def _first_feed(moves: MoveLists, i: int, height: int) -> int | None:
@@ -170,8 +213,8 @@ def _steps(depths: tuple[int, int, int], rules: CycleRules, by_r: bool) -> Itera
         height -= peck
 
 
-def _alike(steps: list[Step], done: list[Step]) -> bool:
+def _alike(steps: list[Step], done: list[Step], near: int) -> bool:
     """Tell whether two sequences are the same but for the rounding of heights; where they end is that of both."""
     return len(steps) == len(done) and all(
-        a is b and abs(z - w) <= NEAR for (a, z), (b, w) in zip(steps, done, strict=True)
+        a is b and abs(z - w) <= near for (a, z), (b, w) in zip(steps, done, strict=True)
     )

@@ -74,7 +74,7 @@ _SHORT = 12  # letters
 _NAMED = 6
 """Selectors of curves that an operator is told one by one."""
 
-_ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck")
+_ALWAYS = ("depth", "stepdown", "stepover", "stock_to_leave", "direction", "peck", "thread")
 """Parameters that are told also where they have their default."""
 
 
@@ -118,6 +118,8 @@ def heading_lines(heading: HeaderContent) -> Iterator[str]:
         )
         yield "Set Z zero with this tool in the spindle"
     yield "Stock " + " x ".join(_length(side, units) for side in heading.box.size)
+    if job.stock.above:
+        yield f"{_length(job.stock.above, units)} of it stand above Z 0 of the drawing"
     if job.stock.under:
         yield f"It lies on {_length(job.stock.under, units)} of waste, which the tool cuts into"
     origin = ", ".join(

@@ -17,6 +17,7 @@ Comments that begin with `hitofude:` hold one `key=value` each, in this order an
     one a layer of clamps keep_out_height_mm=H                            of clamps above the stock, where there are any
     units=mm|in                                     of the program's words origin_mm=X,Y,Z
     the work origin; part = program + origin stock_mm=X0,Y0,Z0,X1,Y1,Z1                      the stock's box
+    above_mm=H                                      what of the stock stands above Z 0 of the drawing, if any
     under_mm=H                                      of waste below the stock that may be cut into, if any
     tool=NUMBER,KIND,DIAMETER                       one a tool, in the order of use, those that make no moves last;
     ,CORNER,TIP,ANGLE
@@ -69,6 +70,8 @@ def _notes(heading: HeaderContent) -> Iterator[str]:
     yield f"units={unit_sign(job.out_units)}"
     yield f"origin_mm={plain_numbers(*work_origin(job, box))}"
     yield f"stock_mm={plain_numbers(box.x0, box.y0, box.z0, box.x1, box.y1, box.z1)}"
+    if job.stock.above:
+        yield f"above_mm={plain_numbers(job.stock.above)}"
     if job.stock.under:
         yield f"under_mm={plain_numbers(job.stock.under)}"
     operations = [operation for operation, _ in operations_of(heading)]

@@ -19,7 +19,7 @@ from ...model.stock_box import stock_box, work_origin
 from ..posts.post import Post
 from .arcs import ArcRules
 from .blocks import Blocks
-from .drilling import CycleHole, CycleRules, holes_of
+from .drilling import CycleHole, CycleRules, holes_of, untapped, waits_of
 from .header import HeaderContent, heading_lines, operation_words, tool_words
 from .header_notes import heading_notes
 from .sequence import check_sequence
@@ -205,6 +205,11 @@ def writing_tolerance(job: Job, post: Post) -> float:
     return max(min(2 * step, LARGEST_DEVIATION), step)
 
 
+def _dwells(job: Job) -> dict[int, float]:
+    """Return how long each operation waits at the bottom of its holes, s, by index; those that do not are left out."""
+    return {k: seconds for k, each in enumerate(job.operations) if (seconds := each.dwell_s) > 0}
+
+
 class _ProgramWriter:
     """One run over the moves."""
 
@@ -215,7 +220,17 @@ class _ProgramWriter:
         unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
         gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
-        self.holes: dict[int, CycleHole] = holes_of(moves, CycleRules(post.drilling, round(self.z_scale), *gaps))
+        near = int(
+            1.5 * unit / self.z_scale <= writing_tolerance(job, post)
+        )  # and half a count by the bottom's rounding
+        rules = CycleRules(post.drilling, round(self.z_scale), *gaps, near, _dwells(job), self._taps())
+        self.holes: dict[int, CycleHole] = holes_of(moves, rules)
+        self.waits = waits_of(moves, rules, self.holes)
+        if untapped(moves, rules, self.holes):
+            raise ParameterError(
+                f"{post.title} has no cycle that taps: the spindle would not turn back; mill the thread, or take the "
+                "tap operation out."
+            )
         self.arc_rules = ArcRules(
             digits.X,
             digits.I,
@@ -225,6 +240,12 @@ class _ProgramWriter:
             post.arcs.largest_radius_mm / unit,
             post.arcs.radius_mismatch_mm / unit,
         )
+
+    def _taps(self) -> dict[int, str]:
+        """Return the block before the cycle of each operation that taps, by its index."""
+        template = self.post.drilling.tap_start
+        tools = ((k, self.job.tool(each.cut.tool)) for k, each in enumerate(self.job.operations) if each.TAPS)
+        return {k: template.format(tool=tool.number, speed=round(tool.spindle_speed)) for k, tool in tools}
 
     def write(self, remarks: Remarks, progress: Progress) -> NDArray[np.int32]:
         """Write everything; return the line of each move."""
@@ -263,7 +284,7 @@ class _ProgramWriter:
         """Return before which moves more than motions may have to be written, and the number of moves."""
         tool, operation = self.moves.tool, self.moves.operation
         changes = np.flatnonzero((tool[1:] != tool[:-1]) | (operation[1:] != operation[:-1])) + 1
-        own = [len(self.moves), *self.holes, *remarks.before]
+        own = [len(self.moves), *self.holes, *self.waits, *remarks.before]
         return np.unique(np.concatenate([changes, np.array(own, np.int64)]))
 
     def _head(self, i: int, remarks: Remarks) -> None:
@@ -278,6 +299,7 @@ class _ProgramWriter:
             self.blocks.rapid_z(int(moves.end[i, 2]))
         for comment in remarks.before.get(i, ()):
             self.blocks.comment(comment)
+        self.blocks.block(self.waits.get(i, ""))
 
     def _change_tool(self, i: int) -> None:
         """Leave the tool before, if there is one, and take the tool of move i."""

@@ -92,9 +92,11 @@ def _between(path: ContourPath, spans: list[tuple[float, float]]) -> list[tuple[
     return [(float(x), float(y), b - a) for (x, y), (a, b) in zip(places, gaps, strict=True)]
 
 
-def clear_parts(rows: Rows, field: DistanceField, radius: float) -> tuple[NDArray[np.int64], Floats, Floats]:
+def clear_parts(
+    rows: Rows, field: DistanceField, radius: float, bounded: bool = True
+) -> tuple[NDArray[np.int64], Floats, Floats]:
     """Return (row, from, to) of all parts of rows, as fractions, in which a cutter is clear of what a sheet is bounded
-    by.
+    by; without `bounded`, of walls that bound nothing.
 
     Distance changes by no more than the way gone, so one distance, from the middle of a part, can decide it all; what
     it does not decide is divided. The smallest parts count as clear when both their ends and their middle are.
@@ -106,7 +108,7 @@ def clear_parts(rows: Rows, field: DistanceField, radius: float) -> tuple[NDArra
         middle = points_at(rows[row], (low + high) / 2)
         half = (high - low) * size[row] / 2
         spare = field.nearest(middle)[0] - radius
-        inside = field.inside(middle)
+        inside = field.inside(middle) if bounded else np.ones(len(row), np.bool_)
         small = half < _FINEST / 2
         both = np.minimum(*(field.nearest(points_at(rows[row], part))[0] for part in (low, high))) - radius
         clear = inside & ((spare >= half) | (small & (np.minimum(both, spare) >= 0)))

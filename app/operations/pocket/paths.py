@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from ...core import tolerances
 from ...core.errors import ParameterError
@@ -100,6 +101,27 @@ class PocketStrokes:
     linked: float = 0.0
     stepover: float = 0.0
 
+    def may_be_beaten(self, rings: float, more: float) -> bool:
+        """Tell whether strokes with rings of a length, mm, and at least so much more, mm, may be better."""
+        least = _share(rings, more) > MOST_LINKED, rings + more
+        return least < (self.linked > MOST_LINKED, self.length)
+
+
+def _share(rings: float, more: float) -> float:
+    """Return the share of a path, mm, that is no ring."""
+    return more / (rings + more) if more else 0.0
+
+
+def between_rings(levels: Sequence[OffsetLevel], halves: Sequence[OffsetLevel]) -> float:
+    """Return how long bridges are at least, mm: each ring hangs on one outside it, no nearer than its level is.
+
+    Args:
+        levels: rings, outermost first. halves: closed runs inside each.
+    """
+    steps = [(inner, inner.distance - outer.distance) for outer, inner in pairwise(levels)]
+    steps += [(half, half.distance - level.distance) for level, half in zip(levels, halves, strict=False)]
+    return sum(len(level.rings) * step for level, step in steps)
+
 
 def candidates(radius: float, rows: int) -> tuple[float, ...]:
     """Return the stepovers that are looked at for the shortest path, mm; one alone where a drawing has very many
@@ -131,11 +153,16 @@ def shortest(
         if not levels:
             return best
         rings = sum(ring.length for level in levels for ring in level.rings)
-        if best.strokes and ((best.linked <= MOST_LINKED and rings >= best.length) or stepovers[k] > too_far):
+        if best.strokes and (stepovers[k] > too_far or not best.may_be_beaten(rings, between_rings(levels, ()))):
             continue
         filling = (
             fill(levels, [found[distance] for distance in halves], area.distances, target.radius) if halves else NOTHING
         )
+        if best.strokes and halves:  # else ways between rings save pieces of them
+            more = filling.length + between_rings(levels, filling.halves)
+            if not best.may_be_beaten(rings, more):
+                too_far = min(too_far, stepovers[k]) if _share(rings, more) > _FAR_TOO_LINKED else too_far
+                continue
         strokes = link(levels, area.distances, target.link_options, filling, 0.0 if halves else stepovers[k])
         length = sum(path_length(stroke.rows) for stroke in strokes)
         made = PocketStrokes(levels, filling, strokes, length, 1 - rings / length, stepovers[k])

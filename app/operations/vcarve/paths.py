@@ -42,7 +42,7 @@ class VCutter:
     """A V cutter.
 
     Attributes:
-        tip: radius of the flat at its end, mm.
+        tip: radius of the flat at its end, mm; less by as much as it reaches over edges on purpose.
         rate: mm of radius per mm of height: the tangent of half the tip's angle.
         widest: radius where the cone ends, mm.
     """
@@ -104,7 +104,7 @@ def vcarve(context: OperationContext, index: int, progress: Progress) -> None:
     passes = list(carved(area.primitives, cone, levels.passes, progress.part(0.0, 0.9)))
     context.findings.extend(_too_wide(job, operation, cone, passes[-1].rings))
     context.findings.extend(_cut_into(job, operation, cone))
-    writer = _PassWriter(context.builder, label, levels, cone)
+    writer = PassWriter(context.builder, label, levels, cone)
     for k, each in enumerate(passes):
         progress.step(0.9 + 0.1 * k / len(passes), "Depth passes")
         writer.cut(each, context.at)
@@ -150,7 +150,7 @@ def _round_ones(primitives: Primitives) -> list[Floats]:
 
 
 @dataclass(eq=False)
-class _PassWriter:
+class PassWriter:
     """Appends the moves of passes."""
 
     builder: MovesBuilder
@@ -241,7 +241,7 @@ def _beside(job: Job, operation: Operation) -> list[Operation]:
         each
         for each in job.operations
         if each.cut.enabled
-        and not (each.CARVES or each.DRILLS)
+        and not (each.CARVES or each.HOLES)
         and each.wall_side is operation.wall_side
         and each.cut.curves == operation.cut.curves
     ]

@@ -1,4 +1,6 @@
-"""Files of triangles: STL by a reader of our own, which tells a file that was cut off; OBJ and PLY by a library."""
+"""Files of triangles: STL by a reader of our own, which tells a file that was cut off, 3MF too; OBJ and PLY by a
+library.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from .three_mf import three_mf_triangles
 
 Floats = NDArray[np.float64]
 
@@ -24,17 +27,18 @@ _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
 def read_mesh(name: str, data: bytes) -> Floats:
-    """Return the triangles (n, 3, 3) of a file, n > 0, in its own units.
+    """Return the triangles (n, 3, 3) of a file, n > 0, in its own units; of 3MF, which names them, mm.
 
     Args:
-        name: of the file, for errors; its suffix tells the format: .stl, .obj or .ply.
+        name: of the file, for errors; its suffix tells the format: .stl, .obj, .ply or .3mf.
         data: the file.
 
     Raises:
         InputError: it cannot be read, was cut off, or holds no triangle.
     """
     suffix = name.lower().rpartition(".")[2]
-    triangles = stl_triangles(name, data) if suffix == "stl" else _by_library(name, data, suffix)
+    own = {"stl": stl_triangles, "3mf": three_mf_triangles}.get(suffix)
+    triangles = own(name, data) if own is not None else _by_library(name, data, suffix)
     if not len(triangles):
         raise InputError(f"{name}: there is no triangle in this {suffix.upper()} file; export it again.")
     if not (max(float(triangles.max()), -float(triangles.min())) < _SANE):

@@ -44,6 +44,14 @@ _TWICE = 2.0
 _ROOM = 4096
 _CHORDS = 2_000
 _NEAR = 1e-9
+_BESIDE, _STORED = 1e-6, 2.0**-23
+"""mm, and of the coordinates of meshes, by which a cutter's upright side may go into a wall: so one that a pass touches
+all along its way is passed by, as deep as it goes, and what files round makes it no obstacle. Far less than is proven.
+"""
+_ASIDE, _SWINGS = 0.75, 8
+"""Of the grid: how far places that are rounded to it are from the line at most; corners of a line from which it may
+swing up and down beside a wall because of that.
+"""
 _SHORT = 0.05
 """mm; shorter stretches beside the surfaces are none."""
 
@@ -89,6 +97,7 @@ class Follower:
 
     def __init__(self, facets: SurfaceFacets, tool: Tool, options: FollowOptions = FollowOptions()) -> None:
         from ..cutter_contact import contact_kernels
+        from .point_kernels import GRID
 
         self.facets, self.options = facets, options
         self.tolerance = min(max(_PART * options.tolerance, _LEAST), _MOST * options.tolerance)
@@ -98,6 +107,8 @@ class Follower:
         self._shape = shape_of(tool)
         if options.leave:
             contact_kernels.thicken(shape_of(tool), options.leave, self._shape)
+        stored = float(np.abs(facets.triangles[facets.patch < 0]).max(initial=0.0))
+        self._room = max(_BESIDE, _STORED * stored)
         least = max(1e-6, 2 * options.grid)
         self._rules = np.array(
             [
@@ -110,6 +121,9 @@ class Follower:
                 _FINE,
             ]
         )
+
+        self._exact = self._rules.copy()
+        self._exact[GRID] = 0.0
 
     def along(self, planes: CuttingPlanes, plane: int, part: Stretch) -> Floats:
         """Return the rows (n, COLUMNS) of points on a plane, facets by their numbers."""
@@ -162,25 +176,67 @@ class Follower:
         return found
 
     def _rows(self, line: Floats) -> Floats:
+        """Return the rows of points along a line.
+
+        A wall that is just touched all along is passed by. Where places are rounded off the line, as on all that do not
+        run along X or Y, it would be touched or not as they are rounded, and the cutter swing up and down all its
+        length: where it does, the line itself is followed, by a cutter that is so much wider.
+        """
+        from . import point_kernels as k
+
+        rows = self._followed(line, self._beside(-self._room), self._rules)
+        aside = _ASIDE * self.options.grid if np.abs(line[2:4]).min() > _NEAR else 0.0
+        if aside and (swings := np.count_nonzero(rows[:, k.NEW] == k.CORNER)) > _SWINGS:
+            wider = self._rounded(self._followed(line, self._beside(self._room + aside), self._exact))
+            rows = wider if np.count_nonzero(wider[:, k.NEW] == k.CORNER) < swings else rows
+        for column in (k.FACET, k.LEFT):
+            facet = rows[:, column].astype(np.int64)
+            rows[:, column] = np.where(facet >= 0, self._order[np.maximum(facet, 0)], -1)
+        rows[:, [k.Z, k.TRUE_Z]] += self._leave
+        return rows
+
+    def _beside(self, room: float) -> Floats:
+        """Return the cutter with so much room between its upright side and walls, mm; < 0: its side, not its lower
+        side, may go into them.
+        """
+        from ..cutter_contact.contact_kernels import BEND, CONE, DISC, RADIUS
+
+        shape = self._shape.copy()
+        if room > 0.0 or shape[CONE] == 0.0:
+            shape[RADIUS] += room
+        if room > 0.0:
+            shape[[DISC, BEND]] += room
+        return shape
+
+    def _rounded(self, rows: Floats) -> Floats:
+        """Return rows of points as they will be written: in X and Y to the nearest place of the grid, in Z upwards."""
+        from . import point_kernels as k
+
+        grid = self.options.grid
+        rows[:, [k.X, k.Y]] = np.round(rows[:, [k.X, k.Y]] / grid) * grid
+        rows[:, k.Z] = np.ceil(rows[:, k.Z] / grid - 1e-6) * grid
+        return rows
+
+    def _followed(self, line: Floats, shape: Floats, rules: Floats) -> Floats:
+        """Return the rows of points of a cutter along a line, as the kernel gives them.
+
+        Raises:
+            GeometryError: a chord cannot be proven.
+        """
         from . import follow_kernels
         from . import point_kernels as k
 
         room = _ROOM
         while True:
             out = np.empty((room, k.COLUMNS))
-            count = follow_kernels.follow(self._held, self._shape, line, self._rules, out)
+            count = follow_kernels.follow(self._held, shape, line, rules, out)
             if count >= 0:
-                break
+                found: Floats = out[:count].copy()
+                return found
             if count == follow_kernels.NO_PROOF or room > 1 << 24:
                 x, y = line[:2] + line[4] * line[2:4]
                 raise GeometryError(f"the pass from ({x:.3f}, {y:.3f}) could not be proven; make its tolerance larger.")
             room *= 4
-        rows: Floats = out[:count].copy()
-        for column in (k.FACET, k.LEFT):
-            facet = rows[:, column].astype(np.int64)
-            rows[:, column] = np.where(facet >= 0, self._order[np.maximum(facet, 0)], -1)
-        rows[:, [k.Z, k.TRUE_Z]] += self._leave
-        return rows
 
 
 class PlaneStretch(NamedTuple):

@@ -231,7 +231,7 @@ def _settled(
 def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = None) -> list[_CuttingPath]:
     """Return the path of each tool's moves, or of some of them (n,), that cut as deep as so many mm, or deeper."""
     deep = np.maximum(moves.start[:, 2], moves.end[:, 2]) <= -depth
-    pointed = [tool.number for tool in job.tools if tool.kind.drills]  # their tips leave a cone
+    pointed = [tool.number for tool in job.tools if tool.kind.drills or tool.kind.threads]  # no level floor
     pointed += [each.cut.tool for each in job.operations if each.CARVES]
     chosen = deep & (moves.kind != MoveKind.RAPID) & ~np.isin(moves.tool, pointed) & (True if of is None else of)
     numbers = [int(number) for number in np.unique(moves.tool[chosen])]

@@ -117,7 +117,7 @@ class _ClearingOperation:
     @property
     def covers(self) -> bool:
         """True where its tool may go all over its area."""
-        return not self.operation.DRILLS and not self.area.lines
+        return not self.area.lines
 
 
 def _cutting(program: Program, job: Job) -> list[_ClearingOperation]:
@@ -125,7 +125,7 @@ def _cutting(program: Program, job: Job) -> list[_ClearingOperation]:
     return [
         _ClearingOperation(operation, area)
         for operation, area in zip(job.operations, areas, strict=True)
-        if operation.cut.enabled and area.regions and not (operation.DRILLS or operation.CARVES)
+        if operation.cut.enabled and area.regions and operation.LEVELS
     ]
 
 

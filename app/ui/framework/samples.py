@@ -54,7 +54,7 @@ def sample_pen(sample: PathLineKind, theme: Theme) -> QPen:
 
 def sample_of(operation: Operation) -> PathLineKind:
     """Return the line that an operation's paths are drawn with, by what it does."""
-    if operation.DRILLS:
+    if operation.HOLES:
         return PathLineKind.PLUNGE
     if operation.FOLLOWS_WALLS:
         return PathLineKind.CONTOUR

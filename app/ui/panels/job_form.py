@@ -30,6 +30,12 @@ class JobForm(FormSection):
             NumberSpec("Thickness", low=0.001, high=10_000, tip="Height of the stock; Z 0 is its top."),
             lambda job, v: replace(job, stock=replace(job.stock, thickness=v)),
         )
+        self.above = self.add_number(
+            NumberSpec(
+                "Above Z 0", low=0, high=10_000, tip="What more of the stock stands above Z 0, to be faced off."
+            ),
+            lambda job, v: replace(job, stock=replace(job.stock, above=v)),
+        )
         self.origin_xy = ListField("Origin XY", [(o, o.value.capitalize()) for o in OriginXY])
         self.add_choice("Origin XY", self.origin_xy, lambda job, v: replace(job, origin_xy=OriginXY(v)))
         self.origin_z = ListField("Origin Z", [(o, o.value.capitalize()) for o in OriginZ])
@@ -127,6 +133,7 @@ class JobForm(FormSection):
         """Show the job's values."""
         self.margin.show_value(job.stock.margin)
         self.thickness.show_value(job.stock.thickness)
+        self.above.show_value(job.stock.above)
         self.origin_xy.show_value(job.origin_xy)
         self.origin_z.show_value(job.origin_z)
         self.safe_z.show_value(job.safe_z)

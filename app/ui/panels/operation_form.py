@@ -15,7 +15,8 @@ from ...core.errors import HitofudeError
 from ...drafting.expressions.numbers import length
 from ...model.fields import parameters_of, with_values
 from ...model.job import Job
-from ...model.operation import CutParameters, Operation, Side, parameters
+from ...model.operation import CutParameters, Operation, Side
+from ...model.operation_kinds import parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField, NumberField
 from ..framework.figures import counted
@@ -43,6 +44,11 @@ def _too_wide(stepover: float, diameter: float) -> str:
 def _has_rings(operation: Operation) -> bool:
     """Tell whether there is a distance between the paths of an operation."""
     return "stepover" in parameters_of(type(operation))
+
+
+def _has_strokes(operation: Operation) -> bool:
+    """Tell whether the tool goes down in strokes."""
+    return "peck" in parameters_of(type(operation))
 
 
 class OperationForm(FormSection):
@@ -127,7 +133,7 @@ class OperationForm(FormSection):
 
     def _add_strokes(self) -> None:
         self.peck_picture = SketchWidget(parameter_sketches.peck, "The strokes of the drill")
-        self.of(lambda operation: operation.DRILLS, self.add_picture(self.peck_picture))
+        self.of(_has_strokes, self.add_picture(self.peck_picture))
 
     def with_values(self, job: Job, values: Mapping[str, Any]) -> Job:
         """Return the job with other values of parameters in the operation that is shown, by key."""
@@ -166,7 +172,7 @@ class OperationForm(FormSection):
             self._show_rings(operation, tool)
         if operation.FOLLOWS_WALLS and operation.wall_side is not None:
             self._show_side(operation.wall_side)
-        if operation.DRILLS:
+        if _has_strokes(operation):
             self.peck_picture.show_values(operation.cut.depth, self._value(operation, "peck") or 0.0, operation.beyond)
         for group in self.groups:
             group.show(operation, tool, job)

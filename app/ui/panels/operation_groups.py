@@ -16,7 +16,8 @@ from ...model.curve_selectors import ContourKind, OnLayer
 from ...model.entry import EntryKind, LeadKind
 from ...model.fields import ParameterPlace, Unit, parameters_of
 from ...model.job import Job
-from ...model.operation import Operation, Side, parameters
+from ...model.operation import Operation, Side
+from ...model.operation_kinds import parameters
 from ...model.tool import Tool
 from ..framework.fields import ListField
 from ..framework.form import FieldGroup

@@ -17,8 +17,8 @@ from ..framework.form import SwitchField
 Field = NumberField | ChoiceField | ListField | SwitchField
 
 _LONG = 12  # letters; longer words than these do not stand side by side in a row
-_DECIMALS = {Unit.LENGTH: 3, Unit.ANGLE: 2, Unit.SHARE: 0, Unit.COUNT: 0}
-_SIGNS = {Unit.LENGTH: "mm", Unit.ANGLE: "°", Unit.SHARE: "%", Unit.COUNT: ""}
+_DECIMALS = {Unit.LENGTH: 3, Unit.ANGLE: 2, Unit.SHARE: 0, Unit.COUNT: 0, Unit.TIME: 2}
+_SIGNS = {Unit.LENGTH: "mm", Unit.ANGLE: "°", Unit.SHARE: "%", Unit.COUNT: "", Unit.TIME: "s"}
 
 
 def spec_of(declared: Parameter) -> NumberSpec:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
-from ...model.operation import OPERATION_KINDS
+from ...model.operation_kinds import OPERATION_KINDS
 from ..framework.icons import icon
 from ..framework.theme import Theme
 from ..framework.view import views

@@ -86,7 +86,7 @@ class AdviceController(QObject):
         self._panel.advice_shown.connect(self._refresh)
         sheet.for_pocket.connect(lambda tool: self._use(tool, lambda each: each.COARSE, "Tool for pockets"))
         sheet.for_contour.connect(
-            lambda tool: self._use(tool, lambda each: not each.COARSE and not each.DRILLS, "Tool for contours")
+            lambda tool: self._use(tool, lambda each: not each.COARSE and not each.HOLES, "Tool for contours")
         )
         self._unsubscribe = self._document.subscribe(self._on_change)
 

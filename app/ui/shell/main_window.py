@@ -13,6 +13,7 @@ from ...core.settings import Settings, ThemeChoice
 from ...drafting.document import Document
 from ...formats.readers import suffixes
 from ...usecases.bitmap_options import PICTURES
+from ...usecases.solid_files import SOLIDS
 from ..framework import style
 from ..framework.activity import Activity
 from ..framework.arrow import arrow_picture
@@ -71,12 +72,13 @@ class MainWindow(QMainWindow):
     closing = Signal()
 
     def __init__(self, document: Document, settings: Settings) -> None:
+        theme = self._theme_for(settings.theme)
+        if isinstance(application := QApplication.instance(), QApplication):
+            style.prepare(application, theme)  # a window that there is already would keep the system's font
         super().__init__()
+        self.theme = theme
         self.document, self.preferences = document, Preferences(settings, self)
         self.preferences.saving.connect(lambda: remember_geometry(self, self.preferences))
-        self.theme = self._theme_for(settings.theme)
-        if isinstance(application := QApplication.instance(), QApplication):
-            style.prepare(application, self.theme)
         self.may_close = True
         self.worker = Worker(self)
         self.activity = Activity(self)
@@ -194,10 +196,10 @@ class MainWindow(QMainWindow):
         self.actions_[f"theme_{choice.value}"].setChecked(True)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
-        """Welcome one drawing, scene, picture or NC program."""
+        """Welcome one drawing, solid, scene, picture or NC program."""
         urls = event.mimeData().urls()
         if len(urls) == 1 and urls[0].toLocalFile().lower().endswith(
-            (*suffixes(), ".toml", *PICTURES, *PROGRAM_SUFFIXES)
+            (*suffixes(), ".toml", *SOLIDS, *PICTURES, *PROGRAM_SUFFIXES)
         ):
             event.acceptProposedAction()
 

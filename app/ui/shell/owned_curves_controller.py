@@ -42,7 +42,7 @@ def _same_contours(one: Job, other: Job) -> bool:
         return job.layer_names, job.keep_out_layers, [(each.cut.curves, each.cut.enabled) for each in job.operations]
 
     def drills(job: Job) -> object:
-        return [each for each in job.operations if each.DRILLS]
+        return [each for each in job.operations if each.HOLES]
 
     return (
         drills(one) == drills(other)
@@ -68,7 +68,7 @@ def owned_curves(job: Job, index: int, known: OwnedCurves | None, progress: Prog
     job, operation = replace(job, copies=Copies()), job.operations[index]
     seen = known.drawn if known is not None else drawn_contours(job)
     found = selected(seen, operation.cut.curves)
-    made = frozenset() if operation.DRILLS else made_by_drills(job, seen)
+    made = frozenset() if operation.HOLES else made_by_drills(job, seen)
     closed = [each for each in found.closed if not made or circle_of(each) not in made]
     ids = {number for each in (*closed, *found.open) for number in each.entity_ids}
     progress.step(0.9)

@@ -63,7 +63,7 @@ STEPS = (
     TourStep(
         lambda marks: marks.top_bar.tabs["view_cut"],
         "Cut",
-        "The program, cut out of its stock. Drag turns it; a click on the metal shows the line that cut there.",
+        "The program, cut out of its stock. Drag turns it; a click on the metal marks the line that cut there.",
     ),
     TourStep(
         lambda marks: marks.top_bar.export,

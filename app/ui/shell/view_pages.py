@@ -34,12 +34,15 @@ SCENE_WAITS = MissingHint("The scene is not computed yet.", "Compute  F5", "comp
 SCENE_COMPUTING = MissingHint("The scene is being computed.", "Cancel  Shift+F5", "cancel")
 NC_PROMPT = "Commands draw and set up the job; Ctrl+F finds in the program"
 CUT_PROMPT = (
-    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click goes to "
-    "the line"
+    "Space plays, . and , step; drag turns the cut, the middle button shifts it, Ctrl+drag measures; a click marks "
+    "the line that cut there"
 )
 CURVES_PROMPT = "Say how near curves must keep to the moves, then Smooth; click the deviation to see the place"
 SURFACES_PROMPT = (
     "Drag turns the scene, the middle button shifts it; what is set at the right is computed at once; Ctrl+E writes it"
+)
+SLOW_SURFACES_PROMPT = (
+    "Drag turns the scene, the middle button shifts it; F5 computes what is set at the right; Ctrl+E writes it"
 )
 _NO_SCENE = {
     SceneState.NONE: NO_SCENE,
@@ -153,7 +156,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         View.SURFACES: ViewPage(
             surfaces,
             surfaces.canvas,
-            lambda: SURFACES_PROMPT,
+            lambda: SURFACES_PROMPT if surfaces.at_once else SLOW_SURFACES_PROMPT,
             scene_missing,
             lambda: surfaces.summary,
             lambda: window.scene_side if window.scene.open else None,

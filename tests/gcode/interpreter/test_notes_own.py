@@ -164,7 +164,7 @@ ANGLE = math.radians(2.5)
             True,
             0.4,
         ),
-        DrillOperation(CutParameters(2, 5.0), 0.5, 2.5, 3.0, 0.5),
+        DrillOperation(CutParameters(2, 5.0), 2.5, 3.0, 0.5, through=0.5),
         PocketOperation(CutParameters(2, 4.0, 1.0), 1.25, True, 0.55),
         RestOperation(CutParameters(2, 4.0, 1.0), 1.25, 0.55),
     ],
@@ -195,7 +195,7 @@ def test_every_parameter_goes_through_the_comments_of_every_control(name: str, o
         ),
         (
             "operation=drill,2,5,0)\n(hitofude: holes_mm=1,2.5,3,0.5",
-            DrillOperation(CutParameters(2, 5.0), None, 2.5, 3.0, 0.5),
+            DrillOperation(CutParameters(2, 5.0), 2.5, 3.0, through=0.5),
         ),
         (
             "operation=rest,1,2,0)\n(hitofude: operation_layer=1,a/b)\n(hitofude: floor_to_leave_mm=1,0.25",

@@ -115,11 +115,11 @@ def test_the_line_of_the_metal_is_shown_in_the_nc_view(qtbot, opened):
     wiring = opened(TOLD + PROGRAM)
     cut = wiring.cut_controller.cut
     motion = int(np.flatnonzero(cut.picture.moves.line == 7)[0])
-    wiring.window_.views.cut.cell_picked.emit(20.0, 15.0, -2.0, motion)
+    wiring.window_.cut_panel.line_requested.emit(motion)
     assert wiring.display_controller.view is View.NC and wiring.window_.views.nc.pane.text.current == 6
     wiring.cut_controller.back()
     motion = int(wiring.cut_controller.cut.picture.move.max())
-    wiring.window_.views.cut.cell_picked.emit(0.0, 0.0, 0.0, motion)
+    wiring.window_.cut_panel.line_requested.emit(motion)
     line = wiring.cut_controller.cut.picture.moves.line[motion]
     assert not wiring.nc.foreign
     qtbot.waitUntil(lambda: wiring.window_.views.nc.pane.text.current + 1 == line, timeout=WAIT_MS)

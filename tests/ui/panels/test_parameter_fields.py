@@ -5,9 +5,11 @@ what is set.
 import pytest
 
 from app.drafting.document import Document
-from app.model import operation as operations
+from app.model import operation_kinds as operations
+from app.model.fields import parameters_of
 from app.model.job import Job
-from app.model.operation import OPERATION_KINDS, CutParameters, parameters_of, register
+from app.model.operation import CutParameters
+from app.model.operation_kinds import OPERATION_KINDS, register
 from app.model.part import Part
 from app.ui.framework.fields import ChoiceField, ListField, NumberField
 from app.ui.framework.form import SwitchField

@@ -194,7 +194,11 @@ def curve_texts(shape: Shape) -> str:
 
 def passes_fields(passes: Passes, scene: Scene) -> tuple[SceneField, ...]:
     """Return what is asked of a family of passes."""
-    tools = tuple((tool.number, f"T{tool.number} {tool.label}") for tool in scene.tools if not tool.kind.drills)
+    tools = tuple(
+        (tool.number, f"T{tool.number} {tool.label}")
+        for tool in scene.tools
+        if not (tool.kind.drills or tool.kind.threads)
+    )
     by_pitch, apart = passes.pitch is not None, passes.pitch if passes.pitch is not None else passes.scallop
 
     def other(name: object) -> Mapping[Place, object]:
@@ -298,7 +302,10 @@ def _rate(name: str, key: str, value: float | None, unit: str) -> SceneField:
 
 def _tool_choices() -> Choices:
     """Return the kinds that machine surfaces, round ends first: what a drill leaves is a hole."""
-    kinds = sorted((kind for kind in tool_kinds() if not kind.drills), key=lambda kind: (kind.conical, kind.level))
+    kinds = sorted(
+        (kind for kind in tool_kinds() if not (kind.drills or kind.threads)),
+        key=lambda kind: (kind.conical, kind.level),
+    )
     return tuple((kind.value, kind.title) for kind in kinds)
 
 

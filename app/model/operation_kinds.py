@@ -1,0 +1,69 @@
+"""The kinds of operation, each by its word, and the parameters of all of them."""
+
+from __future__ import annotations
+
+from .chamfer_operation import ChamferOperation
+from .face_operation import FaceOperation
+from .fields import ParameterPlace, declared_of, parameters_of
+from .hole_operations import (
+    BoreOperation,
+    CountersinkOperation,
+    ReamOperation,
+    TapOperation,
+    ThreadOperation,
+)
+from .operation import (
+    AdaptiveOperation,
+    ContourOperation,
+    DrillOperation,
+    Operation,
+    PocketOperation,
+    RestOperation,
+    VcarveOperation,
+)
+
+OPERATION_KINDS: dict[str, type[Operation]] = {}
+"""By the words of job files, reports and NC headers; `register` adds to it."""
+
+
+def register(kind: type[Operation]) -> None:
+    """Make a kind of operation known to job files, options, forms, headers and reports.
+
+    Raises:
+        ValueError: another kind has its word.
+    """
+    if OPERATION_KINDS.setdefault(kind.WORD, kind) is not kind:
+        raise ValueError(f"two kinds of operation are called {kind.WORD}")
+
+
+for _kind in (
+    PocketOperation,
+    AdaptiveOperation,
+    RestOperation,
+    ContourOperation,
+    VcarveOperation,
+    ChamferOperation,
+    DrillOperation,
+    ReamOperation,
+    TapOperation,
+    CountersinkOperation,
+    BoreOperation,
+    ThreadOperation,
+    FaceOperation,
+):
+    register(_kind)
+
+
+def declared() -> dict[str, ParameterPlace]:
+    """Return every parameter of every kind by key."""
+    return {key: placed for kind in OPERATION_KINDS.values() for key, placed in declared_of(kind).items()}
+
+
+def parameters() -> dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]]:
+    """Return every parameter of every kind by key, and the kinds that it has an effect on."""
+    found: dict[str, tuple[ParameterPlace, tuple[type[Operation], ...]]] = {}
+    for kind in OPERATION_KINDS.values():
+        for key, placed in parameters_of(kind).items():
+            first, kinds = found.get(key, (placed, ()))
+            found[key] = (first, (*kinds, kind))
+    return found

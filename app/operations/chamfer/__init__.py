@@ -1,0 +1,9 @@
+"""Chamfers: edges broken along contours by the flank of a cone."""
+
+from __future__ import annotations
+
+from ...model.chamfer_operation import ChamferOperation
+from ..registry import OperationMethod, register
+from .paths import chamfer
+
+register(ChamferOperation, OperationMethod(chamfer))

@@ -1,0 +1,198 @@
+"""Chamfers: the cone goes along the walls at one depth, and up into corners and narrow places, as in V-carving.
+
+The chamfer is W wide on the top; the cone, of half angle a and flat tip f, touches the drawn wall W / tan a below the
+surface and goes t deeper with its tip. So it is f + t tan a wide where it touches the wall, which is how far its axis
+keeps off, and W more at the surface. Where the walls leave less room than that, it comes up until it touches them as
+high: a V-carving whose cone is W narrower than the real one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...core.errors import ParameterError
+from ...core.progress import Progress
+from ...geometry.distance import DistanceField
+from ...geometry.offset.offset import Ring
+from ...geometry.primitives import contour_rows, lengths, points_at, reversed_rows, within_half_turn
+from ...model.chamfer_operation import ChamferOperation
+from ...model.finding import Finding, FindingKind
+from ...model.job import Job
+from ...model.operation import Direction
+from ...model.tool import Tool
+from ...toolpath.build import StrokeLabel
+from ...toolpath.drawn_contours import DrawnContours
+from ...toolpath.machining_areas import MachiningArea
+from ...toolpath.operation_context import OperationContext, levels_of
+from ...toolpath.selected import selected
+from ..engrave.open_line import clear_parts
+from ..vcarve.branches import AxisBranch
+from ..vcarve.paths import CarvedPass, PassWriter, VCutter, carved
+
+_SAME = 1e-9
+_WELD = 1e-6
+
+
+@dataclass(frozen=True)
+class ChamferCone:
+    """The cone of a chamfer.
+
+    Attributes:
+        narrowed: the V-carving cone that is as much narrower as the chamfer is wide.
+        depth: of the tip, mm. off: how far the axis keeps off the walls, mm. top: how wide it is at the surface, mm.
+    """
+
+    narrowed: VCutter
+    depth: float
+    off: float
+    top: float
+
+
+def cone_of(job: Job, operation: ChamferOperation) -> ChamferCone:
+    """Return the cone of an operation's tool.
+
+    Raises:
+        ParameterError: the tool has none, its cone is too low, or the tip would go below the stock and its waste.
+    """
+    tool = job.cutter(operation)
+    tip, rate, depth = tool.tip_diameter / 2, math.tan(tool.tip_angle / 2), operation.deepest(tool)
+    top = tip + depth * rate
+    if top > tool.radius + _SAME:
+        raise ParameterError(
+            f"A chamfer of {operation.width:g} mm with the tip {operation.tip_offset:g} mm below it needs a cone of "
+            f"{2 * top:.3f} mm, and T{tool.number} {tool.label} is {tool.diameter:g} mm wide; take a wider cutter, "
+            "or less of either."
+        )
+    if depth > job.stock.thickness + job.stock.under + _SAME:
+        raise ParameterError(
+            f"The tip of T{tool.number} {tool.label} would go {depth:.3f} mm deep, and the stock is "
+            f"{job.stock.thickness:g} mm thick; make the chamfer narrower, or the tip offset less."
+        )
+    return ChamferCone(VCutter(tip - operation.width, rate, tool.radius), depth, top - operation.width, top)
+
+
+def chamfer(context: OperationContext, index: int, progress: Progress) -> None:
+    """Break the edges of an operation's contours.
+
+    Raises:
+        ParameterError: the cone is too low, or the stock too thin.
+        GeometryError: the medial axis is not proven right.
+        Cancelled: by progress.
+    """
+    job = context.job
+    operation = job.operations[index]
+    assert isinstance(operation, ChamferOperation)
+    cone, tool = cone_of(job, operation), job.tool(operation.cut.tool)
+    area = context.areas.of(operation)
+    if area is None:
+        return
+    (whole,) = carved(area.primitives, cone.narrowed, (-cone.depth,), progress.part(0.0, 0.8))
+    followed = _followed(whole, area, operation.cut.direction)
+    progress.step(0.8, "Neighbour walls")
+    kept, lost = _beside_neighbours(followed, context.areas.drawn, operation, tool, cone)
+    context.findings.extend(_stopped_short(lost, tool, cone))
+    label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
+    writer = PassWriter(context.builder, label, levels_of(context, operation.cut), cone.narrowed)
+    writer.cut(kept, context.at)
+    if context.builder.at[0] == context.builder.at[0]:
+        context.at = context.builder.at[:2]
+    context.strokes += len(kept.trails) + len(kept.rings)
+
+
+def _followed(whole: CarvedPass, area: MachiningArea, direction: Direction) -> CarvedPass:
+    """Return the ways along walls: not those along clamps or the frame."""
+    trails = tuple(way for way in whole.trails if not _at_bare(way, area))
+    rings = (ring for ring in whole.rings if not area.follows_bare(ring.rows).all())
+    if direction is Direction.CONVENTIONAL:
+        rings = (replace(ring, rows=reversed_rows(ring.rows)) for ring in rings)
+    return CarvedPass(whole.z, trails, tuple(rings))
+
+
+def _at_bare(way: AxisBranch, area: MachiningArea) -> bool:
+    return bool(area.bare.any() and area.bare[area.distances.nearest(way.discs[:, :2])[1]].any())
+
+
+def _beside_neighbours(
+    ways: CarvedPass, drawn: DrawnContours, operation: ChamferOperation, tool: Tool, cone: ChamferCone
+) -> tuple[CarvedPass, list[tuple[float, float, float]]]:
+    """Return the ways on which the cone keeps off all other contours and clamps, and (x, y, length, mm) of the
+    others.
+    """
+    own = {id(contour) for contour in selected(drawn, operation.cut.curves).closed}
+    others = [contour for contour in drawn.closed if id(contour) not in own]
+    held = [contour for region in drawn.clamps for contour in region.contours]
+    lost: list[tuple[float, float, float]] = []
+    for walls, wide in ((others, cone.top), (held, tool.radius)):
+        if walls:
+            field = DistanceField.of(within_half_turn(np.concatenate([contour_rows(each) for each in walls])))
+            ways = CarvedPass(
+                ways.z, tuple(_clear_trails(ways, field, wide, cone, lost)), tuple(_clear(ways, field, wide, lost))
+            )
+    return ways, lost
+
+
+def _clear_trails(
+    ways: CarvedPass, field: DistanceField, wide: float, cone: ChamferCone, lost: list[tuple[float, float, float]]
+) -> Iterator[AxisBranch]:
+    """Yield the ways into corners all of whose cones keep off some walls; `wide`: where they are deepest, mm."""
+    for way in ways.trails:
+        need = way.discs[:, 2] + wide - cone.off
+        if (field.nearest(way.discs[:, :2])[0] >= need - _WELD).all():
+            yield way
+        else:
+            x, y = way.discs[0, :2].tolist()
+            lost.append((x, y, way.length))
+
+
+def _clear(
+    ways: CarvedPass, field: DistanceField, wide: float, lost: list[tuple[float, float, float]]
+) -> Iterator[Ring]:
+    """Yield what of the rings keeps off some walls."""
+    for ring in ways.rings:
+        row, low, high = clear_parts(ring.rows, field, wide, bounded=False)
+        whole = np.zeros(len(ring.rows))
+        np.add.at(whole, row, high - low)
+        if (whole > 1 - _SAME).all():
+            yield ring
+            continue
+        size = lengths(ring.rows)
+        worst = int(np.argmax((1 - whole) * size))
+        x, y = points_at(ring.rows[[worst]], np.array([0.5]))[0].tolist()
+        lost.append((x, y, float(((1 - whole) * size).sum())))
+        yield from (replace(ring, rows=piece) for piece in _pieces(ring.rows, row, low, high))
+
+
+def _pieces(rows: np.ndarray, row: np.ndarray, low: np.ndarray, high: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield runs of parts of rows that follow one another without a gap; around the ring's beginning, too."""
+    parts = []
+    for k, a, b in zip(row.tolist(), low.tolist(), high.tolist(), strict=True):
+        part = rows[k].copy()
+        part[:2], part[2:4] = points_at(rows[[k, k]], np.array([a, b]))
+        parts.append(part)
+    runs: list[list[np.ndarray]] = []
+    for part in parts:
+        if runs and np.hypot(*(runs[-1][-1][2:4] - part[:2])) < _WELD:
+            part[:2] = runs[-1][-1][2:4]
+            runs[-1].append(part)
+        else:
+            runs.append([part])
+    if len(runs) > 1 and np.hypot(*(runs[-1][-1][2:4] - runs[0][0][:2])) < _WELD:
+        runs[0] = [*runs.pop(), *runs[0]]
+    return (np.array(run) for run in runs)
+
+
+def _stopped_short(lost: Sequence[tuple[float, float, float]], tool: Tool, cone: ChamferCone) -> Iterator[Finding]:
+    """Yield where the chamfer stops short."""
+    if lost:
+        x, y, _ = max(lost, key=lambda each: each[2])
+        length = sum(each[2] for each in lost)
+        text = (
+            f"T{tool.number} {tool.label} stops short of {length:.3f} mm of the edges, at ({x:.3f}, {y:.3f}) for "
+            f"one: a wall that is not chamfered, or a clamp, is nearer than the {cone.top:.3f} mm that the cone "
+            "reaches; take less tip offset, a narrower chamfer or a more pointed cone."
+        )
+        yield Finding(FindingKind.LEFT_OUT, text, x, y, amount=length)

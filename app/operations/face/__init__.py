@@ -1,0 +1,9 @@
+"""Facing: what stands above Z 0 is taken off the whole stock."""
+
+from __future__ import annotations
+
+from ...model.face_operation import FaceOperation
+from ..registry import OperationMethod, register
+from .paths import face
+
+register(FaceOperation, OperationMethod(face))

@@ -1,0 +1,187 @@
+"""What all operations on holes share: which circles they take in which order, and what is said of the others."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.errors import ParameterError
+from ..core.progress import Progress
+from ..model.curve_selectors import CirclesOf, CurveNumber
+from ..model.finding import Finding, FindingKind
+from ..model.job import Job
+from ..model.moves import Purpose
+from ..model.operation import HoleOperation
+from ..toolpath.build import Stroke, StrokeLabel
+from ..toolpath.drawn_contours import DrawnContours
+from ..toolpath.drill_holes import CircleHole, DrillHoles, holes_of
+from ..toolpath.operation_context import OperationContext
+from ..toolpath.ordering.tour import in_short_order
+
+_HERE = 1e-3
+"""mm between the centres of holes that are one."""
+
+_NAMED = 6
+"""Diameters that a finding names."""
+
+
+@dataclass(frozen=True)
+class HoleVerb:
+    """What an operation does to holes, in words.
+
+    Attributes:
+        base, third, done: "drill", "drills", "drilled".
+        tool: what its tool is called.
+        narrow: why a circle cannot be done, of one or several: "... is narrower than the drill".
+    """
+
+    base: str
+    third: str
+    done: str
+    tool: str
+    narrow: str
+
+
+def holes_in_order(
+    context: OperationContext, index: int, verb: HoleVerb, progress: Progress
+) -> Iterator[tuple[CircleHole, StrokeLabel]]:
+    """Yield the circles of an operation in an order of short ways, and say what there is to say of them.
+
+    Raises:
+        ParameterError: it is deeper than the stock.
+        Cancelled: by progress.
+    """
+    job = context.job
+    operation = job.operations[index]
+    assert isinstance(operation, HoleOperation)
+    progress.step(0.0, "Looking for circles")
+    check_hole_depth(job, operation, verb)
+    holes, tool = holes_of(job, context.areas.drawn, operation), job.tool(operation.cut.tool)
+    context.findings.extend(circle_findings(holes, job, operation, verb))
+    label = StrokeLabel(index, tool.number, tool.feed_rate, tool.plunge_rate)
+    by_place = {(hole.x, hole.y): hole for hole in holes.drilled}
+    for stroke in in_short_order([_as_stroke(hole) for hole in holes.drilled], context.at, progress):
+        yield by_place[stroke.start], label
+        context.at = stroke.start
+
+
+def check_hole_depth(job: Job, operation: HoleOperation, verb: HoleVerb) -> None:
+    """Refuse a depth that the stock has not.
+
+    Raises:
+        ParameterError: it is deeper.
+    """
+    if not operation.CARVES and operation.cut.depth > job.stock.thickness + 1e-9:
+        raise ParameterError(
+            f"Depth is {operation.cut.depth:g} mm, but the stock is {job.stock.thickness:g} mm thick; "
+            f"reduce the depth, or let the {verb.tool} go through below it."
+        )
+
+
+def _as_stroke(hole: CircleHole) -> Stroke:
+    """Return a hole as a stroke without a length, for the tour."""
+    return Stroke(
+        np.array([[hole.x, hole.y, hole.x, hole.y, 0.0, 0.0, 0.0, 0.0]]), np.array([Purpose.DRILL], np.uint8), 0
+    )
+
+
+def over_hole(context: OperationContext, place: tuple[float, float], label: StrokeLabel) -> None:
+    """Go over a place, and down to the retract height."""
+    job, builder = context.job, context.builder
+    builder.straight((*place, job.travel_z), Purpose.RAPID, label)
+    if job.retract_z < job.travel_z:
+        builder.straight((*place, job.retract_z), Purpose.RAPID, label)
+
+
+def out_of_hole(context: OperationContext, label: StrokeLabel) -> None:
+    """Go straight up to where the tool travels."""
+    x, y, _ = context.builder.at
+    context.builder.straight((x, y, context.job.travel_z), Purpose.RAPID, label)
+
+
+def circle_findings(holes: DrillHoles, job: Job, operation: HoleOperation, verb: HoleVerb) -> Iterator[Finding]:
+    """Yield which circles an operation does not work on, and why."""
+    tool = job.tool(operation.cut.tool)
+    who = f"T{tool.number} {tool.label}"
+    if not holes.drilled:
+        others = f" Circles there are of {diameters_in_words(holes.others)}." if holes.others else ""
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{who} has nothing to {verb.base}: the drawing has no circle that it is for.{others} "
+            f"Choose another {verb.tool}, the diameters or the layers.",
+        )
+    elif holes.others:
+        left = f"of other diameters {_counted(holes.others)} {'is' if len(holes.others) == 1 else 'are'} left out"
+        yield Finding(
+            FindingKind.LEFT_OUT,
+            f"{who} {verb.third} {_counted(holes.drilled)}; {left}: {diameters_in_words(holes.others)}.",
+            counts=_names_them(operation),
+            amount=float(len(holes.others)),
+        )
+    for kept, why in ((holes.narrow, verb.narrow), (holes.held, "under a clamp or too near to one")):
+        if kept:
+            first = f"({kept[0].x:.3f}, {kept[0].y:.3f})"
+            where = f"the circle at {first} is" if len(kept) == 1 else f"{len(kept)} circles, the first at {first}, are"
+            yield Finding(
+                FindingKind.LEFT_OUT,
+                f"{who}: {where} {why} and not {verb.done}.",
+                kept[0].x,
+                kept[0].y,
+                amount=float(len(kept)),
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class MadeHole:
+    """A hole that is there: how wide and how deep with all its width, mm; 0 = there is none."""
+
+    diameter: float = 0.0
+    depth: float = 0.0
+
+
+class HolesBefore:
+    """The holes that operations before one in the list make, by where they are."""
+
+    def __init__(self, job: Job, drawn: DrawnContours, index: int) -> None:
+        """Find the holes of all operations before `index`."""
+        self._made: dict[tuple[int, int], MadeHole] = {}
+        for each in job.operations[:index]:
+            if (
+                isinstance(each, HoleOperation)
+                and each.cut.enabled
+                and not (each.CARVES or each.TAPS or each.on_bosses)
+            ):
+                depth, tool = each.cut.floor + each.beyond, job.tool(each.cut.tool)
+                for hole in holes_of(job, drawn, each).drilled:
+                    self._add(hole, MadeHole(each.made(hole.diameter, tool), depth))
+
+    def _add(self, hole: CircleHole, made: MadeHole) -> None:
+        key = round(hole.x / _HERE), round(hole.y / _HERE)
+        if made.diameter > self.at(hole).diameter:
+            self._made[key] = made
+
+    def at(self, hole: CircleHole) -> MadeHole:
+        """Return the widest hole round the centre of a circle."""
+        x, y = round(hole.x / _HERE), round(hole.y / _HERE)
+        near = (self._made.get((x + dx, y + dy)) for dx in (-1, 0, 1) for dy in (-1, 0, 1))
+        return max((each for each in near if each), key=lambda each: each.diameter, default=MadeHole())
+
+
+def _names_them(operation: HoleOperation) -> bool:
+    """Tell whether an operation names the very circles that it works on, so that each of them counts."""
+    curves = operation.cut.curves
+    return bool(curves) and all(isinstance(each, CurveNumber | CirclesOf) for each in curves)
+
+
+def _counted(holes: Sequence[CircleHole]) -> str:
+    return "1 circle" if len(holes) == 1 else f"{len(holes)} circles"
+
+
+def diameters_in_words(holes: Sequence[CircleHole]) -> str:
+    """Return diameters in words, and how many of each."""
+    counts = Counter(f"{hole.diameter:.3f}".rstrip("0").rstrip(".") for hole in holes)
+    named = [f"{text} mm ({count})" for text, count in sorted(counts.items(), key=lambda item: float(item[0]))[:_NAMED]]
+    return ", ".join(named) + (f" and {len(counts) - _NAMED} more" if len(counts) > _NAMED else "")

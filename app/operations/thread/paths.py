@@ -1,0 +1,163 @@
+"""Thread milling: right-handed threads on a helix of the pitch, in and out on half circles.
+
+Climb milling goes round counter-clockwise and up in a hole, clockwise and down on a boss. The half circle through the
+hole's middle stays on the thread's own surface: seen from the axis it turns half as fast as it goes round, so that it
+rises by a quarter of the pitch.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.errors import ParameterError
+from ...core.progress import Progress
+from ...model.finding import Finding, FindingKind
+from ...model.hole_operations import ThreadOperation
+from ...model.moves import Purpose
+from ...model.operation import Direction
+from ...model.tool import Tool
+from ...toolpath.build import Stroke, StrokeLabel
+from ...toolpath.drill_holes import CircleHole
+from ...toolpath.operation_context import OperationContext
+from ..helix import HelixRows, half_circle, helix
+from ..holes import HolesBefore, HoleVerb, holes_in_order, out_of_hole, over_hole
+from .form import correction
+
+VERB = HoleVerb("thread", "threads", "threaded", "thread mill", "too narrow for the mill")
+
+
+@dataclass(frozen=True)
+class ThreadWay:
+    """The way of a thread mill round one axis.
+
+    Attributes:
+        radius: of its centre's helix, mm. lead: height that a half circle in or out takes, mm.
+        starts: height of the lower end of each pass, mm. turns: of each.
+        pitch: mm. ccw: seen from above; then it goes up, else down.
+        beside: how far from the axis each half circle begins, mm: 0 in a hole.
+        feed: of the mill's centre, mm/min.
+    """
+
+    radius: float
+    lead: float
+    starts: tuple[float, ...]
+    turns: int
+    pitch: float
+    ccw: bool
+    beside: float
+    feed: float
+
+
+def teeth_of(tool: Tool, pitch: float) -> int:
+    """Return how many turns of a thread a mill cuts at once: as many as its flutes are pitches long; 1 = a single
+    point.
+    """
+    return max(1, math.floor(tool.flute_length / pitch + 1e-9))
+
+
+def way_of(operation: ThreadOperation, tool: Tool) -> ThreadWay:
+    """Return the way of a thread mill round an axis.
+
+    Raises:
+        ParameterError: the thread is shorter than a half of its pitch.
+    """
+    thread, cut = operation.thread, operation.cut
+    pitch, teeth = thread.pitch, teeth_of(tool, thread.pitch)
+    ccw = (cut.direction is Direction.CLIMB) != operation.external
+    if operation.external:
+        radius = thread.bolt_core / 2 + tool.radius + correction(thread, tool.radius, True)
+        lead, beside = pitch * operation.lead(tool) / (2 * radius), radius + 2 * operation.lead(tool)
+        feed = tool.feed_rate
+    else:
+        radius = thread.major / 2 - tool.radius - correction(thread, tool.radius, False)
+        lead, beside = pitch / 4, 0.0
+        feed = tool.feed_rate * radius / (radius + tool.radius)  # of its edge at the wall: the tool's own
+    if cut.depth <= lead + pitch / 4:
+        raise ParameterError(
+            f"Depth is {cut.depth:g} mm, which is not even half a turn of {thread.value}; make the thread longer."
+        )
+    first = lead - cut.depth
+    if teeth == 1:
+        return ThreadWay(radius, lead, (first,), math.ceil(-first / pitch - 1e-9), pitch, ccw, beside, feed)
+    passes = math.ceil(-first / (teeth * pitch) - 1e-9)
+    starts = tuple(first + k * teeth * pitch for k in range(passes))
+    return ThreadWay(radius, lead, starts if ccw else starts[::-1], 1, pitch, ccw, beside, feed)
+
+
+def thread(context: OperationContext, index: int, progress: Progress) -> None:
+    """Mill the thread in, or on, every circle that is one for it.
+
+    Raises:
+        ParameterError: it is deeper than the stock, or shorter than a turn.
+        Cancelled: by progress.
+    """
+    job = context.job
+    operation = job.operations[index]
+    assert isinstance(operation, ThreadOperation)
+    tool = job.tool(operation.cut.tool)
+    way, unready = way_of(operation, tool), []
+    made = HolesBefore(job, context.areas.drawn, index)
+    for hole, label in holes_in_order(context, index, VERB, progress):
+        before = made.at(hole)
+        if not operation.external and (
+            before.diameter < operation.core - 1e-3 or before.depth < operation.cut.depth - 1e-9
+        ):
+            unready.append(hole)
+        _cut_thread(context, hole, way, label)
+    if unready:
+        context.findings.append(_unready(unready, operation))
+    context.findings.append(_turns_finding(operation, tool, way))
+
+
+def _cut_thread(context: OperationContext, hole: CircleHole, way: ThreadWay, label: StrokeLabel) -> None:
+    """Append the passes round one axis."""
+    builder, centre = context.builder, (hole.x, hole.y)
+    place, wall = (hole.x + way.beside, hole.y), (hole.x + way.radius, hole.y)
+    rise = way.turns * way.pitch
+    over_hole(context, place, label)
+    for low in way.starts:
+        ends = (low, low + rise) if way.ccw else (low + rise, low)
+        lead = way.lead if way.ccw else -way.lead
+        builder.straight((*place, ends[0] - lead), Purpose.PLUNGE, label)
+        turning = way.ccw != bool(way.beside)
+        ways = (
+            (half_circle(place, wall, (ends[0] - lead, ends[0]), turning), Purpose.LEAD),
+            (helix(centre, way.radius, ends, way.turns, way.ccw), Purpose.CONTOUR),
+            (half_circle(wall, place, (ends[1], ends[1] + lead), turning), Purpose.LEAD),
+        )
+        for each, purpose in ways:
+            _append(context, each, purpose, way.feed, label)
+    context.strokes += len(way.starts)
+    out_of_hole(context, label)
+
+
+def _append(context: OperationContext, way: HelixRows, purpose: Purpose, feed: float, label: StrokeLabel) -> None:
+    stroke = Stroke(way.rows, np.full(len(way.rows), purpose, np.uint8), 0)
+    context.builder.along(stroke, way.heights, label, np.full(len(way.rows), feed))
+
+
+def _unready(holes: list[CircleHole], operation: ThreadOperation) -> Finding:
+    first, thread = holes[0], operation.thread
+    text = (
+        f"No operation before it makes {'the hole' if len(holes) == 1 else f'{len(holes)} of the holes'} at "
+        f"({first.x:.3f}, {first.y:.3f}) as wide as the core of {thread.value}, {operation.core:.3f} mm, and "
+        f"{operation.cut.depth:g} mm deep; drill or bore it first."
+    )
+    return Finding(FindingKind.ENGAGEMENT, text, first.x, first.y, amount=float(len(holes)))
+
+
+def _turns_finding(operation: ThreadOperation, tool: Tool, way: ThreadWay) -> Finding:
+    """Return how the thread is cut, and what the cut shows of it."""
+    passes = len(way.starts)
+    how = f"{way.turns} turns with one tooth" if teeth_of(tool, way.pitch) == 1 else f"{passes} x 1 turn with all teeth"
+    short = correction(operation.thread, tool.radius, operation.external)
+    moved = f", {short:.4f} mm farther from the wall for the form of the flanks"
+    text = (
+        f"T{tool.number} mills {operation.thread.value} {'on the boss' if operation.external else 'in the hole'}: "
+        f"{how}, {'up' if way.ccw else 'down'}{moved}. The cut shows no turns of a thread, only the "
+        "core within the mill's teeth."
+    )
+    return Finding(FindingKind.ASSUMED, text, counts=False)

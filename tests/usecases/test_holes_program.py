@@ -1,0 +1,313 @@
+"""Holes, chamfers and facing as a whole: from the drawing to the proven text, on every control, read by LinuxCNC itself."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.core.errors import HitofudeError, ParameterError
+from app.core.resources import resource
+from app.formats.job.toml import read_job
+from app.gcode.posts.posts import post_names
+from app.model.finding import FindingKind
+from app.model.moves import MoveKind, Purpose
+from app.operations.compute import compute
+from app.usecases.make import MakeResult, finish, make
+from app.usecases.options import MakeOptions
+from tests.gcode.rs274_oracle import exact_motions
+
+TOOLS = """
+[stock]
+thickness = 10.0
+under = 5.0
+margin = 8.0
+[[tool]]
+number = 1
+diameter = 6.0
+[[tool]]
+number = 2
+kind = "drill"
+diameter = 5.0
+tip_angle = 118
+[[tool]]
+number = 3
+kind = "tap"
+diameter = 6.0
+spindle_speed = 500
+[[tool]]
+number = 4
+kind = "v"
+diameter = 14.0
+tip_angle = 90
+[[tool]]
+number = 5
+kind = "reamer"
+diameter = 5.1
+[[tool]]
+number = 6
+kind = "thread-mill"
+diameter = 4.0
+"""
+PLATE = "rectangle 0,0 60,40\ncircle 15,20 3\ncircle 45,20 3\n"
+DRILL = '[[operation]]\nkind = "drill"\ntool = 2\ndepth = 10\nthrough = 0.5\nleast = 5\nmost = 6\n'
+TAP = DRILL + '[[operation]]\nkind = "tap"\ntool = 3\ndepth = 10\nthread = "M6"\n'
+
+
+def made_of(operations: str, drawing: str = PLATE, post: str = "linuxcnc", tools: str = TOOLS) -> MakeResult:
+    text = f'{tools}{operations}\n[output]\npost = "{post}"\n'
+    return make("part.draw", drawing.encode(), MakeOptions(job=read_job("job", text.encode()).job))
+
+
+def report_of(made: MakeResult) -> dict:
+    return json.loads(made.report.text())
+
+
+def blocks(made: MakeResult) -> list[str]:
+    return [line for line in made.files[0].nc.text.splitlines() if not line.startswith(("(", ";"))]
+
+
+def assert_same_cuts(made: MakeResult) -> None:
+    """LinuxCNC's own interpreter cuts from where to where the moves do, at their feeds, cycles unrolled."""
+    read = [each for each in exact_motions(made.nc.text) if each.kind is not MoveKind.RAPID]
+    moves = made.program.moves
+    cuts = (moves.kind != MoveKind.RAPID) & (moves.lengths() > 1e-9)
+    assert [int(each.kind) for each in read] == moves.kind[cuts].tolist()
+    for told, meant in (("start", moves.start), ("end", moves.end)):
+        assert np.array([getattr(each, told) for each in read]) == pytest.approx(meant[cuts], abs=1e-3)
+    assert np.array([each.feed for each in read]) == pytest.approx(moves.feed[cuts], abs=0.051)
+    centre = np.array([(each.centre.real, each.centre.imag) for each in read if each.centre is not None]).reshape(-1, 2)
+    assert centre == pytest.approx(moves.centre[cuts & (moves.kind >= MoveKind.ARC_CW)], abs=1e-3)
+
+
+# What each kind cuts, by closed forms, and LinuxCNC's own reading
+
+BORE = '[[operation]]\nkind = "bore"\ntool = 1\ndepth = 4\nstepdown = 1\n'
+CHAMFER = '[[operation]]\nkind = "chamfer"\ntool = 4\nwidth = 1.0\ntip_offset = 0.3\nside = "{}"\n'
+KINDS = {
+    "bore": (BORE, "circle 20,20 8\n", math.pi * 64 * 4),
+    "countersink": ('[[operation]]\nkind = "countersink"\ntool = 4\n', PLATE, 2 * math.pi * 9 * 3 / 3),
+    "chamfer inside": (CHAMFER.format("inside"), "circle 20,20 10\n", math.tau * 9.7 * 1.3**2),
+    "chamfer outside": (CHAMFER.format("outside"), "circle 20,20 10\n", math.tau * 10.3 * 1.3**2),
+    "face": ('[[operation]]\nkind = "face"\ntool = 1\n', "rectangle 0,0 60,40\n", 76 * 56 * 0.5),
+}
+"""Operations, a drawing, and what they remove, mm3."""
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def one_kind(request: pytest.FixtureRequest) -> tuple[MakeResult, float]:
+    operations, drawing, volume = KINDS[request.param]
+    tools = TOOLS.replace("[[tool]]", "above = 0.5\n[[tool]]", 1) if request.param == "face" else TOOLS
+    return made_of(operations, drawing, tools=tools), volume
+
+
+def test_it_removes_what_it_should_and_nothing_else(one_kind: tuple[MakeResult, float]) -> None:
+    made, volume = one_kind
+    report = report_of(made)
+    assert made.clean and report["gouge"]["max_mm"] < 1e-6 and report["cut"]["gouged_places"] == 0
+    assert report["cut"]["removed_mm3"] == pytest.approx(volume, rel=1e-3)
+
+
+def test_linuxcnc_reads_the_same_motion(one_kind: tuple[MakeResult, float]) -> None:
+    made, _ = one_kind
+    assert_same_cuts(made)
+
+
+def test_a_chamfered_boss_has_the_volume_of_a_cone() -> None:
+    """A pocket clears round it, below the chamfer: what the chamfer takes is the ring alone."""
+    pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 2\n'
+    ring, drawing = CHAMFER.format("inside"), "circle 20,20 30\ncircle 20,20 10\n"
+    plain, edged = (report_of(made_of(each, drawing))["cut"]["removed_mm3"] for each in (pocket, pocket + ring))
+    rings = math.tau * ((10 - 1 / 3) + (30 + 1 / 3)) / 2  # a triangle of 1 x 1 mm, turned about the axis
+    assert edged - plain == pytest.approx(rings, rel=0.01)
+
+
+# Each is proven: a path that is broken on purpose is found
+
+
+def broken(made: MakeResult, operation: int, **off: float) -> MakeResult:
+    """The program again, computed anew, with what an operation cuts off by so much along an axis or in its feed."""
+    program = compute(made.job)
+    moves = program.moves
+    mine = (moves.operation == operation) & (moves.purpose != Purpose.RAPID)
+    end, feed = moves.end.copy(), moves.feed.copy()
+    for axis, by in off.items():
+        if axis == "feed":
+            feed[mine] *= by
+        else:
+            end[mine & (end[:, 2] < 0), "xyz".index(axis)] += by
+    return finish(replace(program, moves=replace(moves, end=end, feed=feed)), made.job)
+
+
+@pytest.mark.parametrize(
+    ("kind", "axis", "by", "found"),
+    [
+        ("bore", "z", -0.02, FindingKind.GOUGE),
+        ("bore", "z", 0.02, FindingKind.LEFT_REACHABLE),
+        ("countersink", "z", -0.02, FindingKind.GOUGE),
+        ("countersink", "z", 0.02, FindingKind.LEFT_REACHABLE),
+        ("chamfer inside", "z", -0.02, FindingKind.GOUGE),
+        ("chamfer outside", "z", 0.02, FindingKind.LEFT_REACHABLE),
+    ],
+)
+def test_a_path_that_is_off_is_found(kind: str, axis: str, by: float, found: FindingKind) -> None:
+    operations, drawing, _ = KINDS[kind]
+    made = broken(made_of(operations, drawing), 0, **{axis: by})
+    assert [each for each in made.findings if each.counts and each.kind is found]
+
+
+def test_a_tap_with_another_feed_is_found() -> None:
+    made = made_of(TAP)
+    assert made.clean
+    wrong = broken(made, 1, feed=1.1)
+    assert [each for each in wrong.findings if each.counts and "lead of M6 is off by 0.1000 mm a turn" in each.text]
+
+
+# Threads
+
+THREAD = DRILL + '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M6"\n'
+
+
+@pytest.mark.parametrize("direction", ["climb", "conventional"])
+@pytest.mark.parametrize("flutes", [1.0, 4.0, 20.0])
+def test_threads_have_their_lead_and_their_pitch_diameter(direction: str, flutes: float) -> None:
+    tools = TOOLS + f"flute_length = {flutes}\n"
+    made = made_of(THREAD + f'direction = "{direction}"\n', tools=tools)
+    thread = report_of(made)["operations"][1]["cut_thread"]
+    assert made.clean
+    assert thread["holes"] == 2 and thread["lead_off_mm"] < 1e-3 and thread["bare_mm"] == 0
+    assert abs(thread["pitch_diameter_off_mm"]) < 1e-3
+    assert_same_cuts(made)
+
+
+def test_a_thread_on_a_boss() -> None:
+    pocket = '[[operation]]\nkind = "pocket"\ntool = 1\ndepth = 9\n'
+    thread = '[[operation]]\nkind = "thread"\ntool = 6\ndepth = 8\nthread = "M16"\nexternal = true\n'
+    made = made_of(pocket + thread, "rectangle 0,0 60,40\ncircle 30,20 8\n")
+    found = report_of(made)["operations"][1]["cut_thread"]
+    assert made.clean and abs(found["pitch_diameter_off_mm"]) < 1e-3 and found["lead_off_mm"] < 1e-3
+
+
+def test_a_thread_that_is_off_is_found() -> None:
+    made = made_of(THREAD)
+    program = compute(made.job)
+    moves = program.moves
+    end = moves.end.copy()
+    end[(moves.operation == 1) & (end[:, 2] < 0), 2] *= 1.05  # the lead, and so all heights
+    wrong = finish(replace(program, moves=replace(moves, end=end)), made.job)
+    assert [each for each in wrong.findings if "The lead of M6 is off by 0.05" in each.text and each.counts]
+    narrow = made.job.tool(6)
+    thin = replace(made.job, tools=tuple(replace(t, diameter=3.96) if t is narrow else t for t in made.job.tools))
+    slim = finish(replace(program, moves=moves), thin)  # the path of a mill that is 0.02 mm wider a side
+    assert [each for each in slim.findings if "0.0400 mm too narrow" in each.text and each.counts]
+
+
+# Cycles, on every control
+
+
+@pytest.mark.parametrize("post", post_names())
+def test_waits_stand_at_the_bottoms_and_are_read_back(post: str) -> None:
+    made = made_of(DRILL + "dwell = 0.5\n", post=post)
+    text = "\n".join(blocks(made))
+    assert made.clean
+    if post == "grbl":
+        assert text.count("\nG4 P0.5\nG0 Z5.0000") == 2
+    else:
+        assert len(re.findall(r"G98 G82 X\S+ Y\S+ Z\S+ R\S+ P(?:500|0\.5) ", text)) == 1
+    pecked = made_of(DRILL + "dwell = 0.5\npeck = 4.0\n", post=post)  # no cycle pecks and waits
+    wait = "G4 P500" if post in ("fanuc", "haas") else "G4 P0.5"
+    assert pecked.clean and blocks(pecked).count(wait) == 2
+
+
+@pytest.mark.parametrize("post", ["fanuc", "haas", "linuxcnc", "mach3"])
+@pytest.mark.parametrize(("breaks", "word"), [("false", "G83"), ("true", "G73")])
+def test_pecking_cycles(post: str, breaks: str, word: str) -> None:
+    made = made_of(DRILL + f"peck = 3.0\nchip_break = {breaks}\n", post=post)
+    assert made.clean and len([line for line in blocks(made) if f"G98 {word}" in line]) == 1
+    if post == "linuxcnc":
+        assert_same_cuts(made)
+
+
+@pytest.mark.parametrize("post", ["fanuc", "haas", "linuxcnc"])
+def test_taps_are_written_as_cycles(post: str) -> None:
+    made = made_of(TAP, post=post)
+    text = "\n".join(blocks(made))
+    assert made.clean and report_of(made)["operations"][1]["cut_thread"]["lead_off_mm"] == 0
+    assert text.count("G84") == (2 if post == "linuxcnc" else 1) and "F500" in text
+    assert ("M29 S500\nG98 G84" in text) == (post == "fanuc")
+    if post == "linuxcnc":
+        assert_same_cuts(made)
+
+
+@pytest.mark.parametrize("post", ["grbl", "mach3"])
+def test_where_no_cycle_taps_the_program_is_refused(post: str) -> None:
+    with pytest.raises(ParameterError, match="has no cycle that taps"):
+        made_of(TAP, post=post)
+
+
+@pytest.mark.parametrize(
+    ("post", "change", "found"),
+    [
+        ("linuxcnc", ("P0.5", "P0.7"), "dwell here that was not meant"),
+        ("linuxcnc", ("G82", "G89"), "this is G1 where G0 was meant"),
+        ("fanuc", ("P500 F", "F"), "does not wait for 0.5 s"),
+    ],
+)
+def test_a_wait_that_is_wrong_is_found(post: str, change: tuple[str, str], found: str) -> None:
+    assert found in tampered(made_of(DRILL + "dwell = 0.5\n", post=post), *change)
+
+
+@pytest.mark.parametrize(
+    ("post", "change", "found"),
+    [
+        ("linuxcnc", ("G84", "G85"), "does not turn counter-clockwise"),
+        ("fanuc", ("M29 S500\n", ""), "stands before tapping is missing"),
+        ("fanuc", ("M29 S500", "M29 S600"), "none of the program's moves"),
+        ("fanuc", ("G98 G81", "M29 S500\nG98 G81"), ""),
+    ],
+)
+def test_a_tapping_cycle_that_is_wrong_is_found(post: str, change: tuple[str, str], found: str) -> None:
+    assert found in tampered(made_of(TAP, post=post), *change)
+
+
+def tampered(made: MakeResult, old: str, new: str) -> str:
+    """What the check says of the program's text with something else in it."""
+    from app.gcode.checks.check import CheckReference, check
+    from app.gcode.posts.posts import load_post
+
+    (file,) = made.files
+    assert old in file.nc.text
+    data = file.nc.text.replace(old, new, 1).encode()
+    found = check(data, file, CheckReference(made.program, made.job, load_post(made.job.post)))
+    assert found.problems
+    with pytest.raises(HitofudeError):
+        found.require("program")
+    return " ".join(each.text for each in found.problems)
+
+
+def test_what_a_program_tells_is_read_back() -> None:
+    from app.gcode.interpreter.options import ReadOptions
+    from app.gcode.interpreter.reader import read_program
+    from app.gcode.operation_notes import written
+    from app.gcode.posts.posts import load_post
+
+    made = made_of(THREAD + TAP.removeprefix(DRILL) + CHAMFER.format("outside"))
+    header = read_program(made.files[0].nc.text.encode(), ReadOptions(load_post("linuxcnc").dialect)).header
+    assert header is not None
+    read = [note.operation() for note in header.operations]
+    assert [type(each) for each in read] == [type(each) for each in made.job.operations]
+    for one, other in zip(read, made.job.operations, strict=True):
+        assert one is not None and written(one) == written(other)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("post", ["linuxcnc", "fanuc", "haas"])
+def test_the_sample_is_clean(post: str) -> None:
+    job = read_job("holes.toml", resource("samples", "holes.toml").read_bytes().replace(b"linuxcnc", post.encode())).job
+    made = make("holes.draw", resource("samples", "holes.draw").read_bytes(), MakeOptions(job=job))
+    assert made.clean
+    assert report_of(made)["operations"][0]["faced"]["left_mm2"] == 0
