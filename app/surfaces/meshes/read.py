@@ -34,7 +34,24 @@ def read_mesh(name: str, data: bytes) -> Floats:
         InputError: it cannot be read, was cut off, or holds no triangle.
     """
     suffix = name.lower().rpartition(".")[2]
-    triangles = stl_triangles(name, data) if suffix == "stl" else _by_library(name, data, suffix)
+    return stl_triangles(name, data) if suffix == "stl" else _sound(name, _by_library(name, data, suffix), suffix)
+
+
+def stl_triangles(name: str, data: bytes) -> Floats:
+    """Return the triangles (n, 3, 3) of an STL file, text or binary, n > 0, in its own units.
+
+    Raises:
+        InputError: it is none, was cut off, or holds no triangle.
+    """
+    return _sound(name, _stl(name, data), "stl")
+
+
+def _sound(name: str, triangles: Floats, suffix: str) -> Floats:
+    """Return triangles that a part may have.
+
+    Raises:
+        InputError: there is none, or a corner is no place of a part.
+    """
     if not len(triangles):
         raise InputError(f"{name}: there is no triangle in this {suffix.upper()} file; export it again.")
     if not (max(float(triangles.max()), -float(triangles.min())) < _SANE):
@@ -42,7 +59,7 @@ def read_mesh(name: str, data: bytes) -> Floats:
     return triangles
 
 
-def stl_triangles(name: str, data: bytes) -> Floats:
+def _stl(name: str, data: bytes) -> Floats:
     """Return the triangles (n, 3, 3) of an STL file, text or binary.
 
     Raises:
