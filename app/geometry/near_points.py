@@ -15,9 +15,6 @@ Indices = NDArray[np.int64]
 FEW = 100_000
 """Distances that are sooner worked out than a tree is imported."""
 
-_FEW_NEAREST = 5_000_000
-"""The same where but the least of them is wanted."""
-
 
 def pairs_within(points: Floats, reach: float) -> Indices:
     """Return the pairs (m, 2) of points within a distance of one another, the lower index first, in order.
@@ -74,8 +71,6 @@ def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices
         places: (k, d).
         count: 1 to n.
     """
-    if count == 1 and len(points) * len(places) <= _FEW_NEAREST:
-        return _nearest_one(points, places)
     if len(points) * len(places) <= FEW:
         distance = _distances(places, points)
         order = np.argsort(distance, axis=1, kind="stable")[:, :count]
@@ -84,16 +79,6 @@ def nearest(points: Floats, places: Floats, count: int) -> tuple[Floats, Indices
 
     far, which = cKDTree(points).query(places, np.arange(1, count + 1))
     return far, which.astype(np.int64)
-
-
-def _nearest_one(points: Floats, places: Floats) -> tuple[Floats, Indices]:
-    """Return `nearest` of one alone, so many places at a time as make a few distances."""
-    which = np.empty((len(places), 1), np.int64)
-    size = 1 + FEW // len(points)
-    for first in range(0, len(places), size):
-        which[first : first + size, 0] = np.argmin(_distances(places[first : first + size], points), axis=1)
-    square = ((places - points[which[:, 0]]) ** 2).sum(axis=1)
-    return np.sqrt(square)[:, None], which
 
 
 def groups(count: int, pairs: Indices) -> Indices:

@@ -62,16 +62,6 @@ def test_nearest(points, shift: float) -> None:
     assert np.linalg.norm(points[which] - (points + shift)[:, None], axis=2) == pytest.approx(few, abs=1e-12)
 
 
-def test_the_nearest_one_of_few_and_of_many(monkeypatch: pytest.MonkeyPatch) -> None:
-    places = np.random.default_rng(3).random((900, 4))
-    one = nearest(places[:500], places[300:], 1)
-    with monkeypatch.context() as patch:
-        patch.setattr(near_points, "_FEW_NEAREST", 0)
-        tree = nearest(places[:500], places[300:], 1)
-    assert one[0].shape == tree[0].shape and one[1].tolist() == tree[1].tolist()
-    assert one[0] == pytest.approx(tree[0], abs=1e-12)
-
-
 @SOME
 @given(given_pairs=pairs)
 def test_groups_are_numbered_by_their_first(given_pairs) -> None:
