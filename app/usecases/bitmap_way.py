@@ -23,7 +23,7 @@ from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, w
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import Operation, Order
+from ..model.operation import Operation, Order, PocketOperation
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
 from ..operations.contour.paths import contour_strokes

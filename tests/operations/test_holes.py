@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from app.core.errors import ParameterError
-from app.model.finding import FindingKind
 from app.model.hole_operations import BoreOperation, CountersinkOperation, ReamOperation, TapOperation, ThreadOperation
 from app.model.job import Job, Stock
 from app.model.moves import MoveKind, Program, Purpose
