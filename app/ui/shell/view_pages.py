@@ -59,6 +59,7 @@ class WindowState(Protocol):
     """What pages are told of the window's state."""
 
     stages_missing: MissingHint
+    film_missing: MissingHint
     writing: bool
 
 
@@ -128,6 +129,8 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         return window.import_panel.reading is not None
 
     def stages_missing() -> MissingHint:
+        if stages.text != "A":
+            return NOTHING if stages.films.film is not None else told.film_missing
         shows = stages.film is not None or picture()
         if not shows and drawn.part.entities:
             return told.stages_missing
@@ -136,6 +139,8 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
     def beside_stages() -> QWidget | None:
         if picture():
             return window.import_panel
+        if stages.text != "A":
+            return window.film_panel
         return window.stages_panel if drawn.part.entities else window.side
 
     def scene_missing() -> MissingHint:
