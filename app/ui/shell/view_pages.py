@@ -51,6 +51,7 @@ _NO_SCENE = {
     SceneState.PROVEN: SCENE_COMPUTING,
 }
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
+FILM_PROMPT = "Space plays, Left and Right step; Save all steps writes pictures and figures"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = MissingHint("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
@@ -150,7 +151,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         View.STAGES: ViewPage(
             stages,
             stages,
-            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT,
+            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT if stages.text == "A" else FILM_PROMPT,
             stages_missing,
             lambda: stages.summary,
             beside_stages,

@@ -31,6 +31,9 @@ def test_a_text_is_chosen_at_the_head_and_its_steps_are_shown(qtbot, wiring):
     assert window.film_panel.isVisible() and not window.stages_panel.isVisible() and not window.views.empty.isVisible()
     assert films.film.text.value == "E" and films.rail.count() == len(films.film.steps) and films.picture.shows
     assert window.film_panel.title.text() == "figure 2  The points"
+    image = films.picture.grab().toImage()
+    white = sum(image.pixelColor(x, image.height() // 2).lightness() > 250 for x in range(0, image.width(), 7))
+    assert white > 0.9 * len(range(0, image.width(), 7)), "lines on white paper"
     qtbot.keyClick(films.picture, Qt.Key.Key_End)
     assert films.at == len(films.film.steps) - 1 and "proven" in window.film_panel.figures
     qtbot.keyClick(films.picture, Qt.Key.Key_Left)

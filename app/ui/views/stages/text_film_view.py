@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,7 @@ from .step_list import WIDTH
 if TYPE_CHECKING:
     from ....exhibits.films.step import FilmStep, TextFilm
 
+_CLIP = re.compile(rb"<clipPath.*?</clipPath>", re.DOTALL)
 _ROW_PX = 26
 _EDGE_PX = 12
 
@@ -32,7 +34,8 @@ class SheetPicture(QWidget):
 
     def show_svg(self, data: bytes) -> None:
         """Show another picture; b"" = none."""
-        self._renderer = QSvgRenderer(QByteArray(data)) if data else QSvgRenderer()
+        plain = _CLIP.sub(b"", data)  # Qt's renderer knows no clip paths, and paints their shapes
+        self._renderer = QSvgRenderer(QByteArray(plain)) if data else QSvgRenderer()
         self.update()
 
     @property
