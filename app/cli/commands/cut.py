@@ -42,7 +42,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     _ensure_window(arguments.window, ready)
     done = cut(
         ready.setup,
-        CutOptions(arguments.grid, arguments.window, engine=Engine(arguments.engine)),
+        CutOptions(arguments.grid, arguments.window, engine=_engine(arguments), facet=arguments.facet),
         progress.part(0.25, 0.95),
     )
     report = cut_report(done, ready)
@@ -53,6 +53,11 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     if not arguments.quiet:
         tell("\n".join([report.summary(), *finding_lines(report.findings), *_warning_lines(report.warnings)]))
     return 1 if any(finding.counts for finding in report.findings) else 0
+
+
+def _engine(arguments: argparse.Namespace) -> Engine:
+    """Return the engine that is asked for: the published one where the size of its facets is."""
+    return Engine.PATENT if arguments.facet is not None else Engine(arguments.engine)
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
