@@ -37,6 +37,7 @@ from ..views.nc.program_reader import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.plot.panel import PlotPanel
 from ..views.stages.import_panel import ImportPanel
 from ..views.stages.panel import StagesPanel
+from ..views.stages.text_film_panel import TextFilmPanel
 from ..views.surfaces.scene_document import SceneDocument
 from ..views.surfaces.scene_tabs import SceneTabs
 from .actions import Actions
@@ -93,12 +94,14 @@ class MainWindow(QMainWindow):
         self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
         self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
+        self.film_panel = TextFilmPanel()
         self.scene = SceneDocument(self)
         self.scene_side = SceneTabs(self.scene)
         self.sides: list[QWidget] = [
             self.side,
             self.import_panel,
             self.stages_panel,
+            self.film_panel,
             self.cut_panel,
             self.cut_form,
             self.curves_panel,
