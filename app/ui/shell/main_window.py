@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
 
 from ...core.settings import Settings, ThemeChoice
@@ -197,6 +197,11 @@ class MainWindow(QMainWindow):
             if hasattr(widget, "set_theme"):
                 widget.set_theme(self.theme)
         self.actions_[f"theme_{choice.value}"].setChecked(True)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let what is beside the view have its share of a wide window."""
+        super().resizeEvent(event)
+        self.cut_panel.fit_beside(event.size().width())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
         """Welcome one drawing, solid, scene, picture or NC program."""
