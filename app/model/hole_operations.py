@@ -115,7 +115,9 @@ class CountersinkOperation(HoleOperation):
 
 @dataclass(frozen=True, slots=True)
 class BoreOperation(HoleOperation):
-    """Bore circles with a mill on a helix, and once round at the floor; with `diameter` a counterbore."""
+    """Bore circles with a mill on a helix of the entry's slope, and once round at the floor; with `diameter` a
+    counterbore.
+    """
 
     diameter: float | None = parameter(None, *_DIAMETER, low=LEAST_LENGTH, option=True, auto="the circle's own")
     finish_width: float = parameter(
@@ -133,7 +135,7 @@ class BoreOperation(HoleOperation):
     WORD = "bore"
     CLEARS = True
     LEVELS = True
-    UNUSED = frozenset({"finish_depth", "floor_to_leave", "entry", "entry_angle"})
+    UNUSED = frozenset({"finish_depth", "floor_to_leave", "entry"})
 
     @property
     def beyond(self) -> float:

@@ -24,6 +24,7 @@ from ..model.part import Region
 from ..model.tool import Tool
 from .linking.bridge import RingEdges, level_bridges
 from .linking.tree import BridgeForest
+from .narrow_kernels import widest_way
 
 _CHORD = 1e-3
 
@@ -268,24 +269,6 @@ def _widest_way(a: Floats, b: Floats, window: _Window, field: DistanceField) -> 
     axis, pitch = np.linspace(-half, half, side), 2 * half / (side - 1)
     points = (a + b) / 2 + np.stack(np.meshgrid(axis, axis, indexing="ij"), -1).reshape(-1, 2)
     room = field.nearest(points)[0]
-    number = np.arange(side**2).reshape(side, side)
-    sides = (
-        (number[1:], number[:-1]),
-        (number[:, 1:], number[:, :-1]),
-        (number[1:, 1:], number[:-1, :-1]),
-        (number[1:, :-1], number[:-1, 1:]),
-    )
-    pairs = np.concatenate([np.stack([one.ravel(), other.ravel()], 1) for one, other in sides])
-    pairs = pairs[room[pairs].sum(axis=1) > np.hypot(*(points[pairs[:, 0]] - points[pairs[:, 1]]).T)]
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
-
-    graph = coo_matrix((2 * room.max() - room[pairs].min(axis=1), (pairs[:, 0], pairs[:, 1])), (side**2, side**2))
     start, end = (int(np.argmin(np.hypot(*(points - point).T))) for point in (a, b))
-    before = breadth_first_order(minimum_spanning_tree(graph), start, directed=False)[1]
-    way = [end]
-    while way[-1] != start:
-        if before[way[-1]] < 0:
-            return _Way(points[:0], pitch)
-        way.append(int(before[way[-1]]))
+    way = widest_way(room, side, pitch, start, end)
     return _Way(points[way[::-1]], pitch)

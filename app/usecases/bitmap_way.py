@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..core.effort import announce
 from ..core.errors import ParameterError
 from ..core.progress import NO_PROGRESS, Progress
 from ..fitting.corner_smoothing.smooth import CornerSmoothingOptions
@@ -22,10 +23,11 @@ from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, w
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import Operation, Order
+from ..model.operation import Operation, Order, PocketOperation
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
 from ..operations.contour.paths import contour_strokes
+from ..operations.effort import workload_of
 from ..operations.pocket.paths import stepover_of, wall_distance
 from ..raster.border import Border, Index, borders_of
 from ..raster.levels import SAFE_PX, RingSteps, offset_area, ring_index
@@ -36,6 +38,7 @@ from ..toolpath.linking.link import link_by_proof
 from ..toolpath.machining_areas import MachiningArea, MachiningAreas
 from ..toolpath.operation_context import OperationContext, emit, passes_of
 from .bitmap_part import BitmapPart
+from .effort import bitmap_effort
 from .pixel_path import TOLERANCE_PX, WallLimits, chain_points, pixel_path
 
 LONG_LINE = 10.0
@@ -148,6 +151,7 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
     context = OperationContext(job, part.regions, MachiningAreas(job, DrawnContours()))
     walls = MachiningArea(part.regions, primitives, part.squares, np.zeros(len(primitives.rows), np.bool_))
     order, paths = [index for index in in_order(job) if job.operations[index].on_pixels], []
+    announce(bitmap_effort(part, _lengths(job, part, order)), progress)
     for k, index in enumerate(order):
         share = progress.part(k / len(order), (k + 1) / len(order))
         paths.append(operation_paths(job, index, part, share.part(0.0, 0.7)))
@@ -171,6 +175,21 @@ def compute_on_bitmap(job: Job, part: BitmapPart, progress: Progress = NO_PROGRE
         stepovers={each.index: each.distances[1] - each.distances[0] for each in paths if len(each.distances) > 1},
     )
     return BitmapProgram(program, tuple(paths), given_up, rough)
+
+
+def _lengths(job: Job, part: BitmapPart, order: Sequence[int]) -> list[float]:
+    """Return how long the paths of operations are, about, mm: over the floor of pockets a step apart, else as long as
+    the walls.
+    """
+    extent, found = workload_of(part.regions), []
+    for index in order:
+        operation, pitch = job.operations[index], part.frame.pitch
+        over = 0.0
+        if isinstance(operation, PocketOperation):
+            step = operation.stepover or job.tool(operation.cut.tool).radius - SPARE_STEP_PX * pitch
+            over = extent.area / max(step, pitch)
+        found.append(max(over, extent.length))
+    return found
 
 
 def _left_out(job: Job) -> list[Finding]:

@@ -98,6 +98,7 @@ class CutOptions:
             rapids in metal.
         stop: motions from this one on, counted through all files, are not done; None = all are. The engine of record
             tells alone then.
+        facet: size of the facets of the published engine, mm; None = about two cells.
     """
 
     cells: int = CELLS
@@ -106,6 +107,7 @@ class CutOptions:
     judge: bool = True
     engine: Engine = Engine.AUTO
     stop: int | None = None
+    facet: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,7 +252,7 @@ class _CutRun:
     def _cut(self, progress: Progress) -> _CutOutcome:
         accident: list[Finding] = []
         holders: HolderReport | None = None
-        engine = HeightEngine(self._engine(), self.graphics)
+        engine = HeightEngine(self._engine(), self.graphics, self.options.facet)
         cut: CutResult | None = None
         done, count = 0, len(self.courses)
         for k, known in enumerate(self.courses):

@@ -18,7 +18,7 @@ from ..core.progress import NO_PROGRESS, Progress
 from ..fitting.fitted import FittedPath, RefusalReason, SplineRefusal
 from ..fitting.line_arcs.arc_fit import ArcOptions, fit_arcs
 from ..fitting.point_curves.corners import bends, corners
-from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, without_repeats
+from ..fitting.point_curves.effective_method import EffectiveMethod, PointClasses, states_across, without_repeats
 from ..fitting.point_curves.proven_curve import SplineOptions, fit_splines
 from ..fitting.point_curves.region_profile import judge_in_profile
 from ..fitting.point_curves.smoothness import of_curve, of_points
@@ -169,6 +169,7 @@ class _SmoothingRun:
         self._tubes = (ToleranceTube(options.tolerance, options.middle),) if profile is None else profile.tried
         self._tried = [0] * len(own)
         self._classes: dict[int, PointClasses] = {}
+        self._states: dict[int, NDArray[np.uint8]] = {}
         self._refusals: dict[int, tuple[SplineRefusal, ...]] = {}
         self._rounds: dict[int, list[RoundFigures]] = {}
 
@@ -217,9 +218,8 @@ class _SmoothingRun:
                 f"{self._post.title}, {step:g} mm; use {5 * step:g} mm or more, or a post with more decimals."
             )
         if self._options.effective is not None:
-            classes = self._options.effective.classes(
-                points, corners(points, self._options.corner, REACH * self._widest)
-            )
+            at = corners(points, self._options.corner, REACH * self._widest)
+            classes = self._options.effective.classes(points, at, self._across(self._options.effective).get(k))
             self._classes[k] = classes
             points, spent = classes.passed, classes.off
             if len(points) < 2:  # a closed path that one range holds: only its seam is effective
@@ -270,6 +270,17 @@ class _SmoothingRun:
         if form is not OutputForm.NURBS:
             return path
         return replace(path, refusals=(SplineRefusal(RefusalReason.CONTROL, 0, len(path.motions)),))
+
+    def _across(self, method: EffectiveMethod) -> dict[int, NDArray[np.uint8]]:
+        """Return what the points of stretches are by the facets of the surface that they lie on, where that is asked
+        for; found once.
+        """
+        if method.across and not self._states:
+            numbers = [k for k, points in enumerate(self._points) if len(points) > 2]
+            paths = [self._points[k] for k in numbers]
+            at = [corners(points, self._options.corner, REACH * self._widest) for points in paths]
+            self._states = dict(zip(numbers, states_across(paths, at, method.choose.epsilon), strict=True))
+        return self._states
 
     def _near(self, method: EffectiveMethod, slack: float, between: float) -> ToleranceTube:
         """Return the region round the points that method D goes by: near to them, as wide as may be between them."""

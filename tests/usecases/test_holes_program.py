@@ -1,4 +1,6 @@
-"""Holes, chamfers and facing as a whole: from the drawing to the proven text, on every control, read by LinuxCNC itself."""
+"""Holes, chamfers and facing as a whole: from the drawing to the proven text, on every control, read by LinuxCNC
+itself.
+"""
 
 from __future__ import annotations
 

@@ -16,6 +16,7 @@ from app.formats.job.toml import read_job
 from app.formats.job.write import job_lines
 from app.formats.readers import read_drawing
 from app.model.curve_selectors import CirclesOf, ContourKind, CurveNumber
+from app.model.hole_operations import BoreOperation
 from app.model.job import Copies, Job
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, RestOperation, Side
 from app.model.tool import Tool, ToolKind
@@ -127,7 +128,7 @@ def test_islands_stand_in_pockets_and_holes_in_them_are_drilled() -> None:
     proposal = proposed(lines)
     assert words(proposal)[:2] == ["drill circles:6", "pocket #5 #9"]
     assert "1 island in it left standing" in proposal.operations[1].why
-    assert words(proposal)[-2:] == ["contour circles:5.22", "contour outer"]
+    assert words(proposal)[-2:] == ["bore circles:5.22", "contour outer"]
 
 
 def test_several_parts_are_cut_out_together_and_nested_ones_stay_in_their_pocket() -> None:
@@ -155,7 +156,7 @@ def test_open_lines_and_letters_are_engraved() -> None:
     assert proposal.job.tool(line.operation.cut.tool).kind is ToolKind.V and line.operation.cut.depth == 0.3
     plate = (ROOT / "resources/samples/nameplate.draw").read_bytes()
     assert words(propose(Job(read_drawing("n.draw", plate).part))) == [
-        "contour circles:3.2",
+        "bore circles:3.2",
         "contour layer:engraving",
         "contour outer",
     ]
@@ -175,10 +176,10 @@ def test_equal_circles_take_the_drill_of_their_size_if_there_is_one() -> None:
     tools = (Tool(1, 4.0), Tool(2, 5.0, ToolKind.DRILL))
     lines = "rect 0,0 60,40; circle 10,10 2.5; circle 20,10 2.5; circle 40,20 3; circle 50,30 9"
     proposal = proposed(lines, ProposalOptions(tools))
-    assert words(proposal) == ["drill circles:5", "contour circles:6", "contour circles:18", "contour outer"]
+    assert words(proposal) == ["drill circles:5", "bore circles:6", "contour circles:18", "contour outer"]
     small, large = (each.operation for each in proposal.operations[1:3])
-    assert isinstance(small, ContourOperation) and isinstance(large, ContourOperation)
-    assert (small.tabs.count, large.tabs.count) == (0, 3)  # 4 mm leaves nothing in 6 mm, and a disc in 18 mm
+    assert isinstance(small, BoreOperation) and isinstance(large, ContourOperation)
+    assert large.tabs.count == 3  # 4 mm leaves nothing in 6 mm, and a disc in 18 mm
 
 
 def test_tools_reach_the_depth_and_fit_between_the_walls() -> None:
@@ -239,7 +240,7 @@ def test_the_areas_of_random_nested_parts(seed: int) -> None:
         size = float(shapely.union_all(region_shapes(area.regions, 1e-4)).area)
         if isinstance(operation, PocketOperation):
             by_kind["cleared"] += size
-        elif isinstance(operation, DrillOperation) or (
+        elif isinstance(operation, DrillOperation | BoreOperation) or (
             isinstance(operation, ContourOperation)
             and operation.side is Side.INSIDE
             and all(isinstance(each, CirclesOf) for each in operation.cut.curves)

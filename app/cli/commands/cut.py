@@ -28,7 +28,7 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     ensure_window(arguments.window, ready)
     done = cut(
         ready.setup,
-        CutOptions(arguments.grid, arguments.window, engine=Engine(arguments.engine)),
+        CutOptions(arguments.grid, arguments.window, engine=_engine(arguments), facet=arguments.facet),
         progress.part(0.25, 0.95),
     )
     report = cut_report(done, ready)
@@ -36,6 +36,11 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     texts = by_path(outputs, cut_texts(done, report, ready.programs[0].name, set(outputs)))
     counts = any(finding.counts for finding in report.findings)
     return CommandOutcome(texts, lines, counts).delivered(arguments, progress)
+
+
+def _engine(arguments: argparse.Namespace) -> Engine:
+    """Return the engine that is asked for: the published one where the size of its facets is."""
+    return Engine.PATENT if arguments.facet is not None else Engine(arguments.engine)
 
 
 def _warning_lines(warnings: tuple[str, ...]) -> list[str]:

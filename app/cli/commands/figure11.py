@@ -12,11 +12,12 @@ from ...core.atomic import write_together
 from ...core.errors import InputError
 from ...exhibits.die_programs import PROGRAMS
 from ...exhibits.figure_eleven import FigureOptions, figure_eleven
+from ...exhibits.films.program_input import program_input
 from ..command import CliCommand, OptionParser
-from ..files import check_outputs, shown_progress
+from ..files import check_outputs, read_input, shown_progress
 from ..output import tell
 from ..signals import StopFlag, undisturbed
-from ..values import typed
+from ..values import number, typed
 
 LEAST_CELLS, MOST_CELLS, MOST_RUNS = 16, 4096, 100
 _USUAL = FigureOptions()
@@ -31,10 +32,11 @@ cannot be used; 130: cancelled.
 def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     """Do the work and return the exit status, 0."""
     if arguments.report is not None:
-        check_outputs({"report": arguments.report}, [])
-    done = figure_eleven(
-        FigureOptions(arguments.programs, arguments.grid, arguments.repeat), shown_progress(arguments.quiet, stopped)
-    )
+        check_outputs({"report": arguments.report}, arguments.own)
+    progress = shown_progress(arguments.quiet, stopped)
+    own = tuple(program_input(path.name, read_input(path)) for path in arguments.own)
+    names = arguments.programs if arguments.programs is not None else () if own else tuple(PROGRAMS)
+    done = figure_eleven(FigureOptions(names, arguments.grid, arguments.repeat, own, arguments.facet), progress)
     if arguments.report is not None:
         with undisturbed():
             write_together({arguments.report: (json.dumps(done.report(), indent=2, allow_nan=False) + "\n").encode()})
@@ -45,7 +47,24 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
 
 def _add_options(parser: OptionParser) -> None:
     parser.add_argument(
-        "--programs", metavar="A,B,C", type=typed(_programs), default=tuple(PROGRAMS), help="which (default all)"
+        "own",
+        metavar="PROGRAM.ngc",
+        type=Path,
+        nargs="*",
+        help="NC programs to measure by, as `make` and `surface` write",
+    )
+    parser.add_argument(
+        "--programs",
+        metavar="A,B,C",
+        type=typed(_programs),
+        help="which of the zigzags over the die (default all, none beside own programs)",
+    )
+    parser.add_argument(
+        "--facet",
+        metavar="D,...",
+        type=_facets,
+        default=(),
+        help="sizes of facets (mm) that the published way is tried with beside two cells, to compare",
     )
     parser.add_argument(
         "--grid",
@@ -63,6 +82,10 @@ def _add_options(parser: OptionParser) -> None:
     )
     parser.add_argument("--report", metavar="R.json", type=Path, help="everything that was measured, as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def _facets(text: str) -> tuple[float, ...]:
+    return tuple(number("facet")(part) for part in text.split(","))
 
 
 def _programs(text: str) -> tuple[str, ...]:

@@ -20,8 +20,8 @@ from ...surfaces.patches.patch import BsplineSurface
 from ...surfaces.sections.compound import NO_SURFACE, BoundaryKind, PlaneSection
 from ...usecases.surface import ComputedFamily, ComputedScene, compute
 from ...usecases.surface_nc import WrittenScene, write_scene_nc
-from .sketch import BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, INK, LINE, RED, Sketch, seen
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
+from .step_drawing import BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, INK, LINE, RED, StepDrawing, seen
 
 _LINES = {LineType.SOLID: (), LineType.DOTTED: DOTTED, LineType.CHAIN: CHAIN}
 _NET = 9
@@ -41,11 +41,11 @@ def compound_film(name: str, data: bytes, sources: SceneFiles, progress: Progres
     if not computed.families:
         raise InputError(f"{name} has no passes that are switched on; a film needs some.")
     written = write_scene_nc(computed, progress.part(0.6, 1.0))
-    work = _Work(computed, written)
+    work = _CompoundSteps(computed, written)
     return TextFilm(PublishedText.C, name, tuple(step() for step in work.all))
 
 
-class _Work:
+class _CompoundSteps:
     """One scene, its first family of passes, and one of its planes: that with the most boundary points."""
 
     def __init__(self, computed: ComputedScene, written: WrittenScene) -> None:
@@ -85,9 +85,9 @@ class _Work:
         usual = (LineType.SOLID, LineType.DOTTED, LineType.CHAIN)[max(number, 0) % 3]
         return _LINES[usual if kind is LineType.AUTO else kind]
 
-    def _nets(self) -> Sketch:
+    def _nets(self) -> StepDrawing:
         """Return the surfaces as nets of lines, seen from the side and above."""
-        sketch = Sketch()
+        sketch = StepDrawing()
         for number, built in enumerate(self.computed.built):
             for spline in built.splines:
                 for line in _net(spline):
@@ -120,8 +120,8 @@ class _Work:
             table,
         )
 
-    def _seen_from_above(self) -> Sketch:
-        sketch = Sketch()
+    def _seen_from_above(self) -> StepDrawing:
+        sketch = StepDrawing()
         stock = self.computed.stock
         corners = np.array([[stock.x0, stock.y0], [stock.x1, stock.y0], [stock.x1, stock.y1], [stock.x0, stock.y1]])
         sketch.line(np.vstack([corners, corners[:1]]), FAINT, LINE)
@@ -190,7 +190,7 @@ class _Work:
 
     def sections(self) -> FilmStep:
         """Return (e): every surface's section curve."""
-        sketch = Sketch()
+        sketch = StepDrawing()
         rows = [("surface", "points")]
         for curve in self._curves():
             sketch.line(self._flat(curve.points), self._colour(curve.owner), LINE)
@@ -208,7 +208,7 @@ class _Work:
 
     def topmost(self) -> FilmStep:
         """Return (f): the topmost points, and where they pass from surface to surface."""
-        sketch, found = Sketch(), self.surface.boundaries
+        sketch, found = StepDrawing(), self.surface.boundaries
         for curve in self._curves():
             sketch.line(self._flat(curve.points), FAINT, FINE)
         for run in self.surface.runs:
@@ -268,8 +268,8 @@ class _Work:
             places.append(evaluated(splines[0], float(at[0]), float(at[1])))
         return float(abs(places[0][2] - places[1][2]))
 
-    def _all_runs(self, told_apart: bool) -> Sketch:
-        sketch = Sketch()
+    def _all_runs(self, told_apart: bool) -> StepDrawing:
+        sketch = StepDrawing()
         for run in self.surface.runs:
             flat, edges = seen(run.points), np.flatnonzero(np.diff(run.owner)) + 1
             for part in np.split(np.arange(len(run.owner)), edges):
@@ -318,7 +318,7 @@ class _Work:
 
     def checked(self) -> FilmStep:
         """Return (i): look, correct, make NC data."""
-        sketch = Sketch()
+        sketch = StepDrawing()
         blocks = 0
         for program in self.written.programs:
             for line in _cut_lines(program):

@@ -27,8 +27,8 @@ from ...simulation.sweeps.course import Course
 from ...simulation.sweeps.trim import trim
 from ..die_programs import STOCK, DieProgram
 from .depth_raster import drawn
-from .sketch import AMBER, AREA, BLUE, BOLD, FAINT, FINE, GREEN, INK, LINE, RED, Sketch, seen
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
+from .step_drawing import AMBER, AREA, BLUE, BOLD, FAINT, FINE, GREEN, INK, LINE, RED, StepDrawing, seen
 
 SAMPLE = DieProgram(1200, 5.0, 31)
 """A zigzag over the die of figure 11, coarse enough to be followed."""
@@ -78,7 +78,7 @@ def dexel_film(given: CutFilmInput, progress: Progress = NO_PROGRESS) -> TextFil
         InputError: no ball cutter cuts in it, or far too many facets would have to be drawn.
         Cancelled: the job was asked to stop.
     """
-    work = _Work(given, progress)
+    work = _DexelSteps(given, progress)
     return TextFilm(PublishedText.B, given.name, tuple(step() for step in work.all))
 
 
@@ -93,7 +93,7 @@ def zoomed(grid: Grid, by: float, place: tuple[float, float]) -> Grid:
     return Grid.over((x - half[0], y - half[1], x + half[0], y + half[1]), max(grid.rows, grid.cols))
 
 
-class _Work:
+class _DexelSteps:
     """One program on two grids: over all of its stock, and over a part."""
 
     def __init__(self, given: CutFilmInput, progress: Progress) -> None:
@@ -205,7 +205,7 @@ class _Work:
 
     def entered(self) -> FilmStep:
         """Return S100."""
-        sketch = Sketch()
+        sketch = StepDrawing()
         x0, y0, x1, y1 = self.given.stock.box
         sketch.area(np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]))
         for part in _runs(self.chains):
@@ -226,7 +226,7 @@ class _Work:
 
     def zoom(self) -> FilmStep:
         """Return S101."""
-        sketch = Sketch()
+        sketch = StepDrawing()
         x0, y0, x1, y1 = self.given.stock.box
         sketch.line(np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]]), FAINT, LINE)
         a, b, c, d = self.grid.box
@@ -249,9 +249,9 @@ class _Work:
         """Return the row of cells that sections show: that through the bend."""
         return int(np.argmin(np.abs(self.grid.ys() - self.tips[1, 1])))
 
-    def _columns(self, heights: Floats, colour: str = AREA) -> Sketch:
+    def _columns(self, heights: Floats, colour: str = AREA) -> StepDrawing:
         """Return a row of dexels from the side."""
-        sketch, w = Sketch(), self.grid.pitch
+        sketch, w = StepDrawing(), self.grid.pitch
         row = heights[self._row()]
         low = max(self.part.floor, float(self.exact[self._row()].min()) - 12 * w)
         for x, top in zip(self.grid.xs().tolist(), row.tolist(), strict=True):
@@ -277,7 +277,7 @@ class _Work:
 
     def sweep(self) -> FilmStep:
         """Return S103."""
-        sketch, r = Sketch(), float(self.cutter.radius)
+        sketch, r = StepDrawing(), float(self.cutter.radius)
         centres = self.tips + [0, 0, r]
         for a, b in zip(centres[:-1, :2], centres[1:, :2], strict=True):
             way = (b - a) / max(float(np.linalg.norm(b - a)), 1e-300)
@@ -306,8 +306,8 @@ class _Work:
 
         return sweep_facets(self.tips + [0, 0, self.cutter.radius], float(self.cutter.radius), Tessellation(size))
 
-    def _net(self, facets: SweepFacets, only: FacetKind | None = None) -> Sketch:
-        sketch = Sketch()
+    def _net(self, facets: SweepFacets, only: FacetKind | None = None) -> StepDrawing:
+        sketch = StepDrawing()
         colours = {FacetKind.CYLINDER: BLUE, FacetKind.WEDGE: RED, FacetKind.END: AMBER}
         for quad, kind in zip(facets.quads, facets.kind.tolist(), strict=True):
             if only is None or kind == only:
@@ -378,7 +378,7 @@ class _Work:
     def read(self) -> FilmStep:
         """Return S107."""
         known = self.depth[np.isfinite(self.depth)]
-        sketch = Sketch()
+        sketch = StepDrawing()
         row = self.depth[self._row()]
         keep = np.isfinite(row)
         for a, b in np.flatnonzero(np.diff(np.concatenate([[0], keep, [0]]))).reshape(-1, 2).tolist():
@@ -418,7 +418,7 @@ class _Work:
 
     def closed(self) -> FilmStep:
         """Return S109."""
-        sketch = Sketch()
+        sketch = StepDrawing()
         half = 10
         row, col = self._row(), int(np.argmin(np.abs(self.grid.xs() - self.tips[1, 0])))
         rows = slice(max(row - half, 0), row + half)
@@ -443,9 +443,9 @@ class _Work:
             (FilmFigure("triangles", count),),
         )
 
-    def _shades(self, heights: Floats) -> Sketch:
+    def _shades(self, heights: Floats) -> StepDrawing:
         """Return cells from above, lit from the north-west; cells without a height are left white."""
-        sketch, w = Sketch(), self.grid.pitch
+        sketch, w = StepDrawing(), self.grid.pitch
         dy, dx = np.gradient(np.where(np.isfinite(heights), heights, 0.0), w)
         light = (1.0 + 0.6 * dx - 0.6 * dy) / np.sqrt(1 + dx**2 + dy**2) / 1.36
         grey = np.clip(60 + 170 * light, 30, 245).astype(int)

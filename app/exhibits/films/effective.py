@@ -15,8 +15,8 @@ from ...fitting.point_curves.effective_points import EffectiveOptions, PointStat
 from ...model.motion import Floats
 from ...usecases.smooth import SmoothedProgram, SmoothOptions, smooth
 from .measures import distances_to_polyline, feet_on_polyline
-from .sketch import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, Sketch
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
+from .step_drawing import AMBER, BLUE, BOLD, CHAIN, DOTTED, FAINT, FINE, GREEN, LINE, PURPLE, RED, StepDrawing
 
 _BEFORE, _AFTER = 2, 3
 """Effective points beside a range that the text's example takes."""
@@ -98,7 +98,7 @@ def effective_film(
     Raises:
         HitofudeError: the program cannot be smoothed so. Cancelled: the job was asked to stop.
     """
-    work = _Work(points, options)
+    work = _EffectiveSteps(points, options)
     progress.step(0.1, "Parting the path into ranges")
     steps = [*work.ranges(), *work.correction()]
     progress.step(0.4, "Smoothing by the effective points and by all")
@@ -112,7 +112,7 @@ def _smoothed(name: str, data: bytes, options: EffectiveFilmOptions, effective: 
     return smooth(name, data, SmoothOptions(options.tolerance, effective=method))
 
 
-class _Work:
+class _EffectiveSteps:
     """One path, and what is known of it."""
 
     def __init__(self, points: Floats, options: EffectiveFilmOptions) -> None:
@@ -123,13 +123,13 @@ class _Work:
         self.by_definition = ranges_of(self.trials)
         self.effective = self.found.passed
 
-    def _path(self, first: int = 0, last: int | None = None) -> Sketch:
-        sketch, part = Sketch(), self.points[first : None if last is None else last + 1]
+    def _path(self, first: int = 0, last: int | None = None) -> StepDrawing:
+        sketch, part = StepDrawing(), self.points[first : None if last is None else last + 1]
         sketch.line(part, FAINT, FINE)
         sketch.dots(part, FAINT, 0.5)
         return sketch
 
-    def _place(self, trial: RangeTrial) -> Sketch:
+    def _place(self, trial: RangeTrial) -> StepDrawing:
         """Return the picture of one trial: the points, the segment, and who is how far off."""
         sketch = self._path(max(trial.first - 2, 0), min(trial.last + 3, len(self.points) - 1))
         pair = self.points[[trial.first, trial.last]]
@@ -228,7 +228,7 @@ class _Work:
             ),
         ]
 
-    def _range(self, number: int) -> Sketch:
+    def _range(self, number: int) -> StepDrawing:
         first = int(self.found.ranges[number, 0])
         last = int(self.found.ranges[min(number + _SHOWN, len(self.found.ranges)) - 1, 1])
         sketch = self._path(first, last)
@@ -237,7 +237,7 @@ class _Work:
         sketch.dots(self.points[inside], GREEN, 1.0)
         return sketch
 
-    def _whole(self) -> Sketch:
+    def _whole(self) -> StepDrawing:
         sketch = self._path()
         sketch.dots(self.points[self.effective], GREEN, 0.9)
         return sketch
@@ -266,7 +266,7 @@ class _Work:
         with_curve = self._path(int(chosen[0]), int(chosen[-1]))
         with_curve.line(curve(at), PURPLE, BOLD)
         with_curve.dots(self.points[chosen], GREEN, 1.0)
-        close = Sketch()
+        close = StepDrawing()
         close.line(self.points[first : last + 1], FAINT, FINE)
         close.line(curve(at[(at >= self._along(chosen, first)) & (at <= self._along(chosen, last))]), PURPLE, LINE)
         close.dots(self.points[inner], AMBER, 0.8, hollow=True)

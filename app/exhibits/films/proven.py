@@ -16,8 +16,8 @@ from ...fitting.point_curves.space_curve import SpaceCurve, curve_of_nurbs
 from ...fitting.point_curves.spheroid import portion_of
 from ...fitting.point_curves.tube import TubeAnswer, TubeJudgement
 from ...model.motion import Floats
-from .sketch import AMBER, AREA, BLUE, BOLD, DASHED, FAINT, FINE, GREEN, LINE, RED, Sketch
 from .step import FilmFigure, FilmStep, PublishedText, TextFilm
+from .step_drawing import AMBER, AREA, BLUE, BOLD, DASHED, FAINT, FINE, GREEN, LINE, RED, StepDrawing
 
 USUAL = "0.02 + 0.03*sin(pi*z)"
 """The region's outline that a film is made with unless another is asked for."""
@@ -88,7 +88,7 @@ def proven_film(
     final = curve_of_nurbs(made.curve) if isinstance(made, SplineFit) else rounds[-1].curve
     judged = judge_in_profile(final, run, profile)
     progress.step(0.8, "Looking at one chord")
-    work = _Work(run, profile, tuple(rounds), final, judged)
+    work = _ProvenSteps(run, profile, tuple(rounds), final, judged)
     return TextFilm(PublishedText.E, name, (*work.setting(), *work.rounds(), *work.chord(), work.result()))
 
 
@@ -103,7 +103,7 @@ def _longest_run(points: Floats) -> Floats:
     return np.ascontiguousarray(points[at[first] : at[first + 1] + 1])
 
 
-class _Work:
+class _ProvenSteps:
     """One run of points, its rounds and its curve."""
 
     def __init__(
@@ -116,8 +116,8 @@ class _Work:
     ) -> None:
         self.points, self.profile, self.seen, self.final, self.judged = points, profile, rounds, final, judged
 
-    def _drawn(self, curve: SpaceCurve | None, colour: str = GREEN) -> Sketch:
-        sketch = Sketch()
+    def _drawn(self, curve: SpaceCurve | None, colour: str = GREEN) -> StepDrawing:
+        sketch = StepDrawing()
         sketch.line(self.points, FAINT, FINE)
         sketch.dots(self.points, FAINT, 0.6)
         if curve is not None:
@@ -128,7 +128,7 @@ class _Work:
         """Return figures 2 and 3: the points and the region."""
         chord = self._long_chord()
         length = float(np.linalg.norm(self.points[chord + 1] - self.points[chord]))
-        outline = Sketch()
+        outline = StepDrawing()
         z, r = self._outline()
         ends = self.profile.ends
         scale = self._exaggeration(length)
@@ -250,7 +250,7 @@ class _Work:
         at = _about(seen.curve.at(np.array(cuts)), a, b) if cuts else (np.zeros(0), np.zeros(0))
         pictures = []
         for only_outside in (False, True):
-            sketch = Sketch()
+            sketch = StepDrawing()
             sketch.area(np.array([[0, 0], [length, 0], [length, radius], [0, radius]]) * [1, scale])
             sketch.line(np.array([[0, radius], [length, radius]]) * [1, scale], BLUE, FINE)
             sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)
@@ -314,7 +314,7 @@ class _Work:
         z, r = self._outline()
         pictures = []
         for with_way in (False, True):
-            sketch = Sketch()
+            sketch = StepDrawing()
             both = np.concatenate([r, -r[::-1]]) * scale
             sketch.area(np.column_stack([np.concatenate([z, z[::-1]]) * length, both]), AREA)
             sketch.line(np.array([[0, 0], [length, 0]]), FAINT, LINE)

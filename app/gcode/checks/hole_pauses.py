@@ -23,7 +23,8 @@ def backing_out(moves: Moves, job: Job) -> Mask:
     """Return (n,) which moves lead a tap out of its hole, so that the spindle must turn the other way."""
     taps = [k for k, each in enumerate(job.operations) if each.TAPS]
     up = moves.end[:, 2] > moves.start[:, 2] + _SAME
-    return np.isin(moves.operation, taps) & (moves.kind == MoveKind.LINE) & up
+    back: Mask = np.isin(moves.operation, taps) & (moves.kind == MoveKind.LINE) & up
+    return back
 
 
 def _bottoms(moves: Moves, job: Job) -> dict[int, float]:

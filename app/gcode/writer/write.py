@@ -219,11 +219,12 @@ class _ProgramWriter:
         self.digits = digits = post.digits(job.out_units)
         unit = job.out_units.value
         self.z_scale = 10.0**digits.Z
-        gaps = (round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm))
-        near = int(
-            1.5 * unit / self.z_scale <= writing_tolerance(job, post)
-        )  # and half a count by the bottom's rounding
-        rules = CycleRules(post.drilling, round(self.z_scale), *gaps, near, _dwells(job), self._taps())
+        peck, chip = (
+            round(gap / unit * self.z_scale) for gap in (post.drilling.peck_gap_mm, post.drilling.chip_gap_mm)
+        )
+        # a count by the cycle's heights and half a one by rounding, where as much may be off
+        near = int(1.5 * unit / self.z_scale <= writing_tolerance(job, post))
+        rules = CycleRules(post.drilling, round(self.z_scale), peck, chip, near, _dwells(job), self._taps())
         self.holes: dict[int, CycleHole] = holes_of(moves, rules)
         self.waits = waits_of(moves, rules, self.holes)
         if untapped(moves, rules, self.holes):

@@ -23,6 +23,9 @@ from ..holes import HoleVerb, holes_in_order, out_of_hole, over_hole
 
 VERB = HoleVerb("bore", "bores", "bored", "mill", "no wider than the mill")
 
+_MOST_TURNS = 500
+"""Of a helix; a narrower one goes down steeper."""
+
 _OVERLAP = 0.9
 """Of the mill's radius: how much wider one helix is than the one before, so that rounding leaves no ridge between."""
 
@@ -72,7 +75,8 @@ def bore(context: OperationContext, index: int, progress: Progress) -> None:
         for k, radius in enumerate(ways.helices):
             if k:
                 writer.across(radius, job.retract_z)
-            writer.down(radius, (job.retract_z, bottom), cut.stepdown)
+            step = min(cut.stepdown, math.tau * radius * math.tan(cut.entry.angle))
+            writer.down(radius, (job.retract_z, bottom), max(step, (job.retract_z - bottom) / _MOST_TURNS))
         if ways.finish is not None:
             writer.finish(ways.finish, bottom)
         context.strokes += len(ways.helices)

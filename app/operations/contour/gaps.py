@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...geometry.distance import DistanceField
-from ...geometry.near_points import nearest
+from ...geometry.near_points import all_within
 from ...geometry.offset.offset import OffsetLevel
 from ...geometry.outlines import Outlines
 from ...geometry.primitives import TURN, Indices, Rows, lengths, path_length, points_at, sweeps
@@ -247,12 +247,17 @@ def _with_corners(found: Sequence[WallGap], level: OffsetLevel) -> list[WallGap]
         return list(found)
     before, behind, joints, turn = before[jump], behind[jump], joints[jump], turn[jump]
     ends = np.array([[*gap.rows[0, :2], *gap.rows[-1, 2:4]] for gap in found])
-    off, which = (each[:, 0] for each in nearest(np.hstack([before, behind]), ends, 1))
+    corners = np.hstack([before, behind])
+    place, corner_at = all_within(corners, ends, _SAME)
+    off = np.hypot.reduce(corners[corner_at] - ends[place], axis=1)
+    order = np.lexsort((off, place))[::-1]
+    nearest = dict(zip(place[order].tolist(), corner_at[order].tolist(), strict=True))  # of several the last one stays
     result = []
-    for gap, far, k in zip(found, off.tolist(), which.tolist(), strict=True):
-        if far > _SAME:
+    for number, gap in enumerate(found):
+        if number not in nearest:
             result.append(gap)
             continue
+        k = nearest[number]
         corner = float(joints[k, 0]), float(joints[k, 1])
         excess = float(gap.left.sum()) - float(turn[k])
         result.append(replace(gap, corner=corner, excess=excess, turn=float(turn[k])))

@@ -13,7 +13,8 @@ gives any of its own heights. Depths have 24 bits over the heights that matter, 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ from ..field.workpiece import Grid, Heights, Workpiece, ensure_memory
 from ..sweeps.chains import CutterChains, chains_of
 from ..sweeps.course import Course
 from .graphics import compiled
+from .polyhedron import least_facet
 from .wedges import ROOM, Tessellation, chord_of, facets_in
 
 if TYPE_CHECKING:
@@ -52,6 +54,21 @@ def usual(grid: Grid) -> Tessellation:
     A facet of a sphere bends both ways; with sides of d it would lie up to d² / 4r inside, so it lies within d² / 8r.
     """
     return Tessellation(FACET_PITCHES / math.sqrt(2.0) * grid.pitch, overlap=OVERLAP_PITCHES * grid.pitch)
+
+
+def tessellation(grid: Grid, cutters: Iterable[Cutter], facet: float | None = None) -> Tessellation:
+    """Return the facets with which a grid is cut by some cutters: the usual ones, or those that are asked for.
+
+    A deep zoom asks for facets that are smaller than a cutter can be divided in; there they are as small as can be,
+    larger than the cells, and lie inside the cutter by less than rounding.
+
+    Args:
+        facet: size of the facets, mm; None: as usual for the grid.
+    """
+    how = usual(grid)
+    if facet is not None:
+        return replace(how, facet=facet)
+    return replace(how, facet=max([how.facet, *(least_facet(cutter.radius) for cutter in cutters)]))
 
 
 def published(grid: Grid) -> Tessellation:
@@ -105,7 +122,7 @@ class DepthBuffer:
         """
         grid = workpiece.grid
         ensure_memory(grid, 8)
-        how = self._how or usual(grid)
+        how = self._how or tessellation(grid, cutters.values())
         sweeps = chains_of(course, cutters, chord_of(course, cutters, how.facet))
         left = workpiece.heights.copy()
         tiles = list(

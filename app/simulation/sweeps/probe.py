@@ -10,11 +10,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.pool import in_bands
 from ...model.motion import Floats, MotionKind
 from ..box_tree import box_tree
 from ..cutter import Cutter
 from .course import Course
 from .pieces import PieceSplitter, SweepPieces
+
+_WORTH_TWO_CORES = 500
+"""Points from which a second core is worth its start."""
 
 
 class LowestReach(NamedTuple):
@@ -65,7 +69,12 @@ class PathProbe:
 
         heights, motions = np.full(len(points), np.inf), np.full(len(points), -1, np.int64)
         if len(self.pieces) and len(points):
-            lowest(self.boxes, self.pieces, self.owners, self.shapes, np.ascontiguousarray(points), heights, motions)
+            points = np.ascontiguousarray(points)
+
+            def look(band: slice) -> None:
+                lowest(self.boxes, self.pieces, self.owners, self.shapes, points[band], heights[band], motions[band])
+
+            in_bands(look, len(points), _WORTH_TWO_CORES)
         return LowestReach(heights, motions)
 
 

@@ -37,8 +37,27 @@ def read_mesh(name: str, data: bytes) -> Floats:
         InputError: it cannot be read, was cut off, or holds no triangle.
     """
     suffix = name.lower().rpartition(".")[2]
-    own = {"stl": stl_triangles, "3mf": three_mf_triangles}.get(suffix)
-    triangles = own(name, data) if own is not None else _by_library(name, data, suffix)
+    if suffix == "stl":
+        return stl_triangles(name, data)
+    triangles = three_mf_triangles(name, data) if suffix == "3mf" else _by_library(name, data, suffix)
+    return _sound(name, triangles, suffix)
+
+
+def stl_triangles(name: str, data: bytes) -> Floats:
+    """Return the triangles (n, 3, 3) of an STL file, text or binary, n > 0, in its own units.
+
+    Raises:
+        InputError: it is none, was cut off, or holds no triangle.
+    """
+    return _sound(name, _stl(name, data), "stl")
+
+
+def _sound(name: str, triangles: Floats, suffix: str) -> Floats:
+    """Return triangles that a part may have.
+
+    Raises:
+        InputError: there is none, or a corner is no place of a part.
+    """
     if not len(triangles):
         raise InputError(f"{name}: there is no triangle in this {suffix.upper()} file; export it again.")
     if not (max(float(triangles.max()), -float(triangles.min())) < _SANE):
@@ -46,7 +65,7 @@ def read_mesh(name: str, data: bytes) -> Floats:
     return triangles
 
 
-def stl_triangles(name: str, data: bytes) -> Floats:
+def _stl(name: str, data: bytes) -> Floats:
     """Return the triangles (n, 3, 3) of an STL file, text or binary.
 
     Raises:

@@ -44,7 +44,7 @@ _TWICE = 2.0
 _ROOM = 4096
 _CHORDS = 2_000
 _NEAR = 1e-9
-_BESIDE, _STORED = 1e-6, 2.0**-23
+_BESIDE, _STORED = 1e-7, 2.0**-23
 """mm, and of the coordinates of meshes, by which a cutter's upright side may go into a wall: so one that a pass touches
 all along its way is passed by, as deep as it goes, and what files round makes it no obstacle. Far less than is proven.
 """

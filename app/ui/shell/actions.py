@@ -214,6 +214,9 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
             ActionSpec("machine_inside", "Contour &inside", under=MACHINE_THIS),
             ActionSpec("machine_on", "Contour on &line", under=MACHINE_THIS),
             ActionSpec("machine_drill", "&Drill", under=MACHINE_THIS),
+            ActionSpec("machine_bore", "&Bore", under=MACHINE_THIS),
+            ActionSpec("machine_countersink", "Counter&sink", under=MACHINE_THIS),
+            ActionSpec("machine_chamfer", "Cha&mfer", under=MACHINE_THIS),
             ActionSpec("machine_engrave", "&Engrave", under=MACHINE_THIS),
         ),
     ),
@@ -283,6 +286,7 @@ MENUS: tuple[tuple[str, tuple[ActionSpec, ...]], ...] = (
         (
             ActionSpec("help_language", "Shape &language"),
             ActionSpec("manual", "&Manual"),
+            ActionSpec("five_texts", "The &five texts"),
             ActionSpec("keys", "&Keys", "F1"),
             ActionSpec("what_is_this", "&What is this?", "Shift+F1"),
             ActionSpec("tour", "&Tour"),

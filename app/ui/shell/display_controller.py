@@ -60,7 +60,7 @@ class DisplayController(QObject):
         view_changed(View): another view came to the front.
 
     Attributes:
-        view: the one at the front. stages_missing: what the stages lack.
+        view: the one at the front. stages_missing, film_missing: what the stages lack.
         pages: of every view.
         writing: the drawing is being written as a text, so that nothing need be said of an empty one.
     """
@@ -72,7 +72,7 @@ class DisplayController(QObject):
         self._window = window
         self._document, self._computation = window.document, window.computation
         self.view = View.DRAW
-        self.stages_missing, self.writing = NOTHING, False
+        self.stages_missing, self.film_missing, self.writing = NOTHING, NOTHING, False
         self.pages = pages_of(window, self)
         window.take_pages(self.pages)
         self._layers = PathLayers.ALL

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QLayout, QMainWindow, QVBoxLayout, QWidget
 
 from ...core.settings import Settings, ThemeChoice
@@ -37,6 +37,7 @@ from ..views.nc.program_reader import SUFFIXES as PROGRAM_SUFFIXES
 from ..views.plot.panel import PlotPanel
 from ..views.stages.import_panel import ImportPanel
 from ..views.stages.panel import StagesPanel
+from ..views.stages.text_film_panel import TextFilmPanel
 from ..views.surfaces.scene_document import SceneDocument
 from ..views.surfaces.scene_tabs import SceneTabs
 from .actions import Actions
@@ -93,12 +94,14 @@ class MainWindow(QMainWindow):
         self.side.add_page("Drawing", self.drawing_page, "properties, layers and history of what is drawn")
         self.cut_form, self.curves_panel = SetupForm(), CurvesPanel()
         self.stages_panel, self.import_panel, self.plot_panel = StagesPanel(), ImportPanel(), PlotPanel()
+        self.film_panel = TextFilmPanel()
         self.scene = SceneDocument(self)
         self.scene_side = SceneTabs(self.scene)
         self.sides: list[QWidget] = [
             self.side,
             self.import_panel,
             self.stages_panel,
+            self.film_panel,
             self.cut_panel,
             self.cut_form,
             self.curves_panel,
@@ -194,6 +197,11 @@ class MainWindow(QMainWindow):
             if hasattr(widget, "set_theme"):
                 widget.set_theme(self.theme)
         self.actions_[f"theme_{choice.value}"].setChecked(True)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let what is beside the view have its share of a wide window."""
+        super().resizeEvent(event)
+        self.cut_panel.fit_beside(event.size().width())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 (Qt's name)
         """Welcome one drawing, solid, scene, picture or NC program."""

@@ -54,6 +54,7 @@ _NO_SCENE = {
     SceneState.PROVEN: SCENE_COMPUTING,
 }
 STAGES_PROMPT = "Space plays, Left and Right step; click a traced line to see its chain code"
+FILM_PROMPT = "Space plays, Left and Right step; Save all steps writes pictures and figures"
 PICTURE_PROMPT = "Say what is ink and how large a pixel is; what lies green is machined"
 COMPUTING = MissingHint("The paths are being computed.", "Cancel  Shift+F5", "cancel")
 
@@ -62,6 +63,7 @@ class WindowState(Protocol):
     """What pages are told of the window's state."""
 
     stages_missing: MissingHint
+    film_missing: MissingHint
     writing: bool
 
 
@@ -131,6 +133,8 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         return window.import_panel.reading is not None
 
     def stages_missing() -> MissingHint:
+        if stages.text != "A":
+            return NOTHING if stages.films.film is not None else told.film_missing
         shows = stages.film is not None or picture()
         if not shows and drawn.part.entities:
             return told.stages_missing
@@ -139,6 +143,8 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
     def beside_stages() -> QWidget | None:
         if picture():
             return window.import_panel
+        if stages.text != "A":
+            return window.film_panel
         return window.stages_panel if drawn.part.entities else window.side
 
     def scene_missing() -> MissingHint:
@@ -148,7 +154,7 @@ def _bitmap_and_scene_pages(window: MainWindow, told: WindowState) -> dict[View,
         View.STAGES: ViewPage(
             stages,
             stages,
-            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT,
+            lambda: PICTURE_PROMPT if picture() else STAGES_PROMPT if stages.text == "A" else FILM_PROMPT,
             stages_missing,
             lambda: stages.summary,
             beside_stages,

@@ -136,7 +136,8 @@ class ViewStack(QStackedWidget):
 
     def take_focus(self) -> None:
         """Have the keys go to what is at the front."""
-        (self.currentWidget() if self.covered else self._pages[self.view].widget).setFocus()
+        over = self.plot if self.plotting else self.start if self.starting else None
+        (over or self._pages[self.view].widget).setFocus()
 
     @property
     def viewport(self) -> Zoomable:

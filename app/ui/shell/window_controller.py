@@ -30,6 +30,7 @@ from ..views.plot.controller import PlotController
 from ..views.session1986.controller import SessionController
 from ..views.stages.controller import StagesController
 from ..views.stages.import_controller import ImportController
+from ..views.stages.text_film_controller import TextFilmController
 from ..views.surfaces.controller import SAMPLES, SceneController, SceneProgram
 from ..views.surfaces.export_controller import SceneExportController
 from .actions import Actions
@@ -52,6 +53,7 @@ from .keys_window import KeysWindow
 from .main_window import MainWindow
 from .memory_choice import MemoryChoice
 from .new_job import NewPart, new_job
+from .own_film_files import OwnFilmFiles
 from .owned_curves_controller import OwnedCurvesController
 from .proposal_controller import ProposalController
 from .recovery_controller import RecoveryController
@@ -127,6 +129,8 @@ class WindowController(QObject):
             RecordingController(views.cut_page, workspace),
         )
         self.stages_controller = StagesController(views.stages, window.stages_panel, workspace)
+        own = OwnFilmFiles(self.nc, window.scene)
+        self.film_controller = TextFilmController(views.stages, window.film_panel, own.of, workspace)
         self.import_controller = ImportController(views.stages, window.import_panel, workspace)
         self.smoothing_controller = SmoothingController(views.curves, window.curves_panel, self.nc, workspace)
         self.scenes = SceneController(views.surfaces, window.scene_side, window.scene, workspace)
@@ -191,6 +195,7 @@ class WindowController(QObject):
     def _connect_controllers(self) -> None:
         """Show what the controllers of views tell, and tell them whether their view is at the front."""
         self._connect_controller(self.stages_controller, View.STAGES)
+        self._connect_controller(self.film_controller, View.STAGES)
         self._connect_controller(self.import_controller, View.STAGES)
         self._connect_controller(self.cut_controller, View.CUT)
         self._connect_controller(self.image_controller, View.CUT)
@@ -309,14 +314,19 @@ class WindowController(QObject):
     def _connect_stages(self) -> None:
         view = self.window_.views.stages
         self.stages_controller.changed.connect(self._show_stages)
-        self._on("stages_again", self.stages_controller.again)
+        self.film_controller.changed.connect(self._show_stages)
+        self._on("stages_again", self._stages_again)
         self.import_controller.shown.connect(self._show_picture)
         self.import_controller.taken.connect(self._on_picture_taken)
         view.hovered.connect(self.display_controller.show_hovered)
         view.pixels.cursor_moved.connect(self.window_.status.show_place)
 
+    def _stages_again(self) -> None:
+        (self.stages_controller if self.window_.views.stages.text == "A" else self.film_controller).again()
+
     def _show_stages(self) -> None:
         self.display_controller.stages_missing = self.stages_controller.missing
+        self.display_controller.film_missing = self.film_controller.missing
 
     def _show_picture(self) -> None:
         """Bring the picture to the front when it comes."""

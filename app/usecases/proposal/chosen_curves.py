@@ -11,8 +11,10 @@ from ...core.errors import GeometryError
 from ...core.progress import NO_PROGRESS, Progress
 from ...geometry.as_circle import as_circle
 from ...geometry.primitives import contour_rows, lengths
+from ...model.chamfer_operation import ChamferOperation
 from ...model.curve_selectors import CurveNumber, Selector
 from ...model.entry import Tabs
+from ...model.hole_operations import BoreOperation, CountersinkOperation
 from ...model.job import Copies, Job
 from ...model.operation import ContourOperation, CutParameters, Operation, Order, Side
 from ...model.part import Contour
@@ -34,7 +36,13 @@ class CurvePurpose(Enum):
     INSIDE = "contour inside"
     ON = "contour on line"
     DRILL = "drill"
+    BORE = "bore"
+    COUNTERSINK = "countersink"
+    CHAMFER = "chamfer"
     ENGRAVE = "engrave"
+
+
+_OF_CIRCLES = (CurvePurpose.DRILL, CurvePurpose.BORE, CurvePurpose.COUNTERSINK)
 
 
 @dataclass(frozen=True)
@@ -138,9 +146,10 @@ def _check(contours: Sequence[Contour], way: CurvePurpose) -> None:
                 f"A selected curve is open at ({x:.3f}, {y:.3f}), so it bounds nothing; close it, or choose contour on "
                 "line or engrave."
             )
-        if way is CurvePurpose.DRILL and as_circle(each) is None:
+        if way in _OF_CIRCLES and as_circle(each) is None:
+            done = {CurvePurpose.DRILL: "drilled", CurvePurpose.BORE: "bored"}.get(way, "countersunk")
             raise GeometryError(
-                f"The selected curve through ({x:.3f}, {y:.3f}) is no circle, so it cannot be drilled; choose pocket "
+                f"The selected curve through ({x:.3f}, {y:.3f}) is no circle, so it cannot be {done}; choose pocket "
                 "or contour inside."
             )
 
@@ -160,7 +169,7 @@ def _tools(job: Job) -> tuple[Tool, ...]:
 
 
 def _groups(contours: Sequence[Contour], way: CurvePurpose) -> list[Sequence[Contour]]:
-    return [some for _, some in by_diameter(contours)] if way is CurvePurpose.DRILL else [contours]
+    return [some for _, some in by_diameter(contours)] if way in _OF_CIRCLES else [contours]
 
 
 def _made(
@@ -190,10 +199,42 @@ def _made(
             return made
         case CurvePurpose.INSIDE:
             return [_inside(work, mine)]
+        case CurvePurpose.BORE:
+            return [_bored(work, mine)]
+        case CurvePurpose.COUNTERSINK | CurvePurpose.CHAMFER:
+            return [_edged(work, mine, way)]
         case _:
             tool = work.rack.fitting(LINE_TOOL, LINE_TOOL, work.depth)
             cut = work.cut(tool, work.depth, ())
             return [ProposedOperation(ContourOperation(cut, Side.ON), f"along the lines, {work.depth:g} mm deep")]
+
+
+def _bored(work: ProposalWork, contours: Sequence[Contour]) -> ProposedOperation:
+    """Return a bore through the stock, of holes of one size."""
+    ((size, circles), *_) = by_diameter(contours)
+    tool = work.rack.boring(size, work.thickness)
+    operation = BoreOperation(work.cut(tool, work.thickness, ()))
+    if not operation.takes(size, tool):
+        raise GeometryError(
+            f"There is no mill for a bore of {size:g} mm in the library: the thinnest is {tool.diameter:g} mm; choose "
+            "drill, or add a mill."
+        )
+    many = f"{len(circles)} holes" if len(circles) > 1 else "hole"
+    return ProposedOperation(operation, f"{many} of {size:g} mm bored on a helix, through, with {tool.diameter:g} mm")
+
+
+def _edged(work: ProposalWork, contours: Sequence[Contour], way: CurvePurpose) -> ProposedOperation:
+    """Return a cone at the edges of circles, or a chamfer along contours: inside of those that lie in others."""
+    if way is CurvePurpose.COUNTERSINK:
+        ((size, _), *_) = by_diameter(contours)
+        tool = work.rack.take(work.rack.cone(size))
+        cone = CountersinkOperation(CutParameters(tool.number))
+        return ProposedOperation(cone, f"cones {size:g} mm wide at the top")
+    wide = ChamferOperation(CutParameters(1))
+    tool = work.rack.take(work.rack.cone(2 * (wide.width + wide.tip_offset)))
+    inner = all(id(each) in work.seen.inner for each in contours)
+    chamfer = ChamferOperation(CutParameters(tool.number), Side.INSIDE if inner else Side.OUTSIDE)
+    return ProposedOperation(chamfer, f"edges broken {chamfer.width:g} mm wide")
 
 
 def _inside(work: ProposalWork, contours: Sequence[Contour]) -> ProposedOperation:

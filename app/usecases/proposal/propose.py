@@ -22,6 +22,7 @@ from ...geometry.region import nest, polygon_contour
 from ...model.curve_selectors import Selector
 from ...model.entry import Tabs
 from ...model.finding import Finding
+from ...model.hole_operations import BoreOperation
 from ...model.job import Copies, Job, Stock
 from ...model.operation import (
     ContourOperation,
@@ -272,7 +273,9 @@ class ProposalWork:
                 + (f", with {tabs.count} tabs to hold what falls out" if loose else "")
             )
             cut = self.cut(tool, self.thickness, selectors_for(circles, self.seen, as_circles=True))
-            made.append(ProposedOperation(ContourOperation(cut, Side.INSIDE, tabs=tabs), why))
+            bores = BoreOperation(cut).takes(size, tool) and not loose
+            operation = BoreOperation(cut) if bores else ContourOperation(cut, Side.INSIDE, tabs=tabs)
+            made.append(ProposedOperation(operation, why))
         return made
 
     def pockets(self, progress: Progress) -> list[ProposedOperation]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -89,6 +90,21 @@ class Rack:
         """Return the tool for lines: the most pointed V tool, else the thinnest flat mill."""
         pointed = [tool for tool in self.tools if tool.kind is ToolKind.V and 0 < tool.tip_angle <= _FINE_ANGLE]
         return max(pointed, key=lambda tool: tool.tip_angle) if pointed else self.mills(0.0)[0]
+
+    def cone(self, diameter: float) -> Tool:
+        """Return the V cutter for edges: as wide as so many mm, its angle the nearest to a right one, then the
+        narrowest.
+
+        Raises:
+            ParameterError: there is none.
+        """
+        wide = [tool for tool in self.tools if tool.kind is ToolKind.V and tool.tip_angle and tool.diameter >= diameter]
+        if not wide:
+            raise ParameterError(
+                f"Edges are broken by a V cutter at least {diameter:g} mm wide, and there is none among the tools; "
+                "add one to the library."
+            )
+        return min(wide, key=lambda tool: (abs(tool.tip_angle - math.pi / 2), tool.diameter))
 
     def boring(self, diameter: float, depth: float) -> Tool:
         """Return the mill for a round hole, mm: with room to go down on a helix, and so wide that nothing falls out of

@@ -80,14 +80,12 @@ def test_other_tools_and_back_to_the_jobs_own_cut(qtbot, opened):
     )
 
 
-def test_computing_anew_leaves_the_other_program_where_it_is(qtbot, opened):
+def test_computing_anew_brings_the_cut_of_the_job_back(qtbot, opened):
     wiring = opened(TOLD + PROGRAM)
-    before, foreign = wiring.computation.made, wiring.cut_controller.cut
+    before = wiring.computation.made
     wiring.compute()
     qtbot.waitUntil(lambda: wiring.computation.made is not before, timeout=WAIT_MS)
     qtbot.waitUntil(lambda: not wiring.cut_controller.worker.busy, timeout=WAIT_MS)
-    assert wiring.cut_controller.cut is foreign
-    wiring.cut_controller.back()
     assert wiring.cut_controller.cut.cut is wiring.computation.made.cut
 
 

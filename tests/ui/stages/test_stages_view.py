@@ -341,7 +341,7 @@ def test_what_gets_no_path_is_said(qtbot, staged):
         qtbot.waitUntil(lambda reel=before: staged.stages_controller.reel is not reel, timeout=WAIT_MS)
     assert (
         staged.window_.views.stages.rail.numbers == (110,)
-        and "No operation" in panel.finding.text()
+        and "no operation is one of them" in panel.finding.text()
         and panel.finding.isVisible()
     )
     staged.window_.panel.operations.switched.emit(2, True)

@@ -39,7 +39,7 @@ class _Seen:
 
 
 @dataclass(frozen=True, slots=True)
-class _Painting:
+class _DuePicture:
     """The card whose picture is on its way."""
 
     card: FileCard
@@ -60,7 +60,7 @@ class StartController(QObject):
         self._page, self._preferences = page, workspace.preferences
         self._pictures: dict[_Seen, QImage] = {}
         self._left: list[FileCard] = []
-        self._painting: _Painting | None = None
+        self._painting: _DuePicture | None = None
         self._theme: Theme | None = None
         self.worker = Worker(self)
         self.worker.done.connect(self._on_done)
@@ -96,7 +96,7 @@ class StartController(QObject):
             if seen in self._pictures:
                 card.show_picture(self._pictures[seen])
                 continue
-            self._painting = _Painting(card, seen)
+            self._painting = _DuePicture(card, seen)
             self.worker.start(partial(thumbnail, card.path, card.picture_size, self._theme), 0)
 
     def _on_done(self, answer: JobOutcome) -> None:

@@ -106,7 +106,10 @@ def _space(path: Path, size: QSize, theme: Theme, progress: Progress) -> QImage:
     aside = (np.array([wide, high]) - low - high_px) / 2 * larger
     camera = replace(camera, scale=camera.scale * larger).panned(float(aside[0]), float(aside[1]))
     inks = SceneColours(
-        *(_rgb(colour) for colour in (theme.canvas, theme.ink, theme.rapid, theme.plunge)),
+        _rgb(theme.canvas),
+        _rgb(theme.ink),
+        _rgb(theme.rapid),
+        _rgb(theme.plunge),
         [_rgb(QColor(colour)) for colour in shown.colours],
     )
     pixels = raster(shown.space, SceneStyle(camera, inks), (wide, high)).pixels

@@ -42,6 +42,9 @@ if TYPE_CHECKING:
 _ROLES = {VerdictLevel.OK: "ok", VerdictLevel.BAD: "error", VerdictLevel.REMARK: "warning", VerdictLevel.NONE: ""}
 _TEXT_PX, _LEAST_LIST_PX, _ROOM_PX, _TIGHT_PX = 64, 56, 760, 640
 
+ROOMY_PX, WIDE_PX = 1600, 420
+"""From this width of the window on the panel is so wide."""
+
 _TITLE_PX = 230
 """So wide a place's title is shown whole; the words of where it lies give way first."""
 
@@ -196,7 +199,12 @@ class CutPanel(QWidget):
         self.cells.setText(f"{grid.cols} {TIMES} {grid.rows} cells of {pitch_words(grid.pitch)}")
         self.show_told(None)
         self.counted.setText(f"Places ({len(self.entries)})" if self.entries else "No places to look at")
+        self.list.setVisible(bool(self.entries))
         self._make_room()
+
+    def fit_beside(self, width: int) -> None:
+        """Be wider in a wide window, of so many px: whole lines of NC text can be read then."""
+        self.setFixedWidth(WIDE_PX if width >= ROOMY_PX else WIDTH)
 
     def show_told(self, told: VerdictSummary | None) -> None:
         """Head the panel with the badge's verdict; None = there is none on this cut."""

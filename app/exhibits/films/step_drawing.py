@@ -32,7 +32,7 @@ _TEXT = 3.0
 _CORNERS = 48
 
 
-class Sketch:
+class StepDrawing:
     """What is drawn, in the order in which it is asked for; filled areas lie below lines, words above."""
 
     def __init__(self) -> None:
