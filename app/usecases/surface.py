@@ -36,6 +36,7 @@ from ..surfaces.sections.compound import CompoundSurface, CuttingPlanes
 from ..surfaces.sections.planes import even_planes, widened
 from ..surfaces.sections.section import compound_surface
 from .effort import scene_effort
+from .plane_rules import expanded
 from .scene_findings import moves_findings, scene_findings
 
 FLOOR = "floor"
@@ -128,7 +129,7 @@ def compute(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS)
     digits = post.digits(scene.out_units)
     grid = scene.out_units.value * 10.0 ** -min(digits.X, digits.Y, digits.Z)
     origin = tuple(round(value / grid) * grid for value in origin_of(scene, stock))
-    wanted = [passes for passes in scene.passes if passes.enabled]
+    wanted = [single for passes in scene.passes if passes.enabled for single in expanded(passes)]
     tools, families = [_tool(scene, passes) for passes in wanted], []
     progress.step(0.15, "Looking for holes")
     found = tuple(scene_findings(built, facets.facets, stock, tools))
