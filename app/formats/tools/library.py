@@ -25,7 +25,8 @@ FORMAT = 1
 HEADER = """\
 # A tool library of Hitofude. Lengths are mm, angles degrees, speeds rpm, feed rates mm/min.
 # Every [[tool]] needs number (1 to 9999, each once) and diameter; what is left out is not known.
-#   kind             flat, ball, bull (bull-nose), v, drill, taper (cone with a ball at its tip), reamer, tap, thread-mill
+#   kind             flat, ball, bull (bull-nose), v, drill, taper (cone with a ball at its tip), reamer, tap,
+#                    thread-mill
 #   name, remark     texts
 #   flutes           cutting edges
 #   spindle_speed, feed_rate, plunge_rate
