@@ -7,12 +7,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ..core.errors import InputError
+from ..core.input_file import read_input
 from ..gcode.interpreter.dialect import Dialect
 from ..gcode.interpreter.options import ToolOffset
 from ..model.part import Units
 from ..usecases.examine import CONTROLS, ExamineOptions
 from .command import OptionParser
-from .files import check_outputs, named_files, read_input
+from .files import check_outputs, named_files
 from .values import MACHINE_HELP, machine_named, typed
 
 EPILOG = """\

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from ..core.file_bytes import FileBytes
+from ..core.input_file import read_input
 from ..core.progress import Progress
 from ..formats.job.toml import read_job
 from ..formats.tools.files import read_rows, read_tools
@@ -21,7 +22,7 @@ from ..usecases.setup import ReadySetup, SetupRequest
 from ..usecases.setup_stock import box_stock, read_stock
 from ..usecases.setup_tools import ToolSource
 from .cut_options import Corners
-from .files import check_outputs, named_files, read_input
+from .files import check_outputs, named_files
 from .reading_options import reading
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..core.errors import InputError
+from ..core.input_file import read_input
 from ..drafting.expressions.numbers import length
 from ..formats.job.toml import ORIGIN_HELP, StatedOrigin, parse_origin, read_out_units, read_units
 from ..formats.readers import offered_suffixes
@@ -15,7 +16,7 @@ from ..model.tool import LEAST_DIAMETER, LEAST_RATE
 from ..usecases.options import LEAST_PER_CENT, MakeOptions, Stepover
 from ..usecases.proposal.propose import ProposalOptions
 from .command import OptionParser
-from .files import check_outputs, named_files, read_input
+from .files import check_outputs, named_files
 from .reading_options import add_reading_options, reading
 from .values import MACHINE_HELP, join_tolerance, machine_named, number, typed
 

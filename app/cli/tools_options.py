@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ..core.input_file import read_input
 from ..formats.job.toml import read_units
 from ..formats.readers import offered_suffixes
 from ..formats.tools.files import read_tools
@@ -12,7 +13,6 @@ from ..model.operation import LEAST_LENGTH
 from ..toolpath.advice.time import CuttingPlan
 from ..usecases.advice import AdviceOptions
 from .command import OptionParser
-from .files import read_input
 from .reading_options import add_reading_options, reading
 from .values import join_tolerance, number, typed
 

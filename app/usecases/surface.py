@@ -36,6 +36,7 @@ from ..surfaces.sections.compound import CompoundSurface, CuttingPlanes
 from ..surfaces.sections.planes import even_planes, widened
 from ..surfaces.sections.section import compound_surface
 from .effort import scene_effort
+from .plane_rules import expanded
 from .scene_findings import moves_findings, scene_findings
 
 FLOOR = "floor"
@@ -119,7 +120,8 @@ def compute(scene: Scene, sources: SceneFiles, progress: Progress = NO_PROGRESS)
         HitofudeError: a surface cannot be made, or passes cannot be computed. Cancelled: the job was asked to stop.
     """
     context = _resolved(scene, sources, progress.part(0.0, 0.15))
-    plans = [_plan(context, passes) for passes in scene.passes if passes.enabled]
+    requested = [single for passes in scene.passes if passes.enabled for single in expanded(passes)]
+    plans = [_plan(context, passes) for passes in requested]
     tools = [plan.tool for plan in plans]
     progress.step(0.15, "Looking for holes")
     found = tuple(scene_findings(context.built, context.facets.facets, context.stock, tools))

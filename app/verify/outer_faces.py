@@ -20,6 +20,7 @@ from shapely import (
     constrained_delaunay_triangles,
     get_coordinates,
     get_parts,
+    length,
     linestrings,
     point_on_surface,
     polygonize,
@@ -40,8 +41,12 @@ files round.
 """
 _GRID = 1e-8
 """mm; where faces cross is rounded to so much, so that lines that meet do meet. Far below `FINE`."""
+_BEYOND, _NARROW = 4.0, 2.0
+"""Times as far as sides that touch are apart: lines go on behind their ends, so that what ends on another line's side
+crosses it; and parts of faces that are no wider are none.
+"""
 _LEAST = 1e-12
-"""mm2; smaller parts of faces are none."""
+"""mm2; smaller triangles of a part are none."""
 
 
 def outer_faces(solid: SolidStock) -> Floats:
@@ -68,7 +73,8 @@ class _Faces:
     def __init__(self, solid: SolidStock) -> None:
         self._triangles, self._rays = solid.triangles, SolidRays(solid)
         self._before = max(BEFORE, ROUNDED * float(np.abs(solid.triangles).max()))
-        normal = np.cross(*(self._triangles[:, k] - self._triangles[:, 0] for k in (1, 2)))
+        first, second, third = (self._triangles[:, k] for k in range(3))
+        normal = np.cross(second - first, third - first)
         self._normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         self._body = _bodies(self._triangles)
 
@@ -115,7 +121,9 @@ class _Faces:
             other = (alone + step) % 3
             share = away[rows, alone] / (away[rows, alone] - away[rows, other])
             ends.append(flat[rows, alone] + share[:, None] * (flat[rows, other] - flat[rows, alone]))
-        return np.stack(ends, axis=1)
+        way = ends[1] - ends[0]
+        way *= _BEYOND * self._before / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None]
+        return np.stack([ends[0] - way, ends[1] + way], axis=1)
 
     def free_parts(self, face: int, lines: Floats) -> Floats:
         """Return what of a face is free (k, 3, 3), given the lines that cut it."""
@@ -123,7 +131,7 @@ class _Faces:
         own = Polygon((self._triangles[face] - corner) @ axes.T)
         cells = get_parts(polygonize(get_parts(union_all([own.exterior, *linestrings(lines)], grid_size=_GRID))))
         inner = point_on_surface(cells)
-        mine = own.buffer(_GRID).covers(inner) & (area(cells) > _LEAST)
+        mine = own.buffer(_GRID).covers(inner) & (area(cells) > _NARROW * self._before * length(cells))
         free = self.free(face, corner + get_coordinates(inner) @ axes)
         pieces = get_parts(get_parts(constrained_delaunay_triangles(cells[mine & free])))
         pieces = pieces[area(pieces) > _LEAST]

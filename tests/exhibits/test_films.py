@@ -54,7 +54,7 @@ def value(of: FilmStep, name: str) -> float:
     return float(found)
 
 
-@pytest.mark.parametrize("letter", "BCDE")
+@pytest.mark.parametrize("letter", [pytest.param("B", marks=pytest.mark.exhaustive), "C", "D", "E"])
 def test_every_numbered_step_is_there_with_words_figures_and_a_picture(letter: str) -> None:
     made = film(letter)
     numbers = [each.number for each in made.steps]
@@ -277,6 +277,7 @@ def test_a_depth_buffer_keeps_the_lowest_of_what_is_over_a_cell() -> None:
     assert not np.isfinite(drawn(np.zeros((0, 4, 3)), grid)).any()
 
 
+@pytest.mark.exhaustive
 def test_facets_are_as_near_to_the_closed_form_as_is_stated() -> None:
     table = step("B", "S105").table
     assert [row[0] for row in table[1:]] == ["1", "2", "4", "8"]

@@ -164,13 +164,13 @@ def test_what_is_wrong_is_told_with_file_line_and_key(old, new, told):
 
 
 def test_the_users_libraries_stand_beside_those_that_ship_and_hide_their_namesakes():
-    assert list(library_files()) == ["metric-drills", "metric-mills"]
+    assert list(library_files()) == ["metric-drills", "metric-mills", "threads-and-reamers"]
     own_folder().mkdir(parents=True)
     (own_folder() / "metric-drills.toml").write_bytes(write_library(FULL))
     (own_folder() / "broken.toml").write_bytes(b"format = 9")
     libraries, problems = load_libraries()
     assert libraries["metric-drills"] == FULL
-    assert list(libraries) == ["metric-drills", "metric-mills"]
+    assert list(libraries) == ["metric-drills", "metric-mills", "threads-and-reamers"]
     assert len(problems) == 1
     assert problems[0].startswith("broken.toml:1: format is 9")
 

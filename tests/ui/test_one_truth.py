@@ -60,6 +60,7 @@ def test_an_error_in_a_program_is_the_badge_and_a_press_goes_to_its_line(qtbot, 
     assert wiring.window_.views.nc.pane.text.current == 7
 
 
+@pytest.mark.exhaustive
 def test_computing_brings_the_cut_back_to_the_job(qtbot, foreign):
     own = foreign.cut_controller
     foreign.nc.show_cut()
@@ -128,6 +129,7 @@ def test_the_times_of_the_operations_and_what_is_waited_for_add_up(computed):
     assert not panel.operations.waiting
 
 
+@pytest.mark.exhaustive
 def test_a_scene_that_opens_shows_nothing_of_the_one_before_and_its_surfaces_first(qtbot, wiring):
     wiring.scenes.open_sample("torus")
     work, view = wiring.scenes.work, wiring.window_.views.surfaces

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 from app.core.errors import ParameterError
 from app.drafting.document import Document
 from app.model.job import Job
-from app.model.operation import CutParameters, DrillOperation
+from app.model.operation import CutParameters
 from app.model.operation_kinds import OPERATION_KINDS
 from app.model.tool import Tool, ToolKind
 from app.ui.framework.computation import Computation, ComputationState
@@ -40,15 +40,22 @@ ALL_OFF = "every operation of the job is switched off, so nothing is cut; switch
 
 
 NO_CONE = (
-    "T1 {} is a {} cutter; a vcarve operation needs a V cutter with its angle: choose another tool, or give it kind "
-    "and tip_angle."
+    "T1 {} is a {} cutter; a {} operation needs a V cutter with its angle: choose another tool, or give it kind and "
+    "tip_angle."
+)
+OTHER_TOOL = "T1 {} is a {}; a {} operation needs a {}: choose another tool, or give it another kind."
+NOTHING_ABOVE = (
+    "Nothing of the stock stands above Z 0, so there is nothing to face; say how much does: above in [stock]."
 )
 
 
 def refused(word: str, tool: Tool) -> str:
-    if OPERATION_KINDS[word].CARVES and tool.kind not in (ToolKind.DRILL, ToolKind.V):
-        return NO_CONE.format(tool.label, tool.kind.value)
-    return NO_MILL.format(word) if tool.kind is ToolKind.DRILL and OPERATION_KINDS[word] is not DrillOperation else ""
+    kind = OPERATION_KINDS[word]
+    if kind.TOOL:
+        return OTHER_TOOL.format(tool.label, tool.kind.value, word, kind.TOOL)
+    if tool.kind is ToolKind.DRILL and not kind.DRILLS:
+        return NO_MILL.format(word)
+    return NO_CONE.format(tool.label, tool.kind.value, word) if kind.CARVES and tool.kind is not ToolKind.V else ""
 
 
 @pytest.mark.parametrize("way", ["exact", "pixels"])

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 
+from ...core.input_file import read_input
 from ...usecases.examine import compared, examine
 from ..check_lines import difference_lines, examined_lines
 from ..check_options import EPILOG, add_check_options, check_files, examine_options
 from ..command import CliCommand
-from ..files import read_input, shown_progress
+from ..files import shown_progress
 from ..outcome import CommandOutcome, by_path
 from ..signals import StopFlag
 

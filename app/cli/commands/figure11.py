@@ -10,11 +10,12 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError
+from ...core.input_file import read_input
 from ...exhibits.die_programs import PROGRAMS
 from ...exhibits.figure_eleven import FigureOptions, figure_eleven
 from ...exhibits.films.program_input import program_input
 from ..command import CliCommand, OptionParser
-from ..files import check_outputs, read_input, shown_progress
+from ..files import check_outputs, shown_progress
 from ..output import tell
 from ..signals import StopFlag, undisturbed
 from ..values import number, typed

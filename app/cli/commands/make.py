@@ -7,10 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...core.errors import InputError
+from ...core.input_file import read_input
 from ...usecases.make import make
 from ...usecases.make_files import other_files
 from ..command import CliCommand
-from ..files import identity, read_input, shown_progress
+from ..files import identity, shown_progress
 from ..make_options import EPILOG, add_make_options, make_files, read_make_options
 from ..outcome import CommandOutcome, by_path
 from ..output import finding_lines

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError, ParameterError
+from ...core.input_file import read_input
 from ...fitting.line_arcs.arc_fit import BEND
 from ...fitting.point_curves.region_profile import RegionProfile, profile_of_formula, profile_of_table
 from ...gcode.interpreter.dialect import DIALECT_RULES, Dialect
@@ -17,7 +18,7 @@ from ...usecases.smooth import OutputForm, SmoothedProgram, SmoothOptions, smoot
 from ...usecases.smooth_report import certificate, findings, report_text
 from ..command import CliCommand, OptionParser
 from ..effective_options import add_effective_options, effective_method
-from ..files import check_outputs, read_input, shown_progress
+from ..files import check_outputs, shown_progress
 from ..output import REMARKS, finding_lines, tell
 from ..signals import StopFlag, undisturbed
 from ..values import number, typed

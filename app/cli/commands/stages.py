@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ...core.atomic import write_together
 from ...core.errors import InputError, ParameterError
+from ...core.input_file import read_input
 from ...core.progress import Progress
 from ...core.resources import resource
 from ...exhibits.films.effective import EffectiveFilmOptions
@@ -29,7 +30,7 @@ from ...usecases.machining import MachiningOptions
 from ...usecases.options import MakeOptions
 from ..bitmap_options import add_bitmap_options, bitmap_options
 from ..command import CliCommand, OptionParser
-from ..files import check_outputs, read_input, shown_progress
+from ..files import check_outputs, shown_progress
 from ..make_options import stepover
 from ..output import finding_lines, tell
 from ..reading_options import add_reading_options, reading

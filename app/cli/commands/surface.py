@@ -7,9 +7,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ...core.input_file import read_input
 from ...usecases.surface_files import SceneOutputs, scene_files
 from ..command import CliCommand
-from ..files import read_input, shown_progress
+from ..files import shown_progress
 from ..outcome import CommandOutcome
 from ..output import finding_lines
 from ..signals import StopFlag

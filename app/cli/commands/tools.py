@@ -7,9 +7,10 @@ from __future__ import annotations
 import argparse
 import json
 
+from ...core.input_file import read_input
 from ...usecases.advice import advice_for
 from ..command import CliCommand
-from ..files import check_outputs, named_files, read_input, shown_progress
+from ..files import check_outputs, named_files, shown_progress
 from ..outcome import CommandOutcome
 from ..signals import StopFlag
 from ..tools_lines import advice_lines

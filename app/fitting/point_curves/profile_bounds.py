@@ -67,7 +67,7 @@ def formula_bounds(text: str, edges: Floats) -> IntervalArray:
 
 def _bounds(node: ast.expr, z: IntervalArray) -> IntervalArray:
     """Return the bounds of a part of a formula."""
-    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+    if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
         return _constant(float(node.value))
     if isinstance(node, ast.Name) and node.id in ("z", "pi"):
         return z if node.id == "z" else _constant(math.pi).widened()
@@ -110,9 +110,10 @@ def _product(one: IntervalArray, other: IntervalArray) -> IntervalArray:
 
 def _power(base: IntervalArray, node: ast.expr) -> IntervalArray:
     """Return a whole power, or one of a base that is nowhere negative."""
-    if not (isinstance(node, ast.Constant) and type(node.value) in (int, float) and 0 <= node.value <= 100):
+    value = node.value if isinstance(node, ast.Constant) else None
+    if not (isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value <= 100):
         raise ParameterError(f"the power '{ast.unparse(node)}'; use a number from 0 to 100.")
-    power = float(node.value)
+    power = float(value)
     if not power.is_integer() and bool(np.any(base.low < 0)):
         raise ParameterError(f"the power {power:g} of something that may be below 0; use a whole one.")
     ends = base.low**power, base.high**power

@@ -243,8 +243,9 @@ def _feed_row(values: dict[str, Any]) -> FeedRow:
 
 
 def _kind(cell: str) -> ToolKind:
-    word = cell.lower().removesuffix("mill").strip(" -_")
-    found = next((kind for kind in tool_kinds() if word == kind.value or word in kind.aliases), None)
+    whole = cell.lower().strip()
+    words = {whole, whole.removesuffix("mill").strip(" -_")}
+    found = next((kind for kind in tool_kinds() if not words.isdisjoint((kind.value, *kind.aliases))), None)
     if found is None:
         raise InputError(f"'{brief(cell, QUOTED)}' is no kind of tool; use {', '.join(ToolKind.words())}.")
     return found

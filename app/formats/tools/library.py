@@ -25,13 +25,14 @@ FORMAT = 1
 HEADER = """\
 # A tool library of Hitofude. Lengths are mm, angles degrees, speeds rpm, feed rates mm/min.
 # Every [[tool]] needs number (1 to 9999, each once) and diameter; what is left out is not known.
-#   kind             flat, ball, bull (bull-nose), v, drill, taper (cone with a ball at its tip)
+#   kind             flat, ball, bull (bull-nose), v, drill, taper (cone with a ball at its tip), reamer, tap,
+#                    thread-mill
 #   name, remark     texts
 #   flutes           cutting edges
 #   spindle_speed, feed_rate, plunge_rate
 #   corner_radius    bull: of the rounded corner
 #   tip_angle        v, drill, taper: full angle of the point or cone
-#   tip_diameter     v: of the flat at the point; taper: of the ball at the tip
+#   tip_diameter     v: of the flat at the point; taper: of the ball at the tip; tap, thread-mill: within the teeth
 #   flute_length, overall_length, stick_out (tip to holder), shank_diameter
 #   holder           outline above its lower face: [[height, radius], ...], heights from 0 on; or a name, such as "ER20"
 #   length_offset    what the control's tool table takes off (G43)

@@ -123,10 +123,11 @@ def pieces_from(entities: Sequence[Entity]) -> PiecesOfEntities:
 
 def within_reach(curve: Curve) -> bool:
     """Return whether all coordinates are numbers and none on the curve is beyond FARTHEST."""
+    if isinstance(curve, Line):  # of which there may be very many
+        (x0, y0), (x1, y1) = curve.start, curve.end
+        return abs(x0) <= FARTHEST and abs(y0) <= FARTHEST and abs(x1) <= FARTHEST and abs(y1) <= FARTHEST
     if isinstance(curve, Spline):
         return bool(np.all(np.abs(np.array(curve.control_points)) <= FARTHEST))
-    if isinstance(curve, Line):
-        return all(abs(v) <= FARTHEST for v in (*curve.start, *curve.end))
     if isinstance(curve, Arc):
         return _arc_within_reach(curve)
     size = curve.radius if isinstance(curve, Circle) else math.hypot(*curve.major)

@@ -206,7 +206,9 @@ class OperationForm(FormSection):
         passes = math.ceil((cut.floor - cut.finish_depth) / cut.stepdown - 1e-9) + (cut.finish_depth > 0)
         self.number("stepdown").show_value(cut.stepdown, counted(passes, "pass", "passes"))
         tool = next((each for each in job.tools if each.number == cut.tool), None)
-        if tool is not None and cut.depth <= thickness:
+        if (
+            tool is not None and cut.depth <= thickness and not tool.kind.threads
+        ):  # whose teeth go deeper than they are long
             self._warn_of_reach(cut, tool)
 
     def _warn_of_reach(self, cut: CutParameters, tool: Tool) -> None:

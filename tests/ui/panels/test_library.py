@@ -206,7 +206,7 @@ def test_tools_are_imported_into_the_users_library_and_stay_there(tmp_path, exch
         exchange.take(tmp_path / name)
         assert notice.text.text() == f"1 tool of {name} in the library."
     assert {"Own cutter", "Other"} <= {tool.name for tool in exchange._panel.library.shown}
-    assert set(load_libraries()[0]) == {"lib", "mine", "metric-drills", "metric-mills"}
+    assert set(load_libraries()[0]) == {"lib", "mine", "metric-drills", "metric-mills", "threads-and-reamers"}
     exchange.take(tmp_path / "mine.csv")
     assert notice.text.text() == "There is a library mine already."
 

@@ -43,14 +43,25 @@ def test_a_text_is_chosen_at_the_head_and_its_steps_are_shown(qtbot, wiring):
     assert window.views.empty.isVisible(), "nothing is drawn, and the stages of a drawing say so"
 
 
-def test_what_the_text_has_stands_beside_and_all_steps_are_written(qtbot, wiring, tmp_path):
+def test_all_steps_are_written(qtbot, wiring, tmp_path):
+    stages = show_text(qtbot, wiring, "E")
+    wiring.film_controller.save(tmp_path)
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    assert stages.films.film is not None and str(tmp_path) in wiring.window_.status.message.text()
+    told, count = json.loads((tmp_path / "film.json").read_text()), len(stages.films.film.steps)
+    assert len(told["steps"]) == count == len(list(tmp_path.glob("*.svg"))) == len(list(tmp_path.glob("*.png")))
+    wiring.film_controller.save(tmp_path / "nowhere")
+    qtbot.waitUntil(lambda: not wiring.film_controller.worker.busy, timeout=LONG_MS)
+    assert stages.films.film is not None, "what was shown stays"
+    assert "is no folder" in wiring.window_.status.message.text()
+
+
+@pytest.mark.exhaustive
+def test_what_the_text_has_stands_beside(qtbot, wiring):
     stages = show_text(qtbot, wiring, "C")
     panel = wiring.window_.film_panel
     stages.films.show_step(5)
     assert panel.title.text().startswith("(f)") and "CR12" in panel.table.text() and "mm" in panel.settled.text()
-    wiring.film_controller.save(tmp_path)
-    told = json.loads((tmp_path / "film.json").read_text())
-    assert len(told["steps"]) == 9 and len(list(tmp_path.glob("*.svg"))) == 9 == len(list(tmp_path.glob("*.png")))
 
 
 def test_a_film_is_made_of_ones_own_program_or_says_what_is_missing(qtbot, wiring):

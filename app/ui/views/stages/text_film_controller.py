@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog
 
 from ....core.atomic import write_together
-from ....core.errors import HitofudeError, InputError
+from ....core.errors import InputError
 from ....core.progress import Progress
 from ...framework.controller import Controller
 from ...framework.figures import counted
@@ -126,8 +127,13 @@ class TextFilmController(Controller):
 
         if isinstance(answer.value, TextFilm) and answer.value.text.value == self._view.text:
             self._show(answer.value)
+        elif isinstance(answer.value, WrittenFilm):
+            self.said.emit(f"{counted(answer.value.steps, 'step')} saved in {answer.value.folder}")
 
     def _on_failed(self, answer: JobOutcome) -> None:
+        if self._view.films.film is not None:  # it is there, but could not be written
+            self.failed.emit(answer.error or "")
+            return
         self.error = answer.error or ""
         self._show(None)
         self.failed.emit(self.error)
@@ -143,20 +149,32 @@ class TextFilmController(Controller):
             self.save(Path(name))
 
     def save(self, folder: Path) -> None:
-        """Write pictures, tables and figures of all steps into a folder: whole or not at all."""
-        from ....exhibits.films.making import film_files
-
+        """Have pictures, tables and figures of all steps written into a folder: whole or not at all."""
         film = self._view.films.film
-        if film is None:
-            return
-        try:
-            if not folder.is_dir():
-                raise InputError(f"{folder} is no folder; choose another one.")
-            write_together({folder / name: data for name, data in film_files(film).items()})
-        except HitofudeError as error:
-            self.failed.emit(str(error))
-            return
-        self.said.emit(f"{counted(len(film.steps), 'step')} saved in {folder}")
+        if film is not None and not self.worker.busy:
+            self.worker.start(lambda progress: _written(film, folder, progress), 0)
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenFilm:
+    """What was written: how many steps, and where."""
+
+    steps: int
+    folder: Path
+
+
+def _written(film: TextFilm, folder: Path, progress: Progress) -> WrittenFilm:
+    """Write a film's files; on the worker's thread.
+
+    Raises:
+        InputError: the folder is none, or cannot be written to.
+    """
+    from ....exhibits.films.making import film_files
+
+    if not folder.is_dir():
+        raise InputError(f"{folder} is no folder; choose another one.")
+    write_together({folder / name: data for name, data in film_files(film, progress).items()})
+    return WrittenFilm(len(film.steps), folder)
 
 
 def _made(letter: str, source: FilmSource | None, progress: Progress) -> TextFilm:

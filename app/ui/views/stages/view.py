@@ -118,7 +118,7 @@ class StagesView(QWidget):
         """Show the steps of another text: of A the display memory."""
         self.texts.show_value(letter)
         self.player.pause()
-        self._stack.setCurrentWidget(self.films if letter != "A" else self._stack.widget(0))
+        self._stack.setCurrentIndex(0 if letter == "A" else 1)
         self.setFocusProxy(self.films.picture if letter != "A" else self.pixels)
         self.text_chosen.emit(letter)
 
