@@ -17,6 +17,7 @@ from ..gcode.interpreter.dialect import Dialect
 from ..gcode.tool_offsets import tool_offsets
 from ..model.part import Units
 from ..model.tool_table import TableRow, ToolTable
+from ..usecases.cut import CutOptions, Engine
 from ..usecases.examine import ExaminedProgram, ExamineOptions, examine
 from ..usecases.setup import ReadySetup, SetupRequest
 from ..usecases.setup_stock import box_stock, read_stock
@@ -130,6 +131,12 @@ def _with_stock(request: SetupRequest, given: Corners | Path | None) -> SetupReq
         return replace(request, stock=box_stock(given))
     beside = read_input(given.with_suffix(".json")) if given.suffix.lower() == ".npy" else b""
     return replace(request, stock=read_stock(given.name, read_input(given), beside))
+
+
+def requested_look(arguments: argparse.Namespace) -> CutOptions:
+    """Return how finely to look, and by which engine: the published one where the size of its facets is asked for."""
+    engine = Engine.PATENT if arguments.facet is not None else Engine(arguments.engine)
+    return CutOptions(arguments.grid, arguments.window, engine=engine, facet=arguments.facet)
 
 
 def ensure_window(window: tuple[float, float, float, float] | None, ready: ReadySetup) -> None:

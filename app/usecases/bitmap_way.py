@@ -23,7 +23,7 @@ from ..geometry.primitives import Rows, lengths, pack, points_at, signed_area, w
 from ..model.finding import Finding, FindingKind
 from ..model.job import Job
 from ..model.moves import Program
-from ..model.operation import Operation, Order, PocketOperation
+from ..model.operation import Operation, Order
 from ..model.tool import Tool
 from ..operations.compute import in_order, slotting
 from ..operations.contour.paths import contour_strokes
@@ -185,8 +185,8 @@ def _lengths(job: Job, part: BitmapPart, order: Sequence[int]) -> list[float]:
     for index in order:
         operation, pitch = job.operations[index], part.frame.pitch
         over = 0.0
-        if isinstance(operation, PocketOperation):
-            step = operation.stepover or job.tool(operation.cut.tool).radius - SPARE_STEP_PX * pitch
+        if operation.CLEARS:
+            step = operation.ring_stepover or job.tool(operation.cut.tool).radius - SPARE_STEP_PX * pitch
             over = extent.area / max(step, pitch)
         found.append(max(over, extent.length))
     return found

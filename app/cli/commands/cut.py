@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import argparse
 
-from ...usecases.cut import CutOptions, Engine, cut
+from ...usecases.cut import cut
 from ...usecases.cut_files import cut_texts
 from ...usecases.cut_report import cut_report
 from ...usecases.setup import setup_of
 from ..command import CliCommand
 from ..cut_options import EPILOG, add_cut_options, check_cut_arguments
-from ..cut_request import cut_files, ensure_window, examined_programs, setup_request
+from ..cut_request import cut_files, ensure_window, examined_programs, requested_look, setup_request
 from ..files import shown_progress
 from ..outcome import CommandOutcome, by_path
 from ..output import REMARKS, finding_lines
@@ -26,21 +26,12 @@ def _run(arguments: argparse.Namespace, stopped: StopFlag) -> int:
     request = setup_request(arguments)
     ready = setup_of(examined_programs(arguments, progress.part(0.0, 0.2)), request, progress.part(0.2, 0.25))
     ensure_window(arguments.window, ready)
-    done = cut(
-        ready.setup,
-        CutOptions(arguments.grid, arguments.window, engine=_engine(arguments), facet=arguments.facet),
-        progress.part(0.25, 0.95),
-    )
+    done = cut(ready.setup, requested_look(arguments), progress.part(0.25, 0.95))
     report = cut_report(done, ready)
     lines = [report.summary(), *finding_lines(report.findings), *_warning_lines(report.warnings)]
     texts = by_path(outputs, cut_texts(done, report, ready.programs[0].name, set(outputs)))
     counts = any(finding.counts for finding in report.findings)
     return CommandOutcome(texts, lines, counts).delivered(arguments, progress)
-
-
-def _engine(arguments: argparse.Namespace) -> Engine:
-    """Return the engine that is asked for: the published one where the size of its facets is."""
-    return Engine.PATENT if arguments.facet is not None else Engine(arguments.engine)
 
 
 def _warning_lines(warnings: tuple[str, ...]) -> list[str]:
