@@ -73,7 +73,7 @@ class _Faces:
     def __init__(self, solid: SolidStock) -> None:
         self._triangles, self._rays = solid.triangles, SolidRays(solid)
         self._before = max(BEFORE, ROUNDED * float(np.abs(solid.triangles).max()))
-        normal = np.cross(*(self._triangles[:, k] - self._triangles[:, 0] for k in (1, 2)))
+        normal = np.cross(self._triangles[:, 1] - self._triangles[:, 0], self._triangles[:, 2] - self._triangles[:, 0])
         self._normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         self._body = _bodies(self._triangles)
 
