@@ -84,5 +84,8 @@ def test_a_corner_that_is_no_place_of_a_part_is_told(far: float, read: Callable[
 def test_an_edge_too_short_to_have_a_length_is_no_error_of_ours() -> None:
     block = BLOCK.copy()
     block[14, 0] = (1e-300, 30.0, -10.0)
-    with np.errstate(all="raise"), pytest.raises(InputError, match="the solid's surface is not closed"):
+    with (
+        np.errstate(invalid="raise", divide="raise"),
+        pytest.raises(InputError, match="the solid's surface is not closed"),
+    ):
         read_solid("a.stl", text(block))
