@@ -73,8 +73,7 @@ class _Faces:
     def __init__(self, solid: SolidStock) -> None:
         self._triangles, self._rays = solid.triangles, SolidRays(solid)
         self._before = max(BEFORE, ROUNDED * float(np.abs(solid.triangles).max()))
-        first, second, third = (self._triangles[:, k] for k in range(3))
-        normal = np.cross(second - first, third - first)
+        normal = np.cross(self._triangles[:, 1] - self._triangles[:, 0], self._triangles[:, 2] - self._triangles[:, 0])
         self._normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         self._body = _bodies(self._triangles)
 

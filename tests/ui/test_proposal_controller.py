@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from app.model.chamfer_operation import ChamferOperation
+from app.model.hole_operations import BoreOperation, CountersinkOperation
 from app.model.operation import ContourOperation, DrillOperation, PocketOperation, Side
 from app.ui.framework.computation import ComputationState
 from app.ui.panels.changes import Subject, SubjectKind
@@ -106,6 +108,9 @@ WAYS = {
     "inside": (ContourOperation, Side.INSIDE, 1),
     "on": (ContourOperation, Side.ON, 1),
     "drill": (DrillOperation, None, 2),
+    "bore": (BoreOperation, None, 2),
+    "countersink": (CountersinkOperation, None, 2),
+    "chamfer": (ChamferOperation, Side.INSIDE, 1),
     "engrave": (ContourOperation, Side.ON, 1),
 }
 
@@ -119,7 +124,7 @@ def test_a_selection_becomes_an_operation_of_its_own_curves(qtbot, plate, number
     new = job.operations[shown.key]
     assert isinstance(new, kind)
     assert side is None or new.side is side
-    wanted = numbers[which] if way == "drill" else numbers[which][:1]
+    wanted = numbers[which] if which == 2 else numbers[which][:1]
     assert [each.text for each in new.cut.curves] == [f"#{number}" for number in wanted]
     assert len(job.operations) == len(before.operations) + 1
     assert job.tool(new.cut.tool) in job.tools

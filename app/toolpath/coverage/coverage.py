@@ -247,8 +247,7 @@ def _paths(moves: Moves, job: Job, depth: float, of: NDArray[np.bool_] | None = 
 def _left(target: Shape, paths: list[_CuttingPath], progress: Progress) -> Shape:
     """Return what of a wanted area is not cut by paths as deep as its floor, or deeper."""
     tiles = uncertain(target, [(path.rows, path.radius) for path in paths], progress.part(0.0, 0.5))
-    left: list[Shape] = []
-    done = 0
+    left, done = list[Shape](), 0
     parts = _UndecidedBoxes(target, tiles, shapely.bounds(tiles), paths).parts()
     while some := list(islice(parts, _TOGETHER)):  # a few on all cores, so that it can be stopped between them
         progress.step(0.5 + done / max(len(tiles), 1) / 2, _TEXT)  # no box is in doubt where no move cuts

@@ -12,13 +12,13 @@ _SAMPLE = ToolShape(radius=3.0, corner_radius=1.0, tip_radius=1.0, half_angle=0.
 
 
 def listed_kinds() -> tuple[ToolKind, ...]:
-    """Return all kinds in the order of lists: end mills from sharp to round, then cones, then drills."""
+    """Return all kinds in the order of lists: end mills from sharp to round, cones, what cuts threads, drills."""
     return tuple(sorted(tool_kinds(), key=_rank))
 
 
 def _rank(kind: ToolKind) -> tuple[bool, ...]:
     rounded = kind.profile(_SAMPLE).fillet > 0
-    return kind.drills, kind.conical, not kind.square, not kind.level, not rounded
+    return kind.drills, kind.threads, kind.conical, not kind.square, not kind.level, not rounded
 
 
 def icon_of(kind: ToolKind) -> str:
@@ -38,6 +38,6 @@ def icon_of(kind: ToolKind) -> str:
 
 def use_of(kind: ToolKind) -> str:
     """Return what operations take a kind of tool for; "" of those that mill everything."""
-    if kind.drills:
-        return "For drill operations."
+    if kind.drills or kind.work:
+        return f"For {kind.work or 'drill'} operations."
     return "" if kind.square else "For paths on the line; along walls it is led as a flat one."

@@ -56,7 +56,17 @@ def test_it_opens_in_the_place_of_the_properties_and_closes_again(panel):
 def test_the_list_holds_every_kind_with_its_icon_and_words(qtbot, panel):
     library = panel.library
     assert [kind for kind, _ in groupby(tool.kind for tool in library.shown)] == list(listed_kinds()), "kind by kind"
-    assert [kind.value for kind in listed_kinds()] == ["flat", "bull", "ball", "taper", "v", "drill"]
+    assert [kind.value for kind in listed_kinds()] == [
+        "flat",
+        "bull",
+        "ball",
+        "taper",
+        "v",
+        "thread-mill",
+        "reamer",
+        "drill",
+        "tap",
+    ]
     for _, kind in groupby(library.shown, lambda tool: tool.kind):
         diameters = [tool.diameter for tool in kind]
         assert diameters == sorted(diameters)

@@ -8,6 +8,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QEnterEvent, QImage, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
+from ...framework.catalogue import tr
 from ...framework.theme import LIGHT, Theme, text_font
 
 HEIGHT, WORDS_PX, LEAST_WIDTH = 176, 48, 150
@@ -77,7 +78,7 @@ class FileCard(QAbstractButton):
         painter.drawLine(top.bottomLeft(), top.bottomRight())
         painter.setPen(QPen(theme.accent_text if self.hasFocus() or self.underMouse() else theme.hairline, 1))
         painter.drawPath(outline)
-        rows = ((self.text(), text_font(semibold=True), theme.ink), (self.words, text_font(12), theme.muted))
+        rows = ((self.text(), text_font(semibold=True), theme.ink), (tr(self.words), text_font(12), theme.muted))
         for row, (text, font, colour) in enumerate(rows):
             painter.setFont(font)
             painter.setPen(colour)
